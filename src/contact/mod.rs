@@ -1,0 +1,1 @@
+//! Contact between the garment, the avatar and the garment itself.

@@ -1,0 +1,71 @@
+//! The terms of the objective (section 3.4 of the paper), one file each, under one small trait.
+//!
+//! Every term is a sum over *elements* that touch at most four garment vertices and, perhaps, the inflation
+//! parameter t. An element hands its derivatives to a [`Sink`] as rank-one pieces
+//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`, or as a plain gradient. A Hessian made of such pieces
+//! is positive semidefinite by construction: no eigenvalue is ever computed.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+/// Where the objective is evaluated: the garment's vertices and the inflation parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration<'a> {
+    /// Garment vertices in the normalised space.
+    pub x: &'a [DVec3],
+    /// Inflation parameter: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+    pub t: f64,
+}
+
+/// A direction in the space of the unknowns with at most four garment vertices: `a = (a_i, a_t)`.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction<'a> {
+    /// The garment vertices that take part (each once).
+    pub vertices: &'a [u32],
+    /// The component of the direction at each of them.
+    pub components: &'a [DVec3],
+    /// The component along t.
+    pub t: f64,
+}
+
+/// Receives derivatives, element by element.
+pub trait Sink {
+    /// Adds `g a` to the gradient and `h a a^T` to the Hessian. `h` must not be negative.
+    fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64);
+
+    /// Adds to the gradient at one vertex.
+    fn gradient(&mut self, vertex: u32, g: DVec3);
+
+    /// Adds `block` to the Hessian between all pairs of `vertices`, as the 3k x 3k symmetric positive
+    /// semidefinite matrix `block`, row-major (k = number of vertices, at most 4).
+    fn block(&mut self, vertices: &[u32], block: &[f64]);
+}
+
+/// One term of the objective.
+///
+/// Values are unweighted by the term's overall weight (`w_surf`, `w_pos`, ...); the solver multiplies.
+/// Elements are numbered `0..len()`, so that the solver can spread them over threads in fixed ranges:
+/// the result must not depend on how they are spread.
+pub trait Energy: Sync {
+    /// Name of the term in reports.
+    fn name(&self) -> &'static str;
+
+    /// Number of elements.
+    fn len(&self) -> usize;
+
+    /// True without any element.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The sum of the elements in `range`.
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64;
+
+    /// Hands the derivatives of the elements in `range` to `sink`.
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink);
+
+    /// Calls `visit` with the garment vertices of every element that may have a Hessian: the sparsity
+    /// pattern is the union of their cliques.
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32]));
+}

@@ -1,0 +1,4 @@
+//! What a caller hands in, checked and turned into ours.
+
+pub mod mesh;
+pub mod skeleton;

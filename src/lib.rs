@@ -1,0 +1,17 @@
+//! Fits a garment that was modelled on one body to another body, with no triangle through another.
+//!
+//! Follows "Intersection-Free Garment Retargeting" (Huang et al., SIGGRAPH 2025). Data moves one way:
+//!
+//! ```text
+//! caller's buffers -> input -> session -> stage::{initialize, inflate, fit} -> verify -> caller's buffers
+//!                                             |
+//!                               energy + contact + sdf, minimised by solver
+//! ```
+//!
+//! The product is the C ABI (`include/bespoke.h`); the Rust modules are public for our own tests and
+//! examples and may change at any time.
+
+pub mod contact;
+pub mod energy;
+pub mod error;
+pub mod input;

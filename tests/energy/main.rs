@@ -1,0 +1,3 @@
+//! Every derivative against finite differences.
+
+mod harness;
