@@ -1,0 +1,41 @@
+//! Backtracking line search.
+
+use glam::DVec3;
+
+use super::{Term, assembly};
+use crate::energy::Configuration;
+
+/// Sufficient decrease (Armijo): `E(a) <= E(0) + SUFFICIENT a E'(0)`.
+const SUFFICIENT: f64 = 1e-4;
+/// A step is cut at most this often; 2^-40 of a step is no progress.
+const CUTS: usize = 40;
+
+/// Finds a fraction of the step from `at` along (`dx`, `dt`), at most `longest`, that decreases the objective enough.
+/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success, which
+/// is the fraction and the objective there.
+#[allow(clippy::too_many_arguments)]
+pub fn backtrack(
+    terms: &[Term<'_>],
+    at: Configuration<'_>,
+    dx: &[DVec3],
+    dt: f64,
+    slope: f64,
+    value: f64,
+    longest: f64,
+    trial: &mut Vec<DVec3>,
+) -> Option<(f64, f64)> {
+    let mut fraction = longest;
+    for _ in 0..CUTS {
+        trial.clear();
+        trial.extend(at.x.iter().zip(dx).map(|(&x, &d)| x + fraction * d));
+        let there = assembly::total(terms, Configuration { x: trial, t: at.t + fraction * dt });
+        if there <= value + SUFFICIENT * fraction * slope {
+            return Some((fraction, there));
+        }
+        // The minimum of the parabola through value, slope and this trial, kept within a sensible part of the step.
+        let curvature = 2.0 * (there - value - slope * fraction);
+        let parabola = if there.is_finite() && curvature > 0.0 { -slope * fraction / curvature } else { 0.5 };
+        fraction *= parabola.clamp(0.1, 0.5);
+    }
+    None
+}

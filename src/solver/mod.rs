@@ -1,0 +1,21 @@
+//! Minimises a weighted sum of energies: sparsity pattern, assembly, factorisation, Newton direction, line search.
+//!
+//! Knows energies only by the trait [`crate::energy::Energy`], never by name. The inflation parameter t is a
+//! border of the linear system, never part of the sparse factor: its row is dense.
+
+pub mod assembly;
+pub mod cholesky;
+pub mod line_search;
+pub mod newton;
+pub mod pattern;
+
+use crate::energy::Energy;
+
+/// An energy and its weight in the objective.
+#[derive(Clone, Copy)]
+pub struct Term<'a> {
+    /// The energy.
+    pub energy: &'a dyn Energy,
+    /// Its weight.
+    pub weight: f64,
+}

@@ -1,0 +1,263 @@
+//! Newton steps on the objective, with t as a border of the system.
+//!
+//! One factorisation answers for both right-hand sides of
+//!
+//! ```text
+//! dx = p0 + dt p1,    H p0 = -g,    H p1 = -b
+//! ```
+//!
+//! so that a caller may choose how far t goes: from the bordered system, or along a path.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+
+use super::Term;
+use super::assembly::{self, System};
+use super::cholesky::Factor;
+use super::line_search::backtrack;
+use super::pattern::{PairCollector, Pattern};
+use crate::energy::Configuration;
+use crate::error::{Error, ErrorKind, Result};
+
+/// The unknowns.
+#[derive(Clone, Debug, Default)]
+pub struct State {
+    /// Garment vertices.
+    pub x: Vec<DVec3>,
+    /// Inflation parameter.
+    pub t: f64,
+}
+
+impl State {
+    /// The unknowns as energies see them.
+    pub fn configuration(&self) -> Configuration<'_> {
+        Configuration { x: &self.x, t: self.t }
+    }
+}
+
+/// What is minimised, and how far one may go.
+pub trait Model {
+    /// The weighted energies.
+    fn terms(&self) -> Vec<Term<'_>>;
+
+    /// Makes the energies valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at
+    /// most `longest`, along which nothing intersects.
+    fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64;
+}
+
+/// What the solver has done, for reports.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counters {
+    /// Linear systems assembled.
+    pub assemblies: u32,
+    /// Numeric factorisations.
+    pub factorisations: u32,
+    /// Symbolic factorisations.
+    pub analyses: u32,
+    /// Time in assembly.
+    pub assembly: Duration,
+    /// Time in factorisation and solves.
+    pub linear: Duration,
+    /// Time in the model's `admit`: broad phase and continuous collision detection.
+    pub admission: Duration,
+    /// Time in the line search.
+    pub line_search: Duration,
+}
+
+/// The result of one accepted step.
+#[derive(Clone, Copy, Debug)]
+pub struct Accepted {
+    /// The fraction of the direction that was taken.
+    pub fraction: f64,
+    /// The objective before and after.
+    pub before: f64,
+    /// The objective after the step.
+    pub after: f64,
+    /// Squared Newton decrement `-g^T dx`: twice the decrease that the quadratic model promises.
+    pub decrement: f64,
+    /// Largest displacement of a vertex.
+    pub displacement: f64,
+}
+
+/// The largest coordinate of a vertex's displacement in one step. Swept volumes, and with them the candidate pairs,
+/// grow quickly beyond it.
+const STEP_LIMIT: f64 = 0.1;
+/// Multiple of the mean diagonal that is always added to the Hessian: surface and contact terms are blind to
+/// similarities of a garment that nothing holds.
+const SHIFT: f64 = 1e-7;
+/// Shift at which a matrix is given up.
+const LARGEST_SHIFT: f64 = 1e4;
+
+/// A Newton solver for one pattern that grows as contacts come.
+pub struct Newton {
+    pattern: Pattern,
+    factor: Factor,
+    system: System,
+    /// Two columns: p0 and p1.
+    response: Vec<f64>,
+    dx: Vec<DVec3>,
+    trial: Vec<DVec3>,
+    /// What has been done so far.
+    pub counters: Counters,
+}
+
+impl Newton {
+    /// A solver whose pattern holds the stencils of `terms`.
+    ///
+    /// # Errors
+    /// `Internal` where memory runs out.
+    pub fn new(vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
+        let mut pairs = PairCollector::default();
+        for term in terms {
+            term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
+        }
+        let pattern = Pattern::new(vertex_count, pairs);
+        Ok(Self {
+            factor: Factor::analyse(&pattern)?,
+            pattern,
+            system: System::default(),
+            response: Vec::new(),
+            dx: Vec::new(),
+            trial: Vec::new(),
+            counters: Counters { analyses: 1, ..Counters::default() },
+        })
+    }
+
+    /// Assembles and factorises the system at `at`, and solves for the response of the vertices; with `border`, for that
+    /// to a change of t as well.
+    ///
+    /// # Errors
+    /// `Internal` where the Hessian cannot be made positive definite or memory runs out.
+    pub fn linearise(&mut self, terms: &[Term<'_>], at: Configuration<'_>, border: bool) -> Result<()> {
+        let clock = Instant::now();
+        self.counters.assemblies += 1;
+        let missing = self.system.assemble(&self.pattern, terms, at);
+        if !missing.is_empty() {
+            self.pattern = self.pattern.extended(missing);
+            self.factor = Factor::analyse(&self.pattern)?;
+            self.counters.analyses += 1;
+            self.counters.assemblies += 1;
+            self.system.assemble(&self.pattern, terms, at);
+        }
+        self.counters.assembly += clock.elapsed();
+
+        let clock = Instant::now();
+        self.factorise()?;
+        let n = self.system.gradient.len();
+        self.response.clear();
+        self.response.extend(self.system.gradient.iter().map(|g| -g));
+        if border {
+            self.response.extend(self.system.border.iter().map(|b| -b));
+        }
+        self.factor.solve(&mut self.response, if border { 2 } else { 1 });
+        self.counters.linear += clock.elapsed();
+        if self.response.iter().take(n).any(|v| !v.is_finite()) {
+            return Err(Error::new(ErrorKind::Internal, "the linear solve gave a value that is not finite"));
+        }
+        Ok(())
+    }
+
+    fn factorise(&mut self) -> Result<()> {
+        let n = self.pattern.vertex_count();
+        let mean = (0..n as u32)
+            .flat_map(|j| self.pattern.diagonal(j))
+            .map(|d| self.system.hessian[d])
+            .sum::<f64>()
+            .max(f64::MIN_POSITIVE)
+            / (3 * n) as f64;
+        let mut shift = SHIFT * mean;
+        let mut added = 0.0;
+        while shift <= LARGEST_SHIFT * mean {
+            for j in 0..n as u32 {
+                for d in self.pattern.diagonal(j) {
+                    self.system.hessian[d] += shift - added;
+                }
+            }
+            added = shift;
+            self.counters.factorisations += 1;
+            if self.factor.factorise(&self.pattern, &self.system.hessian) {
+                return Ok(());
+            }
+            shift *= 100.0;
+        }
+        Err(Error::new(ErrorKind::Internal, "the Hessian could not be made positive definite"))
+    }
+
+    /// The change of t that the bordered system asks for.
+    pub fn newton_dt(&self) -> f64 {
+        let n = self.system.gradient.len();
+        let (p0, p1) = self.response.split_at(n);
+        let along = |p: &[f64]| self.system.border.iter().zip(p).map(|(b, p)| b * p).sum::<f64>();
+        let stiffness = self.system.t_hessian + along(p1);
+        let force = -(self.system.t_gradient + along(p0));
+        if stiffness > 0.0 { force / stiffness } else { 0.0 }
+    }
+
+    /// Sets the direction to `p0 + dt p1`, cut to the step limit. Returns the fraction that is left of it.
+    pub fn aim(&mut self, dt: f64) -> f64 {
+        let n = self.system.gradient.len();
+        let (p0, p1) = self.response.split_at(n);
+        self.dx.clear();
+        self.dx.extend((0..n / 3).map(|v| {
+            let p = DVec3::from_slice(&p0[3 * v..]);
+            if dt == 0.0 { p } else { p + dt * DVec3::from_slice(&p1[3 * v..]) }
+        }));
+        let largest = self.dx.iter().fold(0.0_f64, |m, d| m.max(d.abs().max_element()));
+        let kept = if largest > STEP_LIMIT { STEP_LIMIT / largest } else { 1.0 };
+        if kept < 1.0 {
+            for d in &mut self.dx {
+                *d *= kept;
+            }
+        }
+        kept
+    }
+
+    /// The direction that [`Self::aim`] set.
+    pub fn direction(&self) -> &[DVec3] {
+        &self.dx
+    }
+
+    /// Directional derivative of the objective along the direction with `dt`.
+    fn slope(&self, dt: f64) -> f64 {
+        let g = &self.system.gradient;
+        let x: f64 = self.dx.iter().enumerate().map(|(v, d)| DVec3::from_slice(&g[3 * v..]).dot(*d)).sum();
+        x + dt * self.system.t_gradient
+    }
+
+    /// Norm of the gradient with respect to the vertices.
+    pub fn gradient_norm(&self) -> f64 {
+        self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()
+    }
+
+    /// One step of Newton's method at fixed t: linearise, admit, search. `None` where no fraction of the step decreases
+    /// the objective: the state is as good as rounding allows, or contact leaves no way.
+    ///
+    /// # Errors
+    /// As [`Self::linearise`].
+    pub fn descend(&mut self, model: &mut dyn Model, state: &mut State) -> Result<Option<Accepted>> {
+        self.linearise(&model.terms(), state.configuration(), false)?;
+        let kept = self.aim(0.0);
+        let slope = self.slope(0.0);
+
+        let clock = Instant::now();
+        let longest = model.admit(state.configuration(), &self.dx, 0.0, 1.0);
+        self.counters.admission += clock.elapsed();
+
+        let clock = Instant::now();
+        let terms = model.terms();
+        let before = assembly::total(&terms, state.configuration());
+        let found = backtrack(&terms, state.configuration(), &self.dx, 0.0, slope, before, longest, &mut self.trial);
+        self.counters.line_search += clock.elapsed();
+        Ok(found.map(|(fraction, after)| {
+            std::mem::swap(&mut state.x, &mut self.trial);
+            Accepted {
+                fraction: fraction * kept,
+                before,
+                after,
+                decrement: -slope / kept,
+                displacement: fraction * self.dx.iter().fold(0.0_f64, |m, d| m.max(d.length())),
+            }
+        }))
+    }
+}

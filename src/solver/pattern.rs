@@ -1,0 +1,135 @@
+//! Where the Hessian has non-zeros.
+//!
+//! The matrix is symmetric and made of 3 x 3 blocks, one for each pair of vertices that share an element. The
+//! lower triangle is kept in compressed columns, and a block's entries lie at positions that follow from its
+//! place in its block column: assembly scatters straight into the array that is factorised.
+
+/// Sparsity of a symmetric block matrix, lower triangle, diagonal included.
+#[derive(Clone, Debug, Default)]
+pub struct Pattern {
+    /// For each block column, where its rows begin in `rows`.
+    column_start: Vec<u32>,
+    /// Block rows strictly below the diagonal, ascending in each column.
+    rows: Vec<u32>,
+    /// The same as scalar compressed columns.
+    col_ptr: Vec<u32>,
+    row_idx: Vec<u32>,
+}
+
+/// Collects pairs of vertices before they become a [`Pattern`].
+#[derive(Clone, Debug, Default)]
+pub struct PairCollector {
+    pairs: Vec<u64>,
+}
+
+impl PairCollector {
+    /// Adds all the pairs among `vertices`.
+    pub fn add_clique(&mut self, vertices: &[u32]) {
+        for (k, &a) in vertices.iter().enumerate() {
+            for &b in &vertices[..k] {
+                self.add(a, b);
+            }
+        }
+    }
+
+    /// Adds one pair.
+    #[inline]
+    pub fn add(&mut self, a: u32, b: u32) {
+        if a != b {
+            self.pairs.push((u64::from(a.min(b)) << 32) | u64::from(a.max(b)));
+        }
+    }
+
+    /// True without any pair.
+    pub fn is_empty(&self) -> bool {
+        self.pairs.is_empty()
+    }
+
+    /// Moves the pairs of `other` here.
+    pub fn append(&mut self, other: &mut PairCollector) {
+        self.pairs.append(&mut other.pairs);
+    }
+}
+
+impl Pattern {
+    /// The pattern over `vertex_count` vertices with the collected pairs.
+    pub fn new(vertex_count: usize, mut collected: PairCollector) -> Self {
+        collected.pairs.sort_unstable();
+        collected.pairs.dedup();
+        let mut column_start = vec![0u32; vertex_count + 1];
+        for &p in &collected.pairs {
+            column_start[(p >> 32) as usize + 1] += 1;
+        }
+        for j in 0..vertex_count {
+            column_start[j + 1] += column_start[j];
+        }
+        let rows: Vec<u32> = collected.pairs.iter().map(|&p| p as u32).collect();
+        let mut col_ptr = Vec::with_capacity(3 * vertex_count + 1);
+        let mut row_idx = Vec::with_capacity(9 * rows.len() + 6 * vertex_count);
+        col_ptr.push(0);
+        for j in 0..vertex_count {
+            let below = &rows[column_start[j] as usize..column_start[j + 1] as usize];
+            for c in 0..3 {
+                row_idx.extend((c..3).map(|r| 3 * j as u32 + r));
+                for &i in below {
+                    row_idx.extend([3 * i, 3 * i + 1, 3 * i + 2]);
+                }
+                col_ptr.push(row_idx.len() as u32);
+            }
+        }
+        Self { column_start, rows, col_ptr, row_idx }
+    }
+
+    /// The union of this pattern and further pairs.
+    pub fn extended(&self, mut extra: PairCollector) -> Self {
+        for j in 0..self.vertex_count() {
+            for &i in self.column(j) {
+                extra.add(j as u32, i);
+            }
+        }
+        Self::new(self.vertex_count(), extra)
+    }
+
+    /// Number of block columns.
+    pub fn vertex_count(&self) -> usize {
+        self.column_start.len().saturating_sub(1)
+    }
+
+    /// Number of stored scalars.
+    pub fn value_count(&self) -> usize {
+        self.row_idx.len()
+    }
+
+    /// Block rows strictly below the diagonal of block column `j`, ascending.
+    pub fn column(&self, j: usize) -> &[u32] {
+        &self.rows[self.column_start[j] as usize..self.column_start[j + 1] as usize]
+    }
+
+    /// Scalar column pointers of the lower triangle; the first entry of a column is its diagonal.
+    pub fn col_ptr(&self) -> &[u32] {
+        &self.col_ptr
+    }
+
+    /// Scalar row indices of the lower triangle.
+    pub fn row_idx(&self) -> &[u32] {
+        &self.row_idx
+    }
+
+    /// Where row 0 of each of the three scalar columns of block (`row`, `column`), `row > column`, is stored: rows
+    /// 1 and 2 follow. `None` where the pattern has no such block.
+    #[inline]
+    pub fn block(&self, row: u32, column: u32) -> Option<[usize; 3]> {
+        let j = column as usize;
+        let k = self.column(j).binary_search(&row).ok()?;
+        let start = |c: usize| self.col_ptr[3 * j + c] as usize + 3 - c + 3 * k;
+        Some([start(0), start(1), start(2)])
+    }
+
+    /// Where the diagonal entry of each of the three scalar columns of block column `j` is stored; the entries below it
+    /// within the diagonal block follow.
+    #[inline]
+    pub fn diagonal(&self, j: u32) -> [usize; 3] {
+        let j = 3 * j as usize;
+        [self.col_ptr[j] as usize, self.col_ptr[j + 1] as usize, self.col_ptr[j + 2] as usize]
+    }
+}

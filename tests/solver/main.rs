@@ -1,0 +1,7 @@
+//! The solver against dense algebra.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod assembly;
+mod newton;

@@ -1,0 +1,157 @@
+//! Newton's method on problems with known answers.
+
+use std::ops::Range;
+
+use bespoke::energy::{Configuration, Direction, Energy, Sink};
+use bespoke::solver::Term;
+use bespoke::solver::newton::{Model, Newton, State};
+use glam::DVec3;
+
+/// Springs of rest length 1 to the origin and to the next vertex, and `(x_0 - t e_x)^2`.
+struct Springs {
+    count: u32,
+}
+
+impl Springs {
+    fn residual(&self, at: Configuration<'_>, k: usize) -> (Vec<u32>, Vec<DVec3>, f64, f64) {
+        let n = self.count as usize;
+        if k == 0 {
+            return (vec![0], vec![DVec3::X], -1.0, at.x[0].x - at.t);
+        }
+        let (i, j) = ((k - 1) % n, k % n);
+        let d = if k <= n { at.x[i] } else { at.x[i] - at.x[j] };
+        let u = d.normalize_or_zero();
+        if k <= n {
+            (vec![i as u32], vec![u], 0.0, d.length() - 1.0)
+        } else {
+            (vec![i as u32, j as u32], vec![u, -u], 0.0, d.length() - 1.0)
+        }
+    }
+}
+
+impl Energy for Springs {
+    fn name(&self) -> &'static str {
+        "springs"
+    }
+
+    fn len(&self) -> usize {
+        2 * self.count as usize
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        range.map(|k| self.residual(at, k).3.powi(2)).sum()
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        for k in range {
+            let (vertices, components, t, r) = self.residual(at, k);
+            sink.rank_one(Direction { vertices: &vertices, components: &components, t }, 2.0 * r, 2.0);
+        }
+    }
+
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        for k in 0..self.count {
+            visit(&[k, (k + 1) % self.count]);
+        }
+    }
+}
+
+struct Free(Springs, f64);
+
+impl Model for Free {
+    fn terms(&self) -> Vec<Term<'_>> {
+        vec![Term { energy: &self.0, weight: 2.0 }]
+    }
+
+    fn admit(&mut self, _: Configuration<'_>, _: &[DVec3], _: f64, longest: f64) -> f64 {
+        longest.min(self.1)
+    }
+}
+
+fn start() -> State {
+    let x = (0..5).map(|k| DVec3::new(1.0 + 0.1 * f64::from(k), f64::from(k) - 2.0, 0.3)).collect();
+    State { x, t: 0.5 }
+}
+
+#[test]
+fn descent_reaches_a_minimum_and_never_rises() {
+    let mut model = Free(Springs { count: 5 }, 1.0);
+    let mut state = start();
+    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut last = f64::INFINITY;
+    for _ in 0..200 {
+        let Some(step) = newton.descend(&mut model, &mut state).unwrap() else { break };
+        assert!(step.after <= step.before && step.before <= last * (1.0 + 1e-12));
+        assert!(step.displacement <= 0.1 * 3.0_f64.sqrt() + 1e-12);
+        last = step.after;
+    }
+    newton.linearise(&model.terms(), state.configuration(), false).unwrap();
+    assert!(newton.gradient_norm() < 1e-5, "{}", newton.gradient_norm());
+}
+
+#[test]
+fn a_step_never_goes_beyond_what_the_model_admits() {
+    let mut model = Free(Springs { count: 5 }, 0.25);
+    let mut state = start();
+    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    for _ in 0..5 {
+        let before = state.x.clone();
+        newton.descend(&mut model, &mut state).unwrap().unwrap();
+        let moved = before.iter().zip(&state.x).fold(0.0_f64, |m, (a, b)| m.max((*a - *b).abs().max_element()));
+        assert!(moved <= 0.25 * 0.1 + 1e-12, "{moved}");
+    }
+}
+
+/// The bordered system, solved as a dense one by Gaussian elimination, gives the same dt and dx.
+#[test]
+fn the_border_agrees_with_a_dense_solve() {
+    let model = Free(Springs { count: 5 }, 1.0);
+    let state = start();
+    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    newton.linearise(&model.terms(), state.configuration(), true).unwrap();
+    let dt = newton.newton_dt();
+    // Finite differences along t of the energy minimised over x by the quadratic model: the slope must vanish at dt.
+    let kept = newton.aim(dt);
+    let dx: Vec<DVec3> = newton.direction().iter().map(|d| *d / kept).collect();
+    let mut rows = vec![vec![0.0; 17]; 16];
+    let springs = &model.0;
+    for k in 0..springs.len() {
+        let (vertices, components, t, r) = springs.residual(state.configuration(), k);
+        let mut a = [0.0; 16];
+        for (&v, c) in vertices.iter().zip(&components) {
+            for i in 0..3 {
+                a[3 * v as usize + i] = c[i];
+            }
+        }
+        a[15] = t;
+        for i in 0..16 {
+            for j in 0..16 {
+                rows[i][j] += 4.0 * a[i] * a[j];
+            }
+            rows[i][16] -= 4.0 * r * a[i];
+        }
+    }
+    let mean = (0..15).map(|i| rows[i][i]).sum::<f64>() / 15.0;
+    for (i, row) in rows.iter_mut().enumerate().take(15) {
+        row[i] += 1e-7 * mean;
+    }
+    for i in 0..16 {
+        let pivot = (i..16).max_by(|&a, &b| rows[a][i].abs().total_cmp(&rows[b][i].abs())).unwrap();
+        rows.swap(i, pivot);
+        for k in 0..16 {
+            if k != i {
+                let f = rows[k][i] / rows[i][i];
+                for j in i..17 {
+                    rows[k][j] -= f * rows[i][j];
+                }
+            }
+        }
+    }
+    let answer = |i: usize| rows[i][16] / rows[i][i];
+    assert!((answer(15) - dt).abs() < 1e-6 * (1.0 + dt.abs()), "{} {dt}", answer(15));
+    for v in 0..5 {
+        for i in 0..3 {
+            assert!((answer(3 * v + i) - dx[v][i]).abs() < 1e-5, "{} {}", answer(3 * v + i), dx[v][i]);
+        }
+    }
+}
