@@ -1,7 +1,10 @@
 //! What a caller hands in, checked and turned into ours.
 
+pub mod buffer;
 pub mod mesh;
 pub mod skeleton;
+pub mod skin;
+pub mod space;
 
 use glam::DVec3;
 
