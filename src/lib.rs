@@ -16,3 +16,4 @@ pub mod energy;
 pub mod error;
 pub mod input;
 pub mod solver;
+pub mod verify;

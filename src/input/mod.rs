@@ -1,4 +1,21 @@
 //! What a caller hands in, checked and turned into ours.
 
+pub mod buffer;
 pub mod mesh;
 pub mod skeleton;
+pub mod skin;
+pub mod space;
+
+use glam::DVec3;
+
+/// The largest coordinate accepted, in absolute value. Beyond it, the products of coordinates that every later
+/// computation takes would leave the range of doubles.
+pub const MAX_COORDINATE: f64 = 1e30;
+
+/// The first point that is not usable (NaN, infinite, beyond [`MAX_COORDINATE`]), described as "x = NaN".
+fn bad_coordinate(points: &[DVec3]) -> Option<(usize, String)> {
+    points.iter().enumerate().find_map(|(i, p)| {
+        let axis = (0..3).find(|&k| p[k].is_nan() || p[k].abs() > MAX_COORDINATE)?;
+        Some((i, format!("{} = {}", ["x", "y", "z"][axis], p[axis])))
+    })
+}
