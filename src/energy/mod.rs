@@ -5,18 +5,13 @@
 //! `gradient += g a`, `hessian += h a a^T` with `h >= 0`, or as a plain gradient. A Hessian made of such pieces
 //! is positive semidefinite by construction: no eigenvalue is ever computed.
 
+pub mod barrier;
+
 use std::ops::Range;
 
 use glam::DVec3;
 
-/// Where the objective is evaluated: the garment's vertices and the inflation parameter.
-#[derive(Clone, Copy, Debug)]
-pub struct Configuration<'a> {
-    /// Garment vertices in the normalised space.
-    pub x: &'a [DVec3],
-    /// Inflation parameter: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
-    pub t: f64,
-}
+pub use crate::contact::Configuration;
 
 /// A direction in the space of the unknowns with at most four garment vertices: `a = (a_i, a_t)`.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,102 @@
+//! The two bodies that meet, and where their vertices are: garment vertices are free, avatar vertices are
+//! linear in the inflation parameter t.
+
+use glam::DVec3;
+
+use super::surface::Surface;
+
+/// Where the objective is evaluated: the garment's vertices and the inflation parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration<'a> {
+    /// Garment vertices in the normalised space.
+    pub x: &'a [DVec3],
+    /// Inflation parameter: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+    pub t: f64,
+}
+
+/// A straight motion away from a [`Configuration`].
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// Displacement of each garment vertex.
+    pub dx: &'a [DVec3],
+    /// Change of the inflation parameter.
+    pub dt: f64,
+}
+
+/// The surface that moves freely.
+#[derive(Clone, Debug)]
+pub struct Garment {
+    /// Its connectivity.
+    pub surface: Surface,
+    /// The source garment: the vertices before anything moved, one for each vertex of the surface.
+    pub rest: Vec<DVec3>,
+}
+
+/// The surface that follows t.
+#[derive(Clone, Debug)]
+pub struct Avatar {
+    /// Its connectivity.
+    pub surface: Surface,
+    /// Position of each vertex at t = 0.
+    pub start: Vec<DVec3>,
+    /// Displacement of each vertex from t = 0 to t = 1.
+    pub motion: Vec<DVec3>,
+}
+
+impl Avatar {
+    /// Position of vertex `i` at `t`.
+    #[inline]
+    pub fn position(&self, i: usize, t: f64) -> DVec3 {
+        self.start[i] + t * self.motion[i]
+    }
+}
+
+/// Garment and avatar with one numbering of vertices: the garment's `0..n`, then the avatar's.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// The free surface.
+    pub garment: Garment,
+    /// The surface driven by t.
+    pub avatar: Avatar,
+}
+
+impl Bodies {
+    /// Number of garment vertices: the first avatar vertex in the combined numbering.
+    #[inline]
+    pub fn garment_count(&self) -> usize {
+        self.garment.surface.vertex_count
+    }
+
+    /// Position of vertex `i`.
+    #[inline]
+    pub fn position(&self, i: u32, at: Configuration<'_>) -> DVec3 {
+        let (i, n) = (i as usize, self.garment_count());
+        if i < n { at.x[i] } else { self.avatar.position(i - n, at.t) }
+    }
+
+    /// Displacement of vertex `i` in `step`.
+    #[inline]
+    pub fn velocity(&self, i: u32, step: &Step<'_>) -> DVec3 {
+        let (i, n) = (i as usize, self.garment_count());
+        if i < n { step.dx[i] } else { step.dt * self.avatar.motion[i - n] }
+    }
+
+    /// Rest position of vertex `i`: on the source garment, or on the fully inflated avatar.
+    #[inline]
+    pub fn rest(&self, i: u32) -> DVec3 {
+        let (i, n) = (i as usize, self.garment_count());
+        if i < n { self.garment.rest[i] } else { self.avatar.position(i - n, 1.0) }
+    }
+
+    /// Positions of the four vertices of a pair.
+    #[inline]
+    pub fn positions(&self, pair: [u32; 4], at: Configuration<'_>) -> [DVec3; 4] {
+        pair.map(|i| self.position(i, at))
+    }
+
+    /// Displacements of the four vertices of a pair.
+    #[inline]
+    pub fn velocities(&self, pair: [u32; 4], step: &Step<'_>) -> [DVec3; 4] {
+        pair.map(|i| self.velocity(i, step))
+    }
+}

@@ -1,0 +1,296 @@
+//! Contact (Eq. 1 of the paper): IPC's barrier on squared distances (Li et al. 2020), above a separation floor.
+//!
+//! With `D = d^2 - floor^2` and `Dhat = dhat^2 - floor^2`, a pair at distance d costs
+//! `b = -(D - Dhat)^2 ln(D / Dhat)` for `0 < D < Dhat`, nothing beyond, and infinity at the floor. Edge-edge pairs are
+//! weighed by the mollifier m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are
+//! `g = m db/dd` and `h = m max(0, d2b/dd2)`, and the mollifier adds `b grad m` to the gradient.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{Configuration, Direction, Energy, Sink};
+use crate::contact::distance::Separation;
+use crate::contact::{Bodies, CandidateSet, Class, Kind, mollifier};
+
+/// Candidates a thread takes at once.
+const CHUNK: usize = 2048;
+
+/// The shape of the barrier. Lengths are in the normalised space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BarrierSettings {
+    /// Distance below which the garment repels itself. Above `floor`.
+    pub dhat_self: f64,
+    /// Distance below which the avatar repels the garment. Above `floor`.
+    pub dhat_avatar: f64,
+    /// Distance that no pair may reach.
+    pub floor: f64,
+    /// Factor on the pairs with the avatar.
+    pub avatar_weight: f64,
+}
+
+impl Default for BarrierSettings {
+    fn default() -> Self {
+        Self { dhat_self: 0.002, dhat_avatar: 0.002, floor: 1e-5, avatar_weight: 1.0 }
+    }
+}
+
+impl BarrierSettings {
+    #[inline]
+    fn dhat(&self, class: Class) -> f64 {
+        match class {
+            Class::Garment => self.dhat_self,
+            Class::Avatar => self.dhat_avatar,
+        }
+    }
+
+    #[inline]
+    fn weight(&self, class: Class) -> f64 {
+        match class {
+            Class::Garment => 1.0,
+            Class::Avatar => self.avatar_weight,
+        }
+    }
+}
+
+/// What is in contact at a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Activity {
+    /// Number of pairs closer than their d-hat.
+    pub count: usize,
+    /// Smallest distance of the garment from itself, infinite if none is below d-hat.
+    pub min_distance_self: f64,
+    /// Smallest distance of the garment from the avatar, infinite if none is below d-hat.
+    pub min_distance_avatar: f64,
+}
+
+/// The contact term: the barrier summed over a set of candidates.
+///
+/// Its elements are the candidates. Value and derivatives see all of them, wherever they are evaluated; the sparsity
+/// pattern is that of the pairs found active by the last [`Barrier::refresh`].
+#[derive(Clone, Debug)]
+pub struct Barrier {
+    bodies: Arc<Bodies>,
+    candidates: CandidateSet,
+    settings: BarrierSettings,
+    /// Candidates that were closer than d-hat at the last refresh, ascending.
+    active: Vec<u32>,
+}
+
+impl Barrier {
+    /// A barrier without candidates.
+    pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
+        Self { bodies, candidates: CandidateSet::default(), settings, active: Vec::new() }
+    }
+
+    /// The bodies in contact.
+    pub fn bodies(&self) -> &Arc<Bodies> {
+        &self.bodies
+    }
+
+    /// The pairs that are summed over.
+    pub fn candidates(&self) -> &CandidateSet {
+        &self.candidates
+    }
+
+    /// The pairs, to be replaced: the broad phase writes here. Call [`Barrier::refresh`] afterwards; until then the
+    /// sparsity pattern is empty.
+    pub fn candidates_mut(&mut self) -> &mut CandidateSet {
+        self.active.clear();
+        &mut self.candidates
+    }
+
+    /// The shape of the barrier.
+    pub fn settings(&self) -> &BarrierSettings {
+        &self.settings
+    }
+
+    /// Changes the shape of the barrier. Call [`Barrier::refresh`] afterwards; until then the sparsity pattern is
+    /// empty.
+    pub fn set_settings(&mut self, settings: BarrierSettings) {
+        self.active.clear();
+        self.settings = settings;
+    }
+
+    /// Finds the pairs that are active at `at`, for [`Energy::stencils`].
+    pub fn refresh(&mut self, at: Configuration<'_>) -> Activity {
+        let parts: Vec<(Vec<u32>, Activity)> = self.map_chunks(|range| {
+            let mut active = Vec::new();
+            let activity = self.activity_in(at, range, |i| active.push(i as u32));
+            (active, activity)
+        });
+        self.active.clear();
+        parts.iter().for_each(|(active, _)| self.active.extend_from_slice(active));
+        parts.iter().fold(Activity::NONE, |sum, (_, part)| sum.merged(part))
+    }
+
+    /// What is in contact at `at`.
+    pub fn activity(&self, at: Configuration<'_>) -> Activity {
+        let parts: Vec<Activity> = self.map_chunks(|range| self.activity_in(at, range, |_| {}));
+        parts.iter().fold(Activity::NONE, Activity::merged)
+    }
+
+    fn map_chunks<T: Send>(&self, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+        let count = self.candidates.len();
+        (0..count.div_ceil(CHUNK)).into_par_iter().map(|c| of(c * CHUNK..count.min((c + 1) * CHUNK))).collect()
+    }
+
+    fn activity_in(&self, at: Configuration<'_>, range: Range<usize>, mut found: impl FnMut(usize)) -> Activity {
+        let mut nearest = [f64::INFINITY; 2];
+        let mut count = 0;
+        self.each_close(at, range, |close| {
+            found(close.index);
+            count += 1;
+            let nearest = &mut nearest[close.class as usize];
+            *nearest = nearest.min(close.separation.squared);
+        });
+        let [own, avatar] = nearest.map(f64::sqrt);
+        Activity { count, min_distance_self: own, min_distance_avatar: avatar }
+    }
+
+    /// Calls `visit` with each candidate in `range` that is closer than its d-hat, in order.
+    #[inline]
+    fn each_close(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair)) {
+        for run in self.candidates.runs(range) {
+            let dhat = self.settings.dhat(run.class);
+            for (k, &pair) in run.pairs.iter().enumerate() {
+                let x = self.bodies.positions(pair, at);
+                if run.kind.apart(&x, dhat) {
+                    continue;
+                }
+                let separation = run.kind.separation(&x);
+                if separation.squared < dhat * dhat {
+                    visit(ClosePair { index: run.first + k, kind: run.kind, class: run.class, pair, x, separation });
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn mollifier_threshold(&self, pair: [u32; 4]) -> f64 {
+        mollifier::threshold(&pair.map(|i| self.bodies.rest(i)))
+    }
+
+    /// Hands on `g a` and `h a a^T`, where `a` has the given component at each vertex of the pair: zero components are
+    /// left out, and those of the avatar are turned into one along t.
+    #[inline]
+    fn emit(&self, pair: [u32; 4], components: [DVec3; 4], g: f64, h: f64, sink: &mut dyn Sink) {
+        let n = self.bodies.garment_count();
+        let (mut vertices, mut kept, mut count, mut t) = ([0; 4], [DVec3::ZERO; 4], 0, 0.0);
+        for (i, c) in pair.into_iter().zip(components) {
+            if i as usize >= n {
+                t += c.dot(self.bodies.avatar.motion[i as usize - n]);
+            } else if c != DVec3::ZERO {
+                vertices[count] = i;
+                kept[count] = c;
+                count += 1;
+            }
+        }
+        sink.rank_one(Direction { vertices: &vertices[..count], components: &kept[..count], t }, g, h);
+    }
+}
+
+/// A candidate closer than its d-hat.
+struct ClosePair {
+    index: usize,
+    kind: Kind,
+    class: Class,
+    pair: [u32; 4],
+    x: [DVec3; 4],
+    separation: Separation,
+}
+
+impl Activity {
+    const NONE: Self = Self { count: 0, min_distance_self: f64::INFINITY, min_distance_avatar: f64::INFINITY };
+
+    fn merged(self, other: &Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            min_distance_self: self.min_distance_self.min(other.min_distance_self),
+            min_distance_avatar: self.min_distance_avatar.min(other.min_distance_avatar),
+        }
+    }
+}
+
+/// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and above the squared floor.
+#[inline]
+fn barrier(big_d: f64, dhat: f64) -> [f64; 3] {
+    let (e, ln) = (big_d - dhat, (big_d / dhat).ln());
+    let q = e / big_d;
+    [-e * e * ln, -e * (2.0 * ln + q), q * q - 4.0 * q - 2.0 * ln]
+}
+
+impl Energy for Barrier {
+    fn name(&self) -> &'static str {
+        "barrier"
+    }
+
+    /// Number of candidates.
+    fn len(&self) -> usize {
+        self.candidates.len()
+    }
+
+    /// Infinite if a candidate is at or below the floor.
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        let floor = self.settings.floor * self.settings.floor;
+        let mut sum = 0.0;
+        self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
+            let dhat = self.settings.dhat(class);
+            let big_d = separation.squared - floor;
+            if big_d <= 0.0 {
+                // Not through the mollifier, which may be zero.
+                sum = f64::INFINITY;
+                return;
+            }
+            let [b, ..] = barrier(big_d, dhat * dhat - floor);
+            let m = match kind {
+                Kind::PointTriangle => 1.0,
+                Kind::EdgeEdge => mollifier::value(&x, self.mollifier_threshold(pair)),
+            };
+            sum += self.settings.weight(class) * m * b;
+        });
+        sum
+    }
+
+    /// Pairs at or below the floor, where the value is infinite, have none.
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        let floor = self.settings.floor * self.settings.floor;
+        self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
+            let dhat = self.settings.dhat(class);
+            let big_d = separation.squared - floor;
+            if big_d <= 0.0 {
+                return;
+            }
+            let [b, db, ddb] = barrier(big_d, dhat * dhat - floor).map(|v| self.settings.weight(class) * v);
+            let (m, slope) = match kind {
+                Kind::PointTriangle => (1.0, None),
+                Kind::EdgeEdge => mollifier::value_and_gradient(&x, self.mollifier_threshold(pair)),
+            };
+            let d = separation.squared.sqrt();
+            let normal = separation.vector / d;
+            let (g, h) = (2.0 * d * db, 2.0 * db + 4.0 * separation.squared * ddb);
+            self.emit(pair, separation.weights.map(|w| w * normal), m * g, m * h.max(0.0), sink);
+            if let Some(slope) = slope {
+                self.emit(pair, slope, b, 0.0, sink);
+            }
+        });
+    }
+
+    /// The garment vertices of the pairs that were active at the last refresh, all of them: the closest points may
+    /// move to other features.
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        let n = self.bodies.garment_count();
+        for &i in &self.active {
+            let (mut vertices, mut count) = ([0; 4], 0);
+            for v in self.candidates.pairs()[i as usize] {
+                if (v as usize) < n {
+                    vertices[count] = v;
+                    count += 1;
+                }
+            }
+            visit(&vertices[..count]);
+        }
+    }
+}
