@@ -15,3 +15,4 @@ pub mod contact;
 pub mod energy;
 pub mod error;
 pub mod input;
+pub mod sdf;

@@ -5,6 +5,8 @@
 //! `gradient += g a`, `hessian += h a a^T` with `h >= 0`, or as a plain gradient. A Hessian made of such pieces
 //! is positive semidefinite by construction: no eigenvalue is ever computed.
 
+pub mod fit;
+
 use std::ops::Range;
 
 use glam::DVec3;
