@@ -15,5 +15,6 @@ pub mod contact;
 pub mod energy;
 pub mod error;
 pub mod input;
+pub mod sdf;
 pub mod solver;
 pub mod verify;

@@ -6,6 +6,7 @@
 //! is positive semidefinite by construction: no eigenvalue is ever computed.
 
 pub mod barrier;
+pub mod fit;
 
 use std::ops::Range;
 

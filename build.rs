@@ -1,0 +1,37 @@
+//! Builds the C++ shim around OpenVDB and links it.
+
+use std::env;
+use std::path::PathBuf;
+
+/// Folders to look in before the system's: `OPENVDB_ROOT` holds `include` and `lib`.
+const ROOT: &str = "OPENVDB_ROOT";
+
+fn main() {
+    for path in ["cpp_shim/volume.cpp", "cpp_shim/volume.h", "cpp_shim/probe.cpp", "build.rs"] {
+        println!("cargo:rerun-if-changed={path}");
+    }
+    println!("cargo:rerun-if-env-changed={ROOT}");
+    let root = env::var_os(ROOT).map(PathBuf::from);
+
+    let mut build = cc::Build::new();
+    // The voxeliser is two orders slower without optimisation, so the profile does not decide.
+    build.cpp(true).std("c++17").opt_level(2).warnings(true).extra_warnings(true);
+    if let Some(root) = &root {
+        build.include(root.join("include"));
+    }
+    let mut probe = build.clone();
+    if probe.file("cpp_shim/probe.cpp").cargo_warnings(false).try_expand().is_err() {
+        eprintln!(
+            "error: the C++ compiler does not find the headers of OpenVDB 10 or later, oneTBB and Boost: install them \
+             (Debian, Ubuntu: apt install g++ libopenvdb-dev libboost-dev), or set {ROOT} to the folder that holds their include and lib."
+        );
+        std::process::exit(1);
+    }
+    build.file("cpp_shim/volume.cpp").compile("bespoke_volume");
+
+    if let Some(root) = &root {
+        println!("cargo:rustc-link-search=native={}", root.join("lib").display());
+    }
+    println!("cargo:rustc-link-lib=openvdb");
+    println!("cargo:rustc-link-lib=tbb");
+}

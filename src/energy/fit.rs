@@ -1,0 +1,233 @@
+//! The fit term, Eq. 4 of the paper: `L_fit = integral over G_fit of max(0, D(p) - a(p))^2 dp`.
+//!
+//! D is the signed distance to the target avatar and a the clearance wanted, 0 for a tight fit as in the paper.
+//! Only what is too far away costs: keeping the garment off the avatar is the barrier's part. The integral is a
+//! sum over faces f and quadrature points q, with weights omega that sum to 1 and the caller's density w:
+//!
+//! ```text
+//! sum_f area_f sum_q omega_q w_q max(0, D(x_q) - a_q)^2,    x_q = sum_i b_qi x_i
+//! ```
+//!
+//! The Hessian is Gauss-Newton's, `2 grad D grad D^T`: positive semidefinite.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Configuration, Energy, Sink};
+use crate::error::{Error, ErrorKind, Result};
+use crate::sdf::Field;
+
+/// A quadrature point: barycentric coordinates and weight.
+type Node = ([f64; 3], f64);
+
+/// Exact for polynomials of degree 2: three points (Strang and Fix 1973).
+const DEGREE_2: [Node; 3] = {
+    const A: f64 = 1.0 / 6.0;
+    const B: f64 = 2.0 / 3.0;
+    const W: f64 = 1.0 / 3.0;
+    [([B, A, A], W), ([A, B, A], W), ([A, A, B], W)]
+};
+
+/// Exact for polynomials of degree 4: six points (Dunavant 1985, table of degree 4).
+const DEGREE_4: [Node; 6] = {
+    const A: f64 = 0.445_948_490_915_964_9;
+    const B: f64 = 1.0 - 2.0 * A;
+    const V: f64 = 0.223_381_589_678_011_47;
+    const C: f64 = 0.091_576_213_509_770_74;
+    const D: f64 = 1.0 - 2.0 * C;
+    const W: f64 = 0.109_951_743_655_321_87;
+    [([B, A, A], V), ([A, B, A], V), ([A, A, B], V), ([D, C, C], W), ([C, D, C], W), ([C, C, D], W)]
+};
+
+/// A garment face that fits.
+#[derive(Clone, Copy, Debug)]
+struct Element {
+    vertices: [u32; 3],
+    /// Its first sample.
+    first: u32,
+    rule: &'static [Node],
+}
+
+/// What is known of a sample beforehand.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    /// `area_f omega_q w_q`.
+    weight: f64,
+    /// The clearance wanted.
+    aim: f64,
+}
+
+/// The fit term over the faces of a garment.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    field: Arc<Field>,
+    elements: Vec<Element>,
+    samples: Vec<Sample>,
+}
+
+impl Fit {
+    /// The term for the garment's `triangles` with the given `areas` (one a triangle, rest or current) and
+    /// `weights` (one a vertex, at least 0, interpolated linearly). A face with three zero weights is left
+    /// out. All clearances are 0.
+    ///
+    /// Six samples a face; three where its area is below half a square voxel, for the field has no detail there.
+    pub fn new(field: Arc<Field>, triangles: &[[u32; 3]], areas: &[f64], weights: &[f64]) -> Self {
+        let small = 0.5 * field.voxel() * field.voxel();
+        let mut elements = Vec::new();
+        let mut samples = Vec::new();
+        for (&vertices, &area) in triangles.iter().zip(areas) {
+            let corners = vertices.map(|v| weights[v as usize]);
+            if corners == [0.0; 3] {
+                continue;
+            }
+            let rule: &'static [Node] = if area < small { &DEGREE_2 } else { &DEGREE_4 };
+            elements.push(Element { vertices, first: samples.len() as u32, rule });
+            samples.extend(rule.iter().map(|&(b, omega)| {
+                let density = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+                Sample { weight: area * omega * density, aim: 0.0 }
+            }));
+        }
+        Self { field, elements, samples }
+    }
+
+    /// Where the samples lie for the garment vertices `x`: to measure, on the source body, the clearance that
+    /// each was designed with.
+    pub fn sample_points(&self, x: &[DVec3]) -> Vec<DVec3> {
+        self.elements.iter().flat_map(|e| e.rule.iter().map(|(b, _)| interpolate(e.corners(x), b))).collect()
+    }
+
+    /// Sets the clearance wanted at each sample (in the order of [`Self::sample_points`], at least 0).
+    pub fn set_aims(&mut self, aims: &[f64]) -> Result<()> {
+        if aims.len() != self.samples.len() {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!("fit: {} clearances for {} samples", aims.len(), self.samples.len()),
+            ));
+        }
+        if let Some(i) = aims.iter().position(|a| !(*a >= 0.0 && a.is_finite())) {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!("fit: clearance {i} is {}, not a number from 0 on", aims[i]),
+            ));
+        }
+        for (sample, &aim) in self.samples.iter_mut().zip(aims) {
+            sample.aim = aim;
+        }
+        Ok(())
+    }
+
+    fn samples_of(&self, element: &Element) -> &[Sample] {
+        &self.samples[element.first as usize..][..element.rule.len()]
+    }
+}
+
+impl Element {
+    #[inline]
+    fn corners(&self, x: &[DVec3]) -> [DVec3; 3] {
+        self.vertices.map(|v| x[v as usize])
+    }
+}
+
+#[inline]
+fn interpolate(corners: [DVec3; 3], b: &[f64; 3]) -> DVec3 {
+    b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2]
+}
+
+/// Pairs of corners, in the order in which `FaceHessian` holds them.
+const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// The sum over samples of `b b^T (x) M` with symmetric 3 x 3 matrices M.
+struct FaceHessian([[f64; 6]; 6]);
+
+impl FaceHessian {
+    /// Adds a sample with barycentric coordinates `b` and the matrix (xx, xy, xz, yy, yz, zz).
+    #[inline]
+    fn add(&mut self, b: &[f64; 3], matrix: [f64; 6]) {
+        for (sum, (i, j)) in self.0.iter_mut().zip(PAIRS) {
+            let scale = b[i] * b[j];
+            for (s, m) in sum.iter_mut().zip(matrix) {
+                *s += scale * m;
+            }
+        }
+    }
+
+    /// The 9 x 9 matrix, row-major.
+    #[inline]
+    fn expand(&self) -> [f64; 81] {
+        let mut out = [0.0; 81];
+        for (sum, (i, j)) in self.0.iter().zip(PAIRS) {
+            for (&s, (k, l)) in sum.iter().zip(PAIRS) {
+                for (p, q) in [(k, l), (l, k)] {
+                    out[9 * (3 * i + p) + 3 * j + q] = s;
+                    out[9 * (3 * j + p) + 3 * i + q] = s;
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The Gauss-Newton part of a sample's Hessian, `h g g^T`.
+#[inline]
+fn gauss_newton(g: DVec3, h: f64) -> [f64; 6] {
+    [h * g.x * g.x, h * g.x * g.y, h * g.x * g.z, h * g.y * g.y, h * g.y * g.z, h * g.z * g.z]
+}
+
+impl Energy for Fit {
+    fn name(&self) -> &'static str {
+        "fit"
+    }
+
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        let mut sum = 0.0;
+        for element in &self.elements[range] {
+            let corners = element.corners(at.x);
+            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
+                let excess = self.field.value(interpolate(corners, b)) - sample.aim;
+                if excess > 0.0 {
+                    sum += sample.weight * excess * excess;
+                }
+            }
+        }
+        sum
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        for element in &self.elements[range] {
+            let corners = element.corners(at.x);
+            let mut gradient = [DVec3::ZERO; 3];
+            let mut hessian = FaceHessian([[0.0; 6]; 6]);
+            let mut costs = false;
+            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
+                let (distance, slope) = self.field.value_gradient(interpolate(corners, b));
+                let excess = distance - sample.aim;
+                if excess <= 0.0 {
+                    continue;
+                }
+                costs = true;
+                for (sum, b) in gradient.iter_mut().zip(b) {
+                    *sum += (2.0 * sample.weight * excess * b) * slope;
+                }
+                hessian.add(b, gauss_newton(slope, 2.0 * sample.weight));
+            }
+            if costs {
+                for (&vertex, &g) in element.vertices.iter().zip(&gradient) {
+                    sink.gradient(vertex, g);
+                }
+                sink.block(&element.vertices, &hessian.expand());
+            }
+        }
+    }
+
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        for element in &self.elements {
+            visit(&element.vertices);
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! Exact distance to a triangle soup, by a tree of axis-aligned boxes.
+
+use glam::DVec3;
+
+use crate::input::mesh::TriangleMesh;
+
+/// Triangles in one leaf.
+const LEAF: usize = 4;
+
+/// Deepest path: halving the triangles at every level cannot need more with 32-bit indices.
+const DEPTH: usize = 40;
+
+/// The point of a mesh that is closest to a query.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Distance from the query.
+    pub distance: f64,
+    /// Index of the triangle it lies on. With ties, which one is unspecified.
+    pub triangle: u32,
+    /// The point itself.
+    pub point: DVec3,
+}
+
+/// A box of the tree, stored in depth-first order: the first child of an inner box follows it.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    low: DVec3,
+    high: DVec3,
+    /// Leaf: the first triangle. Inner box: the second child.
+    start: u32,
+    /// Number of triangles; 0 for an inner box.
+    count: u32,
+}
+
+impl Node {
+    #[inline]
+    fn distance_squared(&self, p: DVec3) -> f64 {
+        (self.low - p).max(p - self.high).max(DVec3::ZERO).length_squared()
+    }
+}
+
+/// A search tree over the triangles of a mesh, which may be open, intersect itself or be degenerate.
+#[derive(Clone, Debug)]
+pub struct ClosestPoint {
+    nodes: Vec<Node>,
+    /// Corners, in the order of the leaves.
+    corners: Vec<[DVec3; 3]>,
+    /// The mesh's index of each entry of `corners`.
+    triangles: Vec<u32>,
+}
+
+impl ClosestPoint {
+    /// A tree over all the triangles of `mesh`.
+    pub fn new(mesh: &TriangleMesh) -> Self {
+        let of = |t: u32| mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]);
+        let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+        let centres: Vec<DVec3> = order.iter().map(|&t| of(t).iter().sum::<DVec3>() / 3.0).collect();
+        // Rounding in a triangle's distance must not beat its box, else pruning would depend on the path.
+        let largest = mesh.positions.iter().fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+        let slack = DVec3::splat(1e-14 * largest);
+        let mut nodes = Vec::with_capacity(2 * order.len().div_ceil(LEAF));
+        if !order.is_empty() {
+            let bounds = |t: u32| {
+                let [a, b, c] = of(t);
+                (a.min(b).min(c) - slack, a.max(b).max(c) + slack)
+            };
+            build(&mut nodes, &mut order, 0, &bounds, &centres);
+        }
+        Self { nodes, corners: order.iter().map(|&t| of(t)).collect(), triangles: order }
+    }
+
+    /// Distance from `p` to the closest triangle; infinite without any.
+    pub fn distance(&self, p: DVec3) -> f64 {
+        self.search(p, None).map_or(f64::INFINITY, |(squared, _)| squared.sqrt())
+    }
+
+    /// The closest point to `p`; none without any triangle.
+    pub fn closest(&self, p: DVec3) -> Option<Closest> {
+        let (squared, slot) = self.search(p, None)?;
+        let point = closest_on_triangle(p, &self.corners[slot]);
+        Some(Closest { distance: squared.sqrt(), triangle: self.triangles[slot], point })
+    }
+
+    /// The place, in the tree's own order, of a triangle closest to `p`: a hint for
+    /// [`Self::distance_hinted`] nearby.
+    pub(super) fn hint(&self, p: DVec3) -> u32 {
+        self.search(p, None).map_or(0, |(_, slot)| slot as u32)
+    }
+
+    /// The same as [`Self::distance`], sooner where the triangle at `hint` is close.
+    pub(super) fn distance_hinted(&self, p: DVec3, hint: u32) -> f64 {
+        self.search(p, Some(hint as usize)).map_or(f64::INFINITY, |(squared, _)| squared.sqrt())
+    }
+
+    /// Squared distance and place of the closest triangle.
+    fn search(&self, p: DVec3, hint: Option<usize>) -> Option<(f64, usize)> {
+        let root = self.nodes.first()?;
+        let mut best = f64::INFINITY;
+        let mut slot = 0;
+        if let Some(corners) = hint.and_then(|h| self.corners.get(h)) {
+            best = closest_on_triangle(p, corners).distance_squared(p);
+            slot = hint.unwrap_or(0);
+        }
+        let mut stack = [(0_u32, 0.0_f64); DEPTH];
+        let mut height = 1;
+        stack[0] = (0, root.distance_squared(p));
+        while height > 0 {
+            height -= 1;
+            let (index, bound) = stack[height];
+            if bound > best {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.count > 0 {
+                let from = node.start as usize;
+                for (i, corners) in self.corners[from..from + node.count as usize].iter().enumerate() {
+                    let squared = closest_on_triangle(p, corners).distance_squared(p);
+                    if squared < best {
+                        (best, slot) = (squared, from + i);
+                    }
+                }
+                continue;
+            }
+            let (near, far) = (index + 1, node.start);
+            let near_bound = self.nodes[near as usize].distance_squared(p);
+            let far_bound = self.nodes[far as usize].distance_squared(p);
+            let (first, second) = if near_bound <= far_bound {
+                ((near, near_bound), (far, far_bound))
+            } else {
+                ((far, far_bound), (near, near_bound))
+            };
+            if second.1 <= best {
+                stack[height] = second;
+                height += 1;
+            }
+            if first.1 <= best {
+                stack[height] = first;
+                height += 1;
+            }
+        }
+        Some((best, slot))
+    }
+}
+
+/// Appends the tree over `order`, whose first triangle has place `offset`, and sorts `order` by leaves.
+fn build(
+    nodes: &mut Vec<Node>,
+    order: &mut [u32],
+    offset: usize,
+    bounds: &dyn Fn(u32) -> (DVec3, DVec3),
+    centres: &[DVec3],
+) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (mut centre_low, mut centre_high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &t in order.iter() {
+        let (l, h) = bounds(t);
+        (low, high) = (low.min(l), high.max(h));
+        let c = centres[t as usize];
+        (centre_low, centre_high) = (centre_low.min(c), centre_high.max(c));
+    }
+    let index = nodes.len();
+    nodes.push(Node { low, high, start: offset as u32, count: order.len() as u32 });
+    if order.len() <= LEAF {
+        return;
+    }
+    let extent = centre_high - centre_low;
+    let axis = if extent.x >= extent.y && extent.x >= extent.z {
+        0
+    } else if extent.y >= extent.z {
+        1
+    } else {
+        2
+    };
+    let middle = order.len() / 2;
+    order.select_nth_unstable_by(middle, |&a, &b| {
+        centres[a as usize][axis].total_cmp(&centres[b as usize][axis]).then(a.cmp(&b))
+    });
+    let (left, right) = order.split_at_mut(middle);
+    build(nodes, left, offset, bounds, centres);
+    let second = nodes.len() as u32;
+    build(nodes, right, offset + middle, bounds, centres);
+    nodes[index].start = second;
+    nodes[index].count = 0;
+}
+
+/// A triangle narrower than the root of this times its length counts as its three edges: the projection onto
+/// its plane would be off by more.
+const SLIVER: f64 = 1e-16;
+
+/// The point of a triangle closest to `p`.
+#[inline]
+pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
+    let [a, b, c] = *corners;
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let normal = ab.cross(ac);
+    let area = normal.length_squared();
+    let length = ab.length_squared().max(ac.length_squared());
+    if area > SLIVER * length * length {
+        // Barycentric coordinates of the projection onto the plane.
+        let v = ap.cross(ac).dot(normal) / area;
+        let w = ab.cross(ap).dot(normal) / area;
+        if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
+            return a + v * ab + w * ac;
+        }
+    }
+    let on_ab = closest_on_segment(p, a, ab);
+    let on_ac = closest_on_segment(p, a, ac);
+    let on_bc = closest_on_segment(p, b, c - b);
+    let (d_ab, d_ac, d_bc) = (on_ab.distance_squared(p), on_ac.distance_squared(p), on_bc.distance_squared(p));
+    if d_ab <= d_ac && d_ab <= d_bc {
+        on_ab
+    } else if d_ac <= d_bc {
+        on_ac
+    } else {
+        on_bc
+    }
+}
+
+/// The point of the segment from `a` along `edge` closest to `p`.
+#[inline]
+fn closest_on_segment(p: DVec3, a: DVec3, edge: DVec3) -> DVec3 {
+    let length = edge.length_squared();
+    let s = if length > 0.0 { ((p - a).dot(edge) / length).clamp(0.0, 1.0) } else { 0.0 };
+    a + s * edge
+}
