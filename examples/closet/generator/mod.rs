@@ -1,0 +1,207 @@
+//! Sample bodies and garments, modelled by formulas: the same seed gives the same bits.
+//!
+//! ```text
+//! skeleton -> body (implicit: loft) -> surface (polygonize -> clip -> remesh) -> skin
+//!                 \-> jacket --------> surface -> texture
+//! ```
+
+pub mod body;
+pub mod clip;
+pub mod implicit;
+pub mod jacket;
+pub mod loft;
+pub mod mesh;
+pub mod polygonize;
+pub mod random;
+pub mod remesh;
+pub mod skeleton;
+pub mod skin;
+pub mod surface;
+pub mod texture;
+
+use body::Build;
+use glam::DVec3;
+use implicit::Field;
+use mesh::Mesh;
+use skeleton::{ARMS, NECK, Proportions, Skeleton};
+use surface::Design;
+use texture::Texture;
+
+/// Varies what is left to chance in the samples.
+const SEED: u64 = 2025;
+
+/// The samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The body on which the garments are designed.
+    Mannequin,
+    /// A much heavier body with shorter arms.
+    Heavy,
+    /// Big head and hands, long arms, bent forward, with horns that go through the head's surface.
+    Creature,
+    /// A quilted jacket on the mannequin.
+    Jacket,
+}
+
+/// A sample: z up, facing -y, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Closed for a body, open for a garment.
+    pub mesh: Mesh,
+    /// Of the body itself, or of the mannequin for a garment.
+    pub skeleton: Skeleton,
+    /// For bodies, one row a joint, one weight a vertex; empty for garments.
+    pub skin: Vec<Vec<f64>>,
+    /// For garments; empty for bodies.
+    pub texture: Texture,
+    /// The vertices of a garment that need not fit.
+    pub no_fit: Vec<u32>,
+}
+
+/// Models a sample. The result depends on `kind` alone.
+pub fn sample(kind: Kind) -> Sample {
+    let (proportions, build) = shape(kind);
+    let skeleton = proportions.skeleton();
+    let solid = body::body(&skeleton, &build);
+    if kind == Kind::Jacket {
+        let jacket = jacket::jacket(&skeleton, &solid, SEED);
+        let (mesh, texture, no_fit) = (jacket.mesh, jacket.texture, jacket.no_fit);
+        return Sample { mesh, skeleton, skin: Vec::new(), texture, no_fit };
+    }
+    let mut mesh = body_mesh(&skeleton, &build, &solid);
+    let mut skin = skin::skin(&mesh, &solid);
+    if kind == Kind::Creature {
+        let horns = body::horns(&skeleton, &build);
+        let horn_mesh = horn_mesh(&horns);
+        for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horns)) {
+            row.extend(more);
+        }
+        mesh.append(&horn_mesh);
+    }
+    Sample { mesh, skeleton, skin, texture: Texture::default(), no_fit: Vec::new() }
+}
+
+/// Coarse on trunk and limbs, fine on the face and the hands.
+fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
+    let neck = skeleton.joints[NECK];
+    let face = neck + build.head * DVec3::new(0.0, -0.06, 0.07);
+    let wrists = ARMS.map(|[_, _, wrist]| skeleton.joints[wrist]);
+    let edge_length = |p: DVec3| {
+        let from_face = p.distance(face) / build.head - 0.06;
+        let from_hands = wrists.iter().map(|w| p.distance(*w)).fold(f64::INFINITY, f64::min) / build.hands - 0.20;
+        let fine = 0.0085 * build.head + 0.08 * from_face.max(0.0);
+        let hands = 0.0105 * build.hands + 0.08 * from_hands.max(0.0);
+        fine.min(hands).min(0.024)
+    };
+    let function = |p: DVec3| solid.value(p);
+    let bounds = solid.bounds();
+    let cuts = Vec::new();
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0145 }.mesh()
+}
+
+fn horn_mesh(horns: &Field) -> Mesh {
+    let function = |p: DVec3| horns.value(p);
+    let edge_length = |_: DVec3| 0.012;
+    let bounds = horns.bounds();
+    let cuts = Vec::new();
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009 }.mesh()
+}
+
+fn shape(kind: Kind) -> (Proportions, Build) {
+    let mannequin = Proportions {
+        ankle: 0.080,
+        shin: 0.445,
+        thigh: 0.450,
+        leg_angle: 7.5,
+        hip: 0.105,
+        belly: 0.095,
+        chest: 0.440,
+        hunch: 0.010,
+        shoulder: 0.172,
+        shoulder_drop: 0.092,
+        upper_arm: 0.285,
+        forearm: 0.250,
+        arm_angle: 53.0,
+    };
+    let build = Build {
+        hips: 1.0,
+        waist: 1.0,
+        chest: 1.0,
+        depth: 1.0,
+        belly: 0.0,
+        bust: 1.0,
+        arms: 1.0,
+        legs: 1.0,
+        neck: 1.0,
+        head: 1.0,
+        jaw: 0.0,
+        ears: 0.0,
+        hands: 1.0,
+        feet: 1.0,
+    };
+    match kind {
+        Kind::Mannequin | Kind::Jacket => (mannequin, build),
+        Kind::Heavy => (
+            Proportions {
+                shin: 0.425,
+                thigh: 0.430,
+                hip: 0.128,
+                leg_angle: 9.0,
+                shoulder: 0.205,
+                upper_arm: 0.255,
+                forearm: 0.220,
+                arm_angle: 48.0,
+                ..mannequin
+            },
+            Build {
+                hips: 1.42,
+                waist: 1.75,
+                chest: 1.32,
+                depth: 1.40,
+                belly: 0.17,
+                bust: 1.45,
+                arms: 1.40,
+                legs: 1.36,
+                neck: 1.28,
+                head: 1.05,
+                jaw: 0.004,
+                hands: 1.08,
+                feet: 1.08,
+                ..build
+            },
+        ),
+        Kind::Creature => (
+            Proportions {
+                ankle: 0.090,
+                shin: 0.300,
+                thigh: 0.310,
+                leg_angle: 10.0,
+                hip: 0.110,
+                chest: 0.400,
+                hunch: 0.110,
+                shoulder: 0.200,
+                shoulder_drop: 0.070,
+                upper_arm: 0.330,
+                forearm: 0.320,
+                arm_angle: 50.0,
+                ..mannequin
+            },
+            Build {
+                hips: 1.0,
+                waist: 1.1,
+                chest: 1.18,
+                depth: 1.1,
+                belly: 0.10,
+                arms: 1.08,
+                legs: 1.0,
+                neck: 1.1,
+                head: 1.5,
+                jaw: 0.022,
+                ears: 0.16,
+                hands: 1.6,
+                feet: 1.35,
+                ..build
+            },
+        ),
+    }
+}

@@ -1,0 +1,346 @@
+//! Isotropic remeshing: split long edges, collapse short ones, flip towards regular triangles, relax along the surface.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+
+use super::mesh::{Edge, Mesh, NONE};
+
+/// The surface that is meshed.
+pub trait Surface {
+    /// The wanted edge length at a point, in metres.
+    fn edge_length(&self, point: DVec3) -> f64;
+
+    /// The point of the surface near `point`; with one bit in `mark`, of that boundary curve of the surface.
+    fn settle(&self, point: DVec3, mark: u32) -> DVec3;
+}
+
+/// An edge is split above and collapsed below these multiples of the wanted length.
+const LONG: f64 = 4.0 / 3.0;
+const SHORT: f64 = 4.0 / 5.0;
+
+/// The triangles around each vertex, one after the other.
+struct Stars {
+    first: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl Stars {
+    fn new(mesh: &Mesh) -> Self {
+        let mut first = vec![0; mesh.positions.len() + 1];
+        for v in mesh.triangles.iter().flatten() {
+            first[*v as usize + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        let mut next = first.clone();
+        let mut triangles = vec![0; 3 * mesh.triangles.len()];
+        for (index, triangle) in mesh.triangles.iter().enumerate() {
+            for v in triangle {
+                triangles[next[*v as usize] as usize] = index as u32;
+                next[*v as usize] += 1;
+            }
+        }
+        Self { first, triangles }
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        &self.triangles[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
+    }
+}
+
+/// Remeshes in place, `rounds` times. `marks` holds for each vertex the boundary curves it lies on, one bit each;
+/// a vertex with several bits is a corner and stays.
+pub fn remesh(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface, rounds: usize) {
+    for round in 0..rounds {
+        split(mesh, marks, surface);
+        for _ in 0..4 {
+            if !collapse(mesh, marks, surface) {
+                break;
+            }
+        }
+        for _ in 0..3 {
+            flip(mesh, 2 * round < rounds);
+        }
+        for _ in 0..2 {
+            relax(mesh, marks, surface);
+        }
+    }
+    for _ in 0..2 {
+        flip(mesh, false);
+        relax(mesh, marks, surface);
+    }
+}
+
+/// Splits every edge that is too long at its middle, all at once.
+fn split(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) {
+    let mut middles = vec![[NONE; 3]; mesh.triangles.len()];
+    for edge in mesh.edges() {
+        let [v, w] = edge.vertices;
+        let (p, q) = (mesh.positions[v as usize], mesh.positions[w as usize]);
+        let middle = p.midpoint(q);
+        if p.distance(q) <= LONG * surface.edge_length(middle) {
+            continue;
+        }
+        let mark = if edge.is_boundary() { marks[v as usize] & marks[w as usize] } else { 0 };
+        let new = mesh.positions.len() as u32;
+        mesh.positions.push(surface.settle(middle, mark));
+        marks.push(mark);
+        for triangle in edge.triangles.into_iter().filter(|&t| t != NONE) {
+            let opposite = mesh.triangles[triangle as usize].iter().position(|&u| u != v && u != w);
+            middles[triangle as usize][opposite.unwrap_or(0)] = new;
+        }
+    }
+    let old = std::mem::take(&mut mesh.triangles);
+    for (triangle, middles) in old.into_iter().zip(middles) {
+        let count = middles.iter().filter(|&&m| m != NONE).count();
+        // Turn the triangle so that the odd corner (opposite the one split edge, or the one whole edge) is first.
+        let first = match count {
+            1 => middles.iter().position(|&m| m != NONE),
+            2 => middles.iter().position(|&m| m == NONE),
+            _ => Some(0),
+        };
+        let first = first.unwrap_or(0);
+        let [a, b, c] = [0, 1, 2].map(|i| triangle[(first + i) % 3]);
+        let [ma, mb, mc] = [0, 1, 2].map(|i| middles[(first + i) % 3]);
+        match count {
+            0 => mesh.triangles.push(triangle),
+            1 => mesh.triangles.extend([[a, b, ma], [a, ma, c]]),
+            2 => mesh.triangles.extend([[a, mc, mb], [mc, b, mb], [b, c, mb]]),
+            _ => mesh.triangles.extend([[a, mc, mb], [mc, b, ma], [mb, ma, c], [ma, mb, mc]]),
+        }
+    }
+}
+
+/// How freely a vertex moves: inside (0), along a boundary curve (1), not at all (2).
+fn rank(boundary: bool, mark: u32) -> u32 {
+    if !boundary { 0 } else { mark.count_ones().clamp(1, 2) }
+}
+
+fn boundary_vertices(edges: &[Edge], count: usize) -> Vec<bool> {
+    let mut boundary = vec![false; count];
+    for edge in edges.iter().filter(|edge| edge.is_boundary()) {
+        for v in edge.vertices {
+            boundary[v as usize] = true;
+        }
+    }
+    boundary
+}
+
+/// Collapses edges that are too short, the shortest first, no two next to each other. False if there were none.
+fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> bool {
+    let edges = mesh.edges();
+    let boundary = boundary_vertices(&edges, mesh.positions.len());
+    let stars = Stars::new(mesh);
+    let mut short: Vec<(f64, usize)> = Vec::new();
+    for (index, edge) in edges.iter().enumerate() {
+        let [p, q] = edge.vertices.map(|v| mesh.positions[v as usize]);
+        let relative = p.distance(q) / surface.edge_length(p.midpoint(q));
+        if relative < SHORT {
+            short.push((relative, index));
+        }
+    }
+    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut touched = vec![false; mesh.positions.len()];
+    let mut ring = Vec::new();
+    let mut any = false;
+    for (_, index) in short {
+        let edge = edges[index];
+        let [mut keep, mut gone] = edge.vertices;
+        let mut ranks = [keep, gone].map(|v| rank(boundary[v as usize], marks[v as usize]));
+        if ranks[1] > ranks[0] {
+            (keep, gone) = (gone, keep);
+            ranks.swap(0, 1);
+        }
+        if touched[keep as usize] || touched[gone as usize] || ranks[1] == 2 || (ranks[1] == 1 && !edge.is_boundary()) {
+            continue;
+        }
+        if ranks == [1, 1] && marks[keep as usize] != marks[gone as usize] {
+            continue;
+        }
+        let target = if ranks[0] == ranks[1] {
+            let middle = mesh.positions[keep as usize].midpoint(mesh.positions[gone as usize]);
+            surface.settle(middle, marks[keep as usize])
+        } else {
+            mesh.positions[keep as usize]
+        };
+        ring.clear();
+        if !may_collapse(mesh, &stars, surface, [keep, gone], edge.is_boundary(), target, &mut ring) {
+            continue;
+        }
+        for &v in &ring {
+            touched[v as usize] = true;
+        }
+        mesh.positions[keep as usize] = target;
+        for &triangle in stars.of(gone) {
+            for v in &mut mesh.triangles[triangle as usize] {
+                if *v == gone {
+                    *v = keep;
+                }
+            }
+        }
+        any = true;
+    }
+    if any {
+        let old = mesh.retain(|&[a, b, c]| a != b && b != c && c != a);
+        *marks = old.iter().map(|&v| marks[v as usize]).collect();
+    }
+    any
+}
+
+/// True where merging the two ends at `target` keeps the mesh manifold, turns no triangle over and makes no long
+/// edge. `ring` receives the two ends and all their neighbours.
+fn may_collapse(
+    mesh: &Mesh,
+    stars: &Stars,
+    surface: &dyn Surface,
+    ends: [u32; 2],
+    boundary: bool,
+    target: DVec3,
+    ring: &mut Vec<u32>,
+) -> bool {
+    let neighbours = |v: u32, into: &mut Vec<u32>| {
+        for &t in stars.of(v) {
+            into.extend(mesh.triangles[t as usize].iter().filter(|&&w| w != v));
+        }
+        into.sort_unstable();
+        into.dedup();
+    };
+    let mut around = Vec::new();
+    neighbours(ends[0], ring);
+    neighbours(ends[1], &mut around);
+    let common = around.iter().filter(|v| ring.binary_search(v).is_ok()).count();
+    if common != if boundary { 1 } else { 2 } {
+        return false;
+    }
+    ring.extend(around);
+    ring.sort_unstable();
+    ring.dedup();
+    if ring.len() < 6 {
+        return false;
+    }
+    for end in ends {
+        for &t in stars.of(end) {
+            let triangle = mesh.triangles[t as usize];
+            if ends.iter().all(|v| triangle.contains(v)) {
+                continue;
+            }
+            let old = mesh.corners(t);
+            let new: [DVec3; 3] = std::array::from_fn(|i| if triangle[i] == end { target } else { old[i] });
+            let (n0, n1) = (normal(old), normal(new));
+            if n0.dot(n1) < 0.5 * n0.length() * n1.length() || n1.length() < 1e-9 {
+                return false;
+            }
+            let too_long = |i: usize| {
+                let (p, q) = (new[i], new[(i + 1) % 3]);
+                p.distance(q) > LONG * surface.edge_length(p.midpoint(q))
+                    && p.distance(q) > old[i].distance(old[(i + 1) % 3])
+            };
+            if (0..3).any(too_long) {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+fn smallest_angle(corners: [DVec3; 3]) -> f64 {
+    let angle = |i: usize| {
+        let (p, q, r) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        (q - p).angle_between(r - p)
+    };
+    angle(0).min(angle(1)).min(angle(2))
+}
+
+/// Flips edges: towards six triangles around each vertex (`regular`), or else towards larger smallest angles.
+fn flip(mesh: &mut Mesh, regular: bool) {
+    let edges = mesh.edges();
+    let boundary = boundary_vertices(&edges, mesh.positions.len());
+    let mut surplus: Vec<i32> = boundary.iter().map(|&b| if b { -4 } else { -6 }).collect();
+    for edge in &edges {
+        for v in edge.vertices {
+            surplus[v as usize] += 1;
+        }
+    }
+    let mut touched = vec![false; mesh.triangles.len()];
+    let mut new_edges = HashSet::new();
+    for edge in &edges {
+        if edge.is_boundary() || edge.triangles.iter().any(|&t| touched[t as usize]) {
+            continue;
+        }
+        let [t0, t1] = edge.triangles;
+        let old = [mesh.triangles[t0 as usize], mesh.triangles[t1 as usize]];
+        let Some(first) = old[0].iter().position(|v| !edge.vertices.contains(v)) else { continue };
+        let Some(&d) = old[1].iter().find(|v| !edge.vertices.contains(v)) else { continue };
+        let [c, a, b] = [0, 1, 2].map(|i| old[0][(first + i) % 3]);
+        let key = [c.min(d), c.max(d)];
+        if c == d || new_edges.contains(&key) || edges.binary_search_by(|other| other.vertices.cmp(&key)).is_ok() {
+            continue;
+        }
+        if surplus[a as usize] <= -2 || surplus[b as usize] <= -2 {
+            continue;
+        }
+        let new = [[c, a, d], [c, d, b]];
+        let corners = |t: [u32; 3]| t.map(|v| mesh.positions[v as usize]);
+        let before = old.map(|t| normal(corners(t)).normalize_or_zero());
+        let after = new.map(|t| normal(corners(t)).normalize_or_zero());
+        let mean = before[0] + before[1];
+        if before[0].dot(before[1]) < 0.3 || after.iter().any(|n| n.dot(mean) < 0.5 * mean.length()) {
+            continue;
+        }
+        let angle = |pair: [[u32; 3]; 2]| pair.map(|t| smallest_angle(corners(t))).into_iter().fold(9.0, f64::min);
+        let (angle_before, angle_after) = (angle(old), angle(new));
+        let square = |v: u32, change: i32| (surplus[v as usize] + change).pow(2);
+        let cost = |change: i32| square(a, -change) + square(b, -change) + square(c, change) + square(d, change);
+        let better = if regular {
+            cost(1) < cost(0) && angle_after > 0.5 * angle_before
+        } else {
+            angle_after > angle_before + 0.01
+        };
+        if !better {
+            continue;
+        }
+        for (v, change) in [(a, -1), (b, -1), (c, 1), (d, 1)] {
+            surplus[v as usize] += change;
+        }
+        new_edges.insert(key);
+        for (t, triangle) in edge.triangles.into_iter().zip(new) {
+            touched[t as usize] = true;
+            mesh.triangles[t as usize] = triangle;
+        }
+    }
+}
+
+/// Moves each vertex towards the middle of its neighbours, along the surface or along its boundary curve.
+fn relax(mesh: &mut Mesh, marks: &[u32], surface: &dyn Surface) {
+    const STEP: f64 = 0.6;
+    let edges = mesh.edges();
+    let boundary = boundary_vertices(&edges, mesh.positions.len());
+    let normals = mesh.normals();
+    let mut sum = vec![DVec3::ZERO; mesh.positions.len()];
+    let mut weight = vec![0.0; mesh.positions.len()];
+    for edge in &edges {
+        for [v, w] in [edge.vertices, [edge.vertices[1], edge.vertices[0]]] {
+            if !boundary[v as usize] || edge.is_boundary() {
+                sum[v as usize] += mesh.positions[w as usize];
+                weight[v as usize] += 1.0;
+            }
+        }
+    }
+    for v in 0..mesh.positions.len() {
+        if rank(boundary[v], marks[v]) == 2 {
+            continue;
+        }
+        let position = mesh.positions[v];
+        let mut step = STEP * (sum[v] / weight[v] - position);
+        if !boundary[v] {
+            step -= normals[v] * step.dot(normals[v]);
+        }
+        mesh.positions[v] = surface.settle(position + step, marks[v]);
+    }
+}

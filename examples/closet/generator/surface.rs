@@ -1,0 +1,77 @@
+//! Meshes of solids: the zero set of a function, cut open by other functions, in regular triangles.
+
+use glam::DVec3;
+
+use super::clip::clip;
+use super::implicit::gradient;
+use super::mesh::Mesh;
+use super::polygonize::polygonize;
+use super::remesh::{Surface, remesh};
+
+/// A function of points in space.
+pub type Function<'a> = Box<dyn Fn(DVec3) -> f64 + Sync + 'a>;
+
+/// What is to be meshed.
+pub struct Design<'a> {
+    /// Negative inside, about the distance near the surface.
+    pub solid: Function<'a>,
+    /// The surface is kept where all of these are negative; they become the boundary curves, at most 32.
+    pub cuts: Vec<Function<'a>>,
+    /// The wanted edge length at a point, in metres.
+    pub edge_length: Function<'a>,
+    /// The corners of a box around the solid.
+    pub bounds: [DVec3; 2],
+    /// Cell of the first, coarse mesh in metres: parts and gaps must be wider.
+    pub cell: f64,
+}
+
+impl Design<'_> {
+    /// Makes the mesh. Of a surface that was cut, only the largest component is kept.
+    pub fn mesh(&self) -> Mesh {
+        let mut mesh = polygonize(&self.solid, self.bounds, self.cell);
+        let mut marks = vec![0; mesh.positions.len()];
+        for (index, cut) in self.cuts.iter().enumerate() {
+            clip(&mut mesh, &mut marks, 1 << index, cut);
+        }
+        if !self.cuts.is_empty() {
+            let (component, count) = mesh.components();
+            let mut sizes = vec![0; count];
+            for &c in &component {
+                sizes[c as usize] += 1;
+            }
+            let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
+            let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
+            marks = old.iter().map(|&v| marks[v as usize]).collect();
+        }
+        remesh(&mut mesh, &mut marks, self, 6);
+        mesh
+    }
+}
+
+impl Surface for Design<'_> {
+    fn edge_length(&self, point: DVec3) -> f64 {
+        (self.edge_length)(point)
+    }
+
+    fn settle(&self, point: DVec3, mark: u32) -> DVec3 {
+        const LARGEST_STEP: f64 = 0.02;
+        let mut point = point;
+        for _ in 0..if mark == 0 { 1 } else { 3 } {
+            let f = (self.solid)(point);
+            let df = gradient(&self.solid, point);
+            let mut step = -f * df / df.length_squared().max(1e-3);
+            if mark.count_ones() == 1 {
+                // The shortest step to where both functions are zero to first order.
+                let cut = &self.cuts[mark.trailing_zeros() as usize];
+                let (g, dg) = (cut(point), gradient(cut, point));
+                let (ff, fg, gg) = (df.length_squared(), df.dot(dg), dg.length_squared());
+                let determinant = ff * gg - fg * fg;
+                if determinant > 1e-3 * ff * gg {
+                    step = ((fg * g - gg * f) * df + (fg * f - ff * g) * dg) / determinant;
+                }
+            }
+            point += step.clamp_length_max(LARGEST_STEP);
+        }
+        point
+    }
+}
