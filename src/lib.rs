@@ -12,9 +12,14 @@
 //! examples and may change at any time.
 
 pub mod contact;
+pub mod control;
 pub mod energy;
 pub mod error;
 pub mod input;
+pub mod options;
+pub mod report;
 pub mod sdf;
+pub mod session;
 pub mod solver;
+pub mod stage;
 pub mod verify;

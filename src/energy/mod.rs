@@ -6,7 +6,11 @@
 //! is positive semidefinite by construction: no eigenvalue is ever computed.
 
 pub mod barrier;
+pub mod curve;
 pub mod fit;
+pub mod inflation;
+pub mod position;
+pub mod surface;
 
 use std::ops::Range;
 

@@ -230,6 +230,24 @@ impl Newton {
         self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()
     }
 
+    /// One step along the path: the response to an advance of t by `dt`, as far as the model admits it. There is no test
+    /// on the objective, which must be free to rise with t. Returns the fraction of `dt` that was taken.
+    ///
+    /// # Errors
+    /// As [`Self::linearise`].
+    pub fn advance(&mut self, model: &mut dyn Model, state: &mut State, dt: f64) -> Result<f64> {
+        self.linearise(&model.terms(), state.configuration(), true)?;
+        let kept = self.aim(dt);
+        let clock = Instant::now();
+        let fraction = model.admit(state.configuration(), &self.dx, kept * dt, 1.0);
+        self.counters.admission += clock.elapsed();
+        for (x, d) in state.x.iter_mut().zip(&self.dx) {
+            *x += fraction * *d;
+        }
+        state.t += fraction * kept * dt;
+        Ok(fraction * kept)
+    }
+
     /// One step of Newton's method at fixed t: linearise, admit, search. `None` where no fraction of the step decreases
     /// the objective: the state is as good as rounding allows, or contact leaves no way.
     ///

@@ -1,0 +1,52 @@
+//! The normalised space in which everything is solved.
+
+use glam::DVec3;
+
+use crate::error::{Error, ErrorKind, Result};
+use crate::input::skeleton::Skeleton;
+
+/// The longest side of a skeleton's bounding box in the normalised space.
+pub const SIDE: f64 = 2.0;
+
+/// A uniform scale about a point: `p -> (p - origin) * scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The point that becomes 0.
+    pub origin: DVec3,
+    /// Normalised units in a unit of the caller.
+    pub scale: f64,
+}
+
+impl Frame {
+    /// The frame in which the mean of the skeleton's joints is 0 and the longest side of their box is [`SIDE`].
+    /// `what` names the skeleton in errors.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton` where all the joints are at one point.
+    pub fn of(skeleton: &Skeleton, what: &str) -> Result<Self> {
+        let (low, high) = skeleton
+            .joints
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let side = (high - low).max_element();
+        let scale = SIDE / side;
+        if !(side > 0.0 && scale.is_finite()) {
+            return Err(Error::new(
+                ErrorKind::InvalidSkeleton,
+                format!("{what}: all joints are at one point; the skeleton gives the body no size"),
+            ));
+        }
+        let origin = skeleton.joints.iter().sum::<DVec3>() / skeleton.joints.len() as f64;
+        Ok(Self { origin, scale })
+    }
+
+    /// A caller's point in the normalised space.
+    pub fn normalise(&self, p: DVec3) -> DVec3 {
+        (p - self.origin) * self.scale
+    }
+
+    /// A normalised point in the caller's space.
+    pub fn restore(&self, p: DVec3) -> DVec3 {
+        p / self.scale + self.origin
+    }
+}

@@ -1,0 +1,8 @@
+//! The three steps of the paper: which energies, which weights, when it is done.
+
+pub mod fit;
+pub mod frame;
+pub mod inflate;
+pub mod initialize;
+pub mod objective;
+pub mod problem;

@@ -1,0 +1,176 @@
+//! The inputs in the normalised space, and all that both steps derive from them once.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::frame::Frame;
+use super::initialize::{ProjectedAvatar, project};
+use super::objective::{Objective, Shape};
+use crate::contact::{Avatar, Bodies, Garment, Surface as ContactSurface};
+use crate::energy::curve::{Curvature, Torsion};
+use crate::energy::fit::Fit;
+use crate::energy::position::Position;
+use crate::energy::surface::Surface;
+use crate::error::{Error, ErrorKind, Result};
+use crate::input::guide::choose_guides;
+use crate::input::mesh::{Topology, TriangleMesh};
+use crate::input::skeleton::Skeleton;
+use crate::input::skin::SkinWeights;
+use crate::options::Options;
+use crate::sdf::Field;
+use crate::verify::intersections;
+
+/// What a caller handed in, in the caller's own spaces.
+pub struct Inputs<'a> {
+    /// The garment, around the source skeleton.
+    pub garment: &'a TriangleMesh,
+    /// The skeleton that the garment was designed on.
+    pub source_skeleton: &'a Skeleton,
+    /// The body to dress.
+    pub avatar: &'a TriangleMesh,
+    /// Its skeleton, bones in the order and direction of the source's.
+    pub target_skeleton: &'a Skeleton,
+    /// Its skin.
+    pub skin: Option<&'a SkinWeights>,
+    /// How much each garment vertex should fit, 1 where not given.
+    pub fit_weights: Option<&'a [f64]>,
+}
+
+/// The problem in the normalised space.
+pub struct Problem {
+    /// From the source's space.
+    pub source_frame: Frame,
+    /// From the target's space.
+    pub target_frame: Frame,
+    /// The garment as designed.
+    pub rest: Vec<DVec3>,
+    /// Its triangles.
+    pub triangles: Vec<[u32; 3]>,
+    /// The avatar at full size, its own vertices and triangles.
+    pub avatar: Arc<TriangleMesh>,
+    /// The avatar between skeleton and full size.
+    pub projected: ProjectedAvatar,
+    /// The shape terms.
+    shape: Arc<Shape>,
+    /// Fit weight of each garment vertex.
+    fit_weights: Vec<f64>,
+    /// Area of each triangle as designed.
+    areas: Vec<f64>,
+}
+
+impl Problem {
+    /// Normalises, projects the avatar, and sets up the shape terms.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton` for a skeleton without size or with a cycle, `NotEnclosed` where the shrunk avatar pokes
+    /// through the garment, `SelfIntersection` where the garment passes through itself.
+    pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
+        let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
+        let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
+        let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
+        let skeleton = |frame: &Frame, s: &Skeleton| Skeleton {
+            joints: normalised(frame, &s.joints),
+            bones: inputs.source_skeleton.bones.clone(),
+        };
+        let source = skeleton(&source_frame, inputs.source_skeleton);
+        let target = skeleton(&target_frame, inputs.target_skeleton);
+        let rest: Vec<DVec3> = normalised(&source_frame, &inputs.garment.positions);
+        let avatar = TriangleMesh {
+            positions: normalised(&target_frame, &inputs.avatar.positions),
+            triangles: inputs.avatar.triangles.clone(),
+        };
+        let projected = project(&avatar, &target, &source, inputs.skin)?;
+        let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
+        check_enclosure(&garment, &projected, &source)?;
+
+        let topology = Topology::new(garment.positions.len(), &garment.triangles);
+        let lengths = topology.mean_edge_lengths(&garment.positions);
+        let mut guides = Vec::new();
+        let mut constraints = Vec::new();
+        for (curve, guide) in
+            topology.loops.iter().zip(choose_guides(&garment.positions, &topology.loops, &source, &target))
+        {
+            if let Some(guide) = guide {
+                constraints.extend(curve.vertices.iter().map(|&v| (v, guides.len() as u32)));
+                guides.push(guide.guide);
+            }
+        }
+        let shape = Shape {
+            surface: Surface::new(&garment.positions, &topology.hinges, options.surface_form),
+            curvature: Curvature::new(&garment.positions, &topology.loops),
+            torsion: Torsion::new(&garment.positions, &topology.loops),
+            position: Position::new(&garment.positions, &constraints, guides, &lengths),
+        };
+        let fit_weights = match inputs.fit_weights {
+            Some(weights) => weights.to_vec(),
+            None => vec![1.0; garment.positions.len()],
+        };
+        let areas = garment.areas();
+        Ok(Self {
+            source_frame,
+            target_frame,
+            rest: garment.positions,
+            triangles: garment.triangles,
+            avatar: Arc::new(avatar),
+            projected,
+            shape: Arc::new(shape),
+            fit_weights,
+            areas,
+        })
+    }
+
+    /// The objective of Step 2: the avatar moves with t.
+    pub fn inflation_objective(&self, options: &Options) -> Objective {
+        let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
+        let avatar = Avatar {
+            surface: ContactSurface::new(self.projected.start.len(), self.projected.triangles.clone()),
+            start: self.projected.start.clone(),
+            motion,
+        };
+        let weights = Options { barrier_weight: options.inflation_barrier_weight, ..options.clone() };
+        Objective::new(self.shape.clone(), None, self.bodies(avatar), options.inflation_dhat, &weights)
+    }
+
+    /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance.
+    pub fn fit_objective(&self, field: Arc<Field>, options: &Options) -> Objective {
+        let positions = &self.avatar.positions;
+        let avatar = Avatar {
+            surface: ContactSurface::new(positions.len(), self.avatar.triangles.clone()),
+            start: positions.clone(),
+            motion: vec![DVec3::ZERO; positions.len()],
+        };
+        let fit = Fit::new(field, &self.triangles, &self.areas, &self.fit_weights);
+        Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), options.dhat, options)
+    }
+
+    fn bodies(&self, avatar: Avatar) -> Arc<Bodies> {
+        let surface = ContactSurface::new(self.rest.len(), self.triangles.clone());
+        Arc::new(Bodies { garment: Garment { surface, rest: self.rest.clone() }, avatar })
+    }
+}
+
+/// The shrunk avatar is a set of segments on the bones; none may touch the garment, or Step 2 cannot begin.
+fn check_enclosure(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skeleton) -> Result<()> {
+    let mut segments = TriangleMesh::default();
+    for (_, ends) in &projected.segments {
+        let first = segments.positions.len() as u32;
+        segments.positions.extend(ends);
+        segments.triangles.push([first, first + 1, first + 1]);
+    }
+    let found = intersections(garment, Some(&segments), 8)?;
+    let Some(&[_, segment]) = found.pairs.first() else { return Ok(()) };
+    let (bone, _) = projected.segments[segment as usize];
+    let [a, b] = source.bones[bone as usize];
+    let named: Vec<String> = found.pairs.iter().map(|p| p[0].to_string()).collect();
+    Err(Error::new(
+        ErrorKind::NotEnclosed,
+        format!(
+            "garment: the avatar, shrunk onto the source skeleton, pokes through garment triangles {} at the bone \
+             between joints {a} and {b} ({} triangles in all); move the garment or the skeleton so that the garment is \
+             around its bones",
+            named.join(", "),
+            found.count
+        ),
+    ))
+}
