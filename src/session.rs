@@ -560,7 +560,7 @@ impl Work {
             }
             Step::Fit(settling) => {
                 let ended = settling.iterations >= options.max_iterations
-                    || settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options.tolerance)?;
+                    || settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
                 (Stage::Fit, ended)
             }
         };
@@ -581,10 +581,9 @@ impl Work {
         let clock = Instant::now();
         let (field, seconds) = self.field.wait(control)?;
         report.field_seconds = seconds;
-        self.objective = self.problem.fit_objective(Arc::new(field), options);
-        self.objective.settle(self.state.configuration());
+        self.objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options);
         self.newton = Newton::new(self.state.x.len(), &self.objective.terms())?;
-        self.step = Step::Fit(Settling::default());
+        self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         report.fit.seconds += clock.elapsed().as_secs_f64();
         report.fit.analyses += 1;
         Ok(())

@@ -35,7 +35,7 @@ pub fn backtrack(
         // The minimum of the parabola through value, slope and this trial, kept within a sensible part of the step.
         let curvature = 2.0 * (there - value - slope * fraction);
         let parabola = if there.is_finite() && curvature > 0.0 { -slope * fraction / curvature } else { 0.5 };
-        fraction *= parabola.clamp(0.1, 0.5);
+        fraction *= parabola.clamp(0.4, 0.6);
     }
     None
 }

@@ -55,6 +55,13 @@ impl Objective {
         self.find_pairs(at, None);
     }
 
+    /// Changes where the barrier towards the avatar begins, and the weight of the barrier as a whole. The pairs must be
+    /// found again by [`Self::settle`].
+    pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
+        self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
+        self.weights.barrier_weight = weight;
+    }
+
     /// The largest fraction of the avatar's motion by `dt` that a resting garment allows.
     pub fn admit_inflation(&mut self, at: Configuration<'_>, dt: f64) -> f64 {
         let still = vec![DVec3::ZERO; at.x.len()];

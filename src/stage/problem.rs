@@ -55,8 +55,6 @@ pub struct Problem {
     shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
     fit_weights: Vec<f64>,
-    /// Area of each triangle as designed.
-    areas: Vec<f64>,
 }
 
 impl Problem {
@@ -106,7 +104,6 @@ impl Problem {
             Some(weights) => weights.to_vec(),
             None => vec![1.0; garment.positions.len()],
         };
-        let areas = garment.areas();
         Ok(Self {
             source_frame,
             target_frame,
@@ -116,7 +113,6 @@ impl Problem {
             projected,
             shape: Arc::new(shape),
             fit_weights,
-            areas,
         })
     }
 
@@ -132,15 +128,18 @@ impl Problem {
         Objective::new(self.shape.clone(), None, self.bodies(avatar), options.inflation_dhat, &weights)
     }
 
-    /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance.
-    pub fn fit_objective(&self, field: Arc<Field>, options: &Options) -> Objective {
+    /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
+    /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the step, `x`, and
+    /// then kept, for a measure that follows the garment would pay for shrinking it.
+    pub fn fit_objective(&self, field: Arc<Field>, x: &[DVec3], options: &Options) -> Objective {
+        let areas = TriangleMesh { positions: x.to_vec(), triangles: self.triangles.clone() }.areas();
         let positions = &self.avatar.positions;
         let avatar = Avatar {
             surface: ContactSurface::new(positions.len(), self.avatar.triangles.clone()),
             start: positions.clone(),
             motion: vec![DVec3::ZERO; positions.len()],
         };
-        let fit = Fit::new(field, &self.triangles, &self.areas, &self.fit_weights);
+        let fit = Fit::new(field, &self.triangles, &areas, &self.fit_weights);
         Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), options.dhat, options)
     }
 
