@@ -95,12 +95,6 @@ impl CandidateSet {
         self.runs(0..self.len()).find(|r| r.kind == kind && r.class == class).map_or(&[], |r| r.pairs)
     }
 
-    /// Kind and class of pair `i`.
-    #[inline]
-    pub fn label(&self, i: usize) -> (Kind, Class) {
-        RUNS[self.ends[..3].partition_point(|&end| end <= i)]
-    }
-
     /// The part of each run that lies in `range`, without empty ones.
     pub fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Run<'_>> {
         (0..4).filter_map(move |run| {

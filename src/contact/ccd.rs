@@ -107,15 +107,18 @@ pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: 
         for i in 0..first_count {
             for j in first_count..4 {
                 let closing = n.dot(v[j] - v[i]);
-                if closing > 0.0 {
-                    let gap = n.dot(x[i] - x[j]) - time * closing - target;
+                let gap = n.dot(x[i] - x[j]) - time * closing - target;
+                if gap < 0.0 {
+                    tau = 0.0;
+                } else if closing > 0.0 {
                     tau = tau.min(gap / closing);
                 }
             }
         }
-        // Rounding may leave nothing to advance by.
         if tau <= 0.0 {
-            return time;
+            // The gap is so small against the primitives that rounding has turned n. The distance itself is still
+            // good, and so is the bound by norms.
+            tau = (distance - target) / speed_bound(kind, &v);
         }
         time += tau;
         if time >= bound {
@@ -123,4 +126,12 @@ pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: 
         }
     }
     time
+}
+
+/// A bound on the relative speed of any two points of the primitives.
+#[cold]
+fn speed_bound(kind: Kind, v: &[DVec3; 4]) -> f64 {
+    let (first, second) = v.split_at(kind.first_count());
+    let fastest = |v: &[DVec3]| v.iter().map(|p| p.length_squared()).fold(0.0, f64::max).sqrt();
+    fastest(first) + fastest(second)
 }

@@ -9,3 +9,4 @@ mod inflation;
 mod patch;
 mod position;
 mod surface;
+mod barrier;

@@ -1,0 +1,170 @@
+use std::collections::BTreeSet;
+
+use bespoke::contact::bvh::Aabb;
+use bespoke::contact::{Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Step, Surface};
+use glam::DVec3;
+
+use crate::scene::{Scene, grid};
+
+/// Everything against everything.
+fn brute(
+    bodies: &Bodies,
+    at: Configuration<'_>,
+    step: Option<&Step<'_>>,
+    margins: [f64; 2],
+) -> [BTreeSet<[u32; 4]>; 4] {
+    let n = bodies.garment_count() as u32;
+    let swept = |i: u32| {
+        let x = bodies.position(i, at);
+        Aabb::around(x, step.map_or(x, |s| x + bodies.velocity(i, s)))
+    };
+    let around = |v: &[u32]| v.iter().fold(Aabb::EMPTY, |b, &i| b.union(swept(i)));
+    let primitives = |surface: &Surface, offset: u32| {
+        let points: BTreeSet<u32> = surface.triangles.iter().flatten().map(|v| v + offset).collect();
+        let faces: Vec<[u32; 3]> = surface
+            .triangles
+            .iter()
+            .filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+            .map(|t| t.map(|v| v + offset))
+            .collect();
+        let edges: Vec<[u32; 2]> = surface.edges.iter().map(|e| e.map(|v| v + offset)).collect();
+        (points, faces, edges)
+    };
+    let garment = primitives(&bodies.garment.surface, 0);
+    let avatar = primitives(&bodies.avatar.surface, n);
+    let close = |a: &[u32], b: &[u32], margin: f64| {
+        !a.iter().any(|v| b.contains(v)) && around(a).inflated(margin).overlaps(&around(b))
+    };
+    let mut out: [BTreeSet<[u32; 4]>; 4] = Default::default();
+    let mut point_triangle = |run: usize, points: &BTreeSet<u32>, faces: &[[u32; 3]]| {
+        for &p in points {
+            for f in faces.iter().filter(|f| close(&[p], *f, margins[run / 2])) {
+                out[run].insert([p, f[0], f[1], f[2]]);
+            }
+        }
+    };
+    point_triangle(0, &garment.0, &garment.1);
+    point_triangle(2, &garment.0, &avatar.1);
+    point_triangle(2, &avatar.0, &garment.1);
+    for (i, e) in garment.2.iter().enumerate() {
+        for f in garment.2[i + 1..].iter().filter(|f| close(e, *f, margins[0])) {
+            out[1].insert([e[0], e[1], f[0], f[1]]);
+        }
+        for f in avatar.2.iter().filter(|f| close(e, *f, margins[1])) {
+            out[3].insert([e[0], e[1], f[0], f[1]]);
+        }
+    }
+    out
+}
+
+/// The pairs of a run with garment edges in ascending order; fails on a pair that occurs twice. A face that is
+/// listed twice in the surface is two faces.
+fn sorted(set: &CandidateSet, kind: Kind, class: Class, faces_differ: bool) -> BTreeSet<[u32; 4]> {
+    let pairs = set.of(kind, class).iter().map(|&[a, b, c, d]| {
+        if kind == Kind::EdgeEdge && class == Class::Garment && [a, b] > [c, d] { [c, d, a, b] } else { [a, b, c, d] }
+    });
+    let unique: BTreeSet<_> = pairs.collect();
+    if faces_differ || kind == Kind::EdgeEdge {
+        assert_eq!(unique.len(), set.of(kind, class).len(), "a pair occurs twice");
+    }
+    unique
+}
+
+fn check(bodies: &Bodies, at: Configuration<'_>, step: Option<&Step<'_>>, margins: [f64; 2], out: &CandidateSet) {
+    let brute = brute(bodies, at, step, margins);
+    let unique_faces = |s: &Surface| s.triangles.iter().collect::<BTreeSet<_>>().len() == s.triangles.len();
+    let differ = unique_faces(&bodies.garment.surface) && unique_faces(&bodies.avatar.surface);
+    let runs = [
+        (Kind::PointTriangle, Class::Garment),
+        (Kind::EdgeEdge, Class::Garment),
+        (Kind::PointTriangle, Class::Avatar),
+        (Kind::EdgeEdge, Class::Avatar),
+    ];
+    for (k, (kind, class)) in runs.into_iter().enumerate() {
+        assert_eq!(sorted(out, kind, class, differ), brute[k], "{kind:?} {class:?}");
+    }
+}
+
+#[test]
+fn broad_phase_equals_brute_force() {
+    let mut pairs = 0;
+    for seed in 0..6 {
+        let scene = Scene::random(seed, 0.1);
+        let mut broad_phase = BroadPhase::new(&scene.bodies);
+        let mut out = CandidateSet::default();
+        for (t, dt) in [(0.0, 0.5), (0.7, -0.3), (1.0, 0.0)] {
+            let at = Configuration { x: &scene.x, t };
+            let step = Step { dx: &scene.dx, dt };
+            for margins in [[0.0, 0.0], [0.01, 0.03]] {
+                for step in [None, Some(&step)] {
+                    broad_phase.candidates(&scene.bodies, at, step, margins[0], margins[1], &mut out);
+                    check(&scene.bodies, at, step, margins, &out);
+                    pairs += out.len();
+                }
+            }
+        }
+    }
+    assert!(pairs > 10_000);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_order() {
+    let scene = Scene::random(11, 0.2);
+    let step = Step { dx: &scene.dx, dt: 0.4 };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut out = CandidateSet::default();
+            let at = Configuration { x: &scene.x, t: 0.2 };
+            BroadPhase::new(&scene.bodies).candidates(&scene.bodies, at, Some(&step), 0.01, 0.02, &mut out);
+            out
+        })
+    };
+    let one = run(1);
+    assert!(one.len() > 1000);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(5));
+}
+
+#[test]
+fn empty_surfaces_and_no_motion() {
+    let (rest, triangles) = grid(3);
+    let empty = Avatar { surface: Surface::new(0, vec![]), start: vec![], motion: vec![] };
+    let bodies =
+        Bodies { garment: Garment { surface: Surface::new(rest.len(), triangles), rest: rest.clone() }, avatar: empty };
+    let mut out = CandidateSet::new(&[[0; 4]], &[], &[], &[]);
+    let at = Configuration { x: &rest, t: 0.0 };
+    BroadPhase::new(&bodies).candidates(&bodies, at, None, 1e-3, 1e-3, &mut out);
+    check(&bodies, at, None, [1e-3; 2], &out);
+    assert!(out.of(Kind::PointTriangle, Class::Avatar).is_empty());
+
+    let (start, triangles) = grid(2);
+    let bodies = Bodies {
+        garment: Garment { surface: Surface::new(2, vec![]), rest: vec![DVec3::ZERO; 2] },
+        avatar: Avatar { surface: Surface::new(start.len(), triangles), motion: vec![DVec3::ZERO; start.len()], start },
+    };
+    let at = Configuration { x: &[DVec3::ZERO; 2], t: 0.0 };
+    BroadPhase::new(&bodies).candidates(&bodies, at, None, 1.0, 1.0, &mut out);
+    assert!(out.is_empty());
+}
+
+#[test]
+fn runs_cover_ranges() {
+    let set = CandidateSet::new(&[[0; 4]; 3], &[], &[[1; 4]; 2], &[[2; 4]; 4]);
+    assert_eq!(set.len(), 9);
+    for start in 0..=9 {
+        for end in start..=9 {
+            let mut next = start;
+            for run in set.runs(start..end) {
+                assert_eq!(run.first, next);
+                for (k, pair) in run.pairs.iter().enumerate() {
+                    assert_eq!(set.pairs()[next + k], *pair);
+                    assert!(set.of(run.kind, run.class).contains(pair));
+                }
+                next += run.pairs.len();
+            }
+            assert_eq!(next, end);
+        }
+    }
+    assert_eq!(set.of(Kind::EdgeEdge, Class::Avatar), [[2; 4]; 4]);
+}

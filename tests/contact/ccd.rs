@@ -1,0 +1,268 @@
+use bespoke::contact::ccd::{max_step, pair_step};
+use bespoke::contact::{Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Step, Surface};
+use glam::DVec3;
+
+use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
+use crate::scene::{Scene, sphere};
+use crate::support::Random;
+
+const FLOOR: f64 = 1e-5;
+
+fn distance(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
+    kind.separation(&std::array::from_fn(|i| x[i] + time * v[i])).squared.sqrt()
+}
+
+/// Samples the motion up to `answer` and asserts that the distance stays at the promised target.
+fn check_safe(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, answer: f64) {
+    let first = distance(kind, x, v, 0.0);
+    let target = floor + 0.1 * (first - floor);
+    for k in 0..=400 {
+        let d = distance(kind, x, v, answer * k as f64 / 400.0);
+        assert!(d >= target - 1e-15 - 1e-9 * (target - floor), "{kind:?} {x:?} {v:?}: {d:e} < {target:e}");
+    }
+}
+
+/// The first sampled time at which the distance is at or below the floor.
+fn time_of_impact(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64) -> Option<f64> {
+    (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= floor)
+}
+
+#[test]
+fn generic_motions_stop_late_but_not_too_late() {
+    let mut random = Random::new(1);
+    let (mut stopped, mut ratios) = (0, Vec::new());
+    for kind in KINDS {
+        for _ in 0..3000 {
+            let x = generic(&mut random);
+            let v: [DVec3; 4] = std::array::from_fn(|_| 3.0 * SIZE * random.vector());
+            let first = distance(kind, &x, &v, 0.0);
+            if first <= FLOOR {
+                continue;
+            }
+            let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
+            check_safe(kind, &x, &v, FLOOR, answer);
+            if answer < 1.0 {
+                // It stops only where the target is all but reached.
+                let left = distance(kind, &x, &v, answer) - (FLOOR + 0.1 * (first - FLOOR));
+                assert!(left <= 0.02 * (first - FLOOR), "{kind:?} {x:?} {v:?}: {left:e}");
+                stopped += 1;
+            }
+            // Every hit is sampled within this width; the target is farther out.
+            if first > 4e-3
+                && let Some(impact) = time_of_impact(kind, &x, &v, 2e-4)
+            {
+                assert!(answer < impact);
+                ratios.push(answer / impact);
+            }
+        }
+    }
+    assert!(stopped > 300 && ratios.len() > 100, "{stopped} {}", ratios.len());
+    // A pair that comes close and then takes its time to hit is stopped early: the gap it keeps is a tenth.
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[ratios.len() / 100] > 0.5 && ratios[ratios.len() / 2] > 0.85, "{ratios:?}");
+}
+
+#[test]
+fn head_on_motion_reaches_nine_tenths() {
+    let mut random = Random::new(2);
+    for kind in KINDS {
+        for gap in [1e-2, 1e-3, 1e-4, 1e-6] {
+            for _ in 0..200 {
+                let x = interior(kind, gap + FLOOR, &mut random);
+                let first = kind.separation(&x);
+                let direction = first.vector.normalize();
+                // The first primitive goes straight through the second, with all the rest along for the ride.
+                let ride = 10.0 * random.vector();
+                let count = kind.first_count();
+                let v = std::array::from_fn(|i| if i < count { ride - 2.0 * gap * direction } else { ride });
+                let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
+                // The large common motion costs a few digits of the small relative one.
+                assert!((answer - 0.45).abs() < 1e-3 + 1e-14 / gap, "{kind:?} {gap:e} {answer}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hard_motions_are_safe() {
+    let mut random = Random::new(3);
+    let mut stopped = 0;
+    for kind in KINDS {
+        for form in 0..FORMS {
+            for k in 0..300 {
+                let x = nasty(form, &mut random);
+                let speed = 10f64.powi(-(k % 5));
+                let mut v: [DVec3; 4] = std::array::from_fn(|_| speed * SIZE * random.vector());
+                if k % 3 == 0 {
+                    // Both primitives in translation: what is parallel stays parallel.
+                    let (a, b) = (v[0], v[3]);
+                    v = std::array::from_fn(|i| if i < kind.first_count() { a } else { b });
+                }
+                let separation = kind.separation(&x);
+                if separation.squared.sqrt() <= FLOOR {
+                    continue;
+                }
+                if k % 2 == 0 {
+                    // On top of that, straight at each other.
+                    for p in &mut v[..kind.first_count()] {
+                        *p -= 1.5 * separation.vector;
+                    }
+                }
+                let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
+                assert!(answer > 0.0 && answer <= 1.0);
+                check_safe(kind, &x, &v, FLOOR, answer);
+                stopped += usize::from(answer < 1.0);
+            }
+        }
+    }
+    assert!(stopped > 1000, "{stopped}");
+}
+
+#[test]
+fn tiny_gaps_are_kept() {
+    let mut random = Random::new(4);
+    for kind in KINDS {
+        for floor in [0.0, FLOOR] {
+            for k in 0..1000 {
+                let gap = 10f64.powi(-3 - k % 7);
+                let x = interior(kind, floor + gap, &mut random);
+                let v: [DVec3; 4] = std::array::from_fn(|_| 10f64.powi(-(k % 4)) * SIZE * random.vector());
+                let answer = pair_step(kind, &x, &v, floor, 1.0);
+                assert!(answer > 0.0, "{kind:?} {gap:e}");
+                for k in 0..=1000 {
+                    let d = distance(kind, &x, &v, answer * k as f64 / 1000.0);
+                    assert!(d > floor + 0.09 * gap - 1e-15, "{kind:?} {gap:e} {d:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn sliding_past_each_other_costs_nothing() {
+    // Grazing at a millionth above the floor, over the whole size of the primitives.
+    let gap = FLOOR + 1e-6;
+    let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * SIZE;
+    let lift = DVec3::Z * gap;
+    let cases = [
+        (Kind::PointTriangle, [p(0.1, 0.1, 0.0) + lift, p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)]),
+        (Kind::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(0., -1., 0.), p(0., 1., 0.)]),
+        (Kind::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(-1., 0., 0.), p(1., 0., 0.)]),
+    ];
+    for (kind, x) in cases {
+        let slide = p(0.4, 0.3, 0.0);
+        let v = std::array::from_fn(|i| if i < kind.first_count() { slide } else { DVec3::ZERO });
+        assert_eq!(pair_step(kind, &x, &v, FLOOR, 1.0), 1.0);
+        // Everything as one: no relative motion, however large.
+        assert_eq!(pair_step(kind, &x, &[100.0 * slide; 4], FLOOR, 1.0), 1.0);
+    }
+}
+
+#[test]
+fn pairs_below_the_floor_may_only_part() {
+    let mut random = Random::new(5);
+    for kind in KINDS {
+        for _ in 0..300 {
+            let x = interior(kind, 0.5 * FLOOR, &mut random);
+            let direction = kind.separation(&x).vector.normalize();
+            let toward = |s: f64| -> [DVec3; 4] {
+                std::array::from_fn(|i| if i < kind.first_count() { s * direction } else { DVec3::ZERO })
+            };
+            assert_eq!(pair_step(kind, &x, &toward(-1e-3), FLOOR, 1.0), 0.0);
+            assert_eq!(pair_step(kind, &x, &toward(1e-3), FLOOR, 1.0), 1.0);
+            assert_eq!(pair_step(kind, &x, &[DVec3::ZERO; 4], FLOOR, 1.0), 1.0);
+        }
+        let touching = match kind {
+            Kind::PointTriangle => [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ZERO],
+            Kind::EdgeEdge => [-DVec3::X, DVec3::X, -DVec3::Y, DVec3::Y],
+        };
+        assert_eq!(kind.separation(&touching).squared, 0.0);
+        assert_eq!(pair_step(kind, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], FLOOR, 1.0), 0.0);
+        assert_eq!(pair_step(kind, &touching, &[DVec3::ZERO; 4], FLOOR, 1.0), 1.0);
+    }
+}
+
+/// The smallest distance over all candidates at a time of the step.
+fn smallest(scene: &Scene, set: &CandidateSet, at: Configuration<'_>, step: &Step<'_>, time: f64) -> f64 {
+    let distances = set.runs(0..set.len()).flat_map(|run| {
+        run.pairs.iter().map(move |&pair| {
+            let (x, v) = (scene.bodies.positions(pair, at), scene.bodies.velocities(pair, step));
+            distance(run.kind, &x, &v, time)
+        })
+    });
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
+    let mut cut = 0;
+    for seed in 0..8 {
+        let scene = Scene::random(seed, 0.2);
+        let at = Configuration { x: &scene.x, t: 0.3 };
+        let step = Step { dx: &scene.dx, dt: 0.5 };
+        let mut all = CandidateSet::default();
+        BroadPhase::new(&scene.bodies).candidates(&scene.bodies, at, Some(&step), 0.01, 0.01, &mut all);
+        // The soup crosses itself; keep what is apart.
+        let apart = |kind: Kind, class: Class| -> Vec<[u32; 4]> {
+            let far = |pair: &&[u32; 4]| kind.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
+            all.of(kind, class).iter().filter(far).copied().collect()
+        };
+        let set = CandidateSet::new(
+            &apart(Kind::PointTriangle, Class::Garment),
+            &apart(Kind::EdgeEdge, Class::Garment),
+            &apart(Kind::PointTriangle, Class::Avatar),
+            &apart(Kind::EdgeEdge, Class::Avatar),
+        );
+        assert!(set.len() > 1000);
+        let mut least = 1.0_f64;
+        for run in set.runs(0..set.len()) {
+            for &pair in run.pairs {
+                let (x, v) = (scene.bodies.positions(pair, at), scene.bodies.velocities(pair, &step));
+                least = least.min(pair_step(run.kind, &x, &v, FLOOR, 1.0));
+            }
+        }
+        for threads in [1, 2, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            for _ in 0..5 {
+                let answer = pool.install(|| max_step(&scene.bodies, &set, at, &step, FLOOR, 1.0));
+                assert_eq!(answer.to_bits(), least.to_bits());
+            }
+        }
+        assert_eq!(max_step(&scene.bodies, &set, at, &step, FLOOR, 0.5 * least), 0.5 * least);
+        cut += usize::from(least < 1.0);
+        for k in 0..=50 {
+            assert!(smallest(&scene, &set, at, &step, least * k as f64 / 50.0) > FLOOR);
+        }
+    }
+    assert!(cut >= 6);
+    let scene = Scene::random(0, 0.1);
+    let at = Configuration { x: &scene.x, t: 0.0 };
+    let step = Step { dx: &scene.dx, dt: 0.0 };
+    assert_eq!(max_step(&scene.bodies, &CandidateSet::default(), at, &step, FLOOR, 0.7), 0.7);
+}
+
+#[test]
+fn inflating_sphere_stops_inside_the_shell() {
+    let (unit, triangles) = sphere(24);
+    let shell: Vec<DVec3> = unit.iter().map(|p| 0.5 * *p).collect();
+    let count = unit.len();
+    let bodies = Bodies {
+        garment: Garment { surface: Surface::new(count, triangles.clone()), rest: shell.clone() },
+        avatar: Avatar {
+            surface: Surface::new(count, triangles),
+            start: unit.iter().map(|p| 0.1 * *p).collect(),
+            motion: unit,
+        },
+    };
+    let still = vec![DVec3::ZERO; count];
+    let at = Configuration { x: &shell, t: 0.0 };
+    let step = Step { dx: &still, dt: 1.0 };
+    let mut out = CandidateSet::default();
+    let mut broad_phase = BroadPhase::new(&bodies);
+    broad_phase.candidates(&bodies, at, Some(&step), 1e-3, 1e-3, &mut out);
+    let answer = max_step(&bodies, &out, at, &step, FLOOR, 1.0);
+    // The vertices of both meet at 0.4; a tenth of the gap is kept.
+    assert!(answer > 0.35 && answer < 0.4, "{answer}");
+    broad_phase.candidates(&bodies, Configuration { x: &shell, t: answer }, None, 1e-3, 0.1, &mut out);
+    assert!(out.len() > count);
+}

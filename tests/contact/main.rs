@@ -1,0 +1,12 @@
+//! Contact against brute force.
+
+mod bvh;
+mod candidates;
+mod ccd;
+mod distance;
+mod mollifier;
+mod pairs;
+mod scene;
+#[path = "../support/mod.rs"]
+mod support;
+mod surface;

@@ -1,0 +1,347 @@
+use std::ops::Range;
+use std::sync::Arc;
+
+use bespoke::contact::distance::Separation;
+use bespoke::contact::{Avatar, Bodies, CandidateSet, Garment, Kind, Surface, mollifier};
+use bespoke::energy::barrier::{Barrier, BarrierSettings};
+use bespoke::energy::{Configuration, Direction, Energy, Sink};
+use glam::DVec3;
+
+use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
+use crate::support::Random;
+
+const SIZE: f64 = 0.03;
+const T: f64 = 0.6;
+const SETTINGS: BarrierSettings =
+    BarrierSettings { dhat_self: 0.004, dhat_avatar: 0.008, floor: 1e-5, avatar_weight: 0.3 };
+
+/// Who owns the two primitives of a pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sides {
+    Garment,
+    GarmentThenAvatar,
+    AvatarThenGarment,
+}
+
+/// One pair as a barrier of its own: four vertices, of which the garment's come first in the numbering.
+struct Case {
+    barrier: Barrier,
+    x: Vec<DVec3>,
+    pair: [u32; 4],
+    kind: Kind,
+    garment_class: bool,
+}
+
+impl Case {
+    /// The pair at `positions` when t = T, with the rest shape `rest` for its vertices.
+    fn new(kind: Kind, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
+        let first = kind.first_count();
+        let on_garment = |i: usize| match sides {
+            Sides::Garment => true,
+            Sides::GarmentThenAvatar => i < first,
+            Sides::AvatarThenGarment => i >= first,
+        };
+        let own: Vec<usize> = (0..4).filter(|&i| on_garment(i)).collect();
+        let theirs: Vec<usize> = (0..4).filter(|&i| !on_garment(i)).collect();
+        let place = |i: usize| match own.iter().position(|&k| k == i) {
+            Some(k) => k as u32,
+            None => (own.len() + theirs.iter().position(|&k| k == i).unwrap_or(0)) as u32,
+        };
+        let pair = [0, 1, 2, 3].map(place);
+        // The avatar's rest is where it is at t = 1, so its motion from T to 1 is given by both.
+        let motion: Vec<DVec3> = theirs.iter().map(|&i| (rest[i] - positions[i]) / (1.0 - T)).collect();
+        let start = theirs.iter().zip(&motion).map(|(&i, m)| positions[i] - T * *m).collect();
+        let bodies = Bodies {
+            garment: Garment { surface: Surface::new(own.len(), vec![]), rest: own.iter().map(|&i| rest[i]).collect() },
+            avatar: Avatar { surface: Surface::new(theirs.len(), vec![]), start, motion },
+        };
+        let mut barrier = Barrier::new(Arc::new(bodies), SETTINGS);
+        let one = [pair];
+        let (none, garment) = (&[][..], sides == Sides::Garment);
+        *barrier.candidates_mut() = match (kind, garment) {
+            (Kind::PointTriangle, true) => CandidateSet::new(&one, none, none, none),
+            (Kind::EdgeEdge, true) => CandidateSet::new(none, &one, none, none),
+            (Kind::PointTriangle, false) => CandidateSet::new(none, none, &one, none),
+            (Kind::EdgeEdge, false) => CandidateSet::new(none, none, none, &one),
+        };
+        let x = own.iter().map(|&i| positions[i]).collect();
+        Self { barrier, x, pair, kind, garment_class: garment }
+    }
+
+    fn at(&self) -> Configuration<'_> {
+        Configuration { x: &self.x, t: T }
+    }
+
+    fn positions(&self) -> [DVec3; 4] {
+        self.barrier.bodies().positions(self.pair, self.at())
+    }
+
+    fn dhat(&self) -> f64 {
+        if self.garment_class { SETTINGS.dhat_self } else { SETTINGS.dhat_avatar }
+    }
+
+    fn weight(&self) -> f64 {
+        if self.garment_class { 1.0 } else { SETTINGS.avatar_weight }
+    }
+}
+
+/// Moves the first primitive so that the pair is at `distance`.
+fn placed(kind: Kind, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
+    let r = kind.separation(&x).vector;
+    for p in &mut x[..kind.first_count()] {
+        *p += (distance / r.length() - 1.0) * r;
+    }
+    x
+}
+
+/// All kinds and sides, at a distance between floor and d-hat given by `fraction`; nearly parallel edges on request.
+fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &mut Random)) {
+    let mut random = Random::new(seed);
+    for kind in [Kind::PointTriangle, Kind::EdgeEdge] {
+        if parallel && kind == Kind::PointTriangle {
+            continue;
+        }
+        for sides in [Sides::Garment, Sides::GarmentThenAvatar, Sides::AvatarThenGarment] {
+            if kind == Kind::EdgeEdge && sides == Sides::AvatarThenGarment {
+                continue;
+            }
+            for _ in 0..30 {
+                let dhat = if sides == Sides::Garment { SETTINGS.dhat_self } else { SETTINGS.dhat_avatar };
+                let mut x: [DVec3; 4] = std::array::from_fn(|_| SIZE * random.vector());
+                if parallel {
+                    x[3] = x[2] + 0.8 * (x[1] - x[0]) + 0.008 * SIZE * random.vector();
+                }
+                let x = placed(kind, x, SETTINGS.floor + fraction * (dhat - SETTINGS.floor));
+                let rest = x.map(|p| p + 0.2 * SIZE * random.vector());
+                let case = Case::new(kind, sides, x, rest);
+                each(case, &mut random);
+            }
+        }
+    }
+}
+
+#[test]
+fn gradient_is_exact() {
+    for (seed, fraction) in [(1, 0.3), (2, 0.6), (3, 0.95)] {
+        cases(seed, fraction, false, |case, _| {
+            assert!(case.barrier.value(case.at(), 0..1) > 0.0);
+            check_gradient(&case.barrier, &case.x, T, 1e-7, 1e-5);
+        });
+    }
+}
+
+#[test]
+fn gradient_is_exact_where_edges_are_nearly_parallel() {
+    let mut mollified = 0;
+    cases(4, 0.4, true, |case, _| {
+        let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
+        let m = mollifier::value(&case.positions(), mollifier::threshold(&rest));
+        mollified += usize::from(m < 0.9);
+        check_gradient(&case.barrier, &case.x, T, 1e-8, 1e-4);
+    });
+    assert!(mollified > 20, "{mollified}");
+}
+
+#[test]
+fn gradient_is_exact_near_the_floor() {
+    for fraction in [1e-3, 1e-4] {
+        cases(5, fraction, false, |case, _| {
+            check_gradient(&case.barrier, &case.x, T, 1e-9, 1e-4);
+        });
+    }
+}
+
+/// The barrier of one pair with its weights, normal and mollifier frozen: a function of one linear form.
+struct Frozen<'a> {
+    case: &'a Case,
+    separation: Separation,
+    m: f64,
+}
+
+impl Frozen<'_> {
+    fn barrier(&self, d: f64) -> f64 {
+        let (d, f, hat) = (d * d, SETTINGS.floor.powi(2), self.case.dhat().powi(2));
+        -self.m * (d - hat).powi(2) * ((d - f) / (hat - f)).ln()
+    }
+
+    /// First and second derivative, by differences that shrink towards the floor.
+    fn slopes(&self, d: f64) -> (f64, f64) {
+        let h = 1e-3 * (d - SETTINGS.floor);
+        let b = |k: f64| self.barrier(d + k * h);
+        let first = (8.0 * (b(1.0) - b(-1.0)) - (b(2.0) - b(-2.0))) / (12.0 * h);
+        let second = (16.0 * (b(1.0) + b(-1.0)) - (b(2.0) + b(-2.0)) - 30.0 * b(0.0)) / (12.0 * h * h);
+        (first, second)
+    }
+
+    fn normal(&self) -> DVec3 {
+        self.separation.vector.normalize()
+    }
+
+    fn distance(&self, at: Configuration<'_>) -> f64 {
+        let x = self.case.barrier.bodies().positions(self.case.pair, at);
+        (0..4).map(|i| self.separation.weights[i] * self.normal().dot(x[i])).sum()
+    }
+}
+
+impl Energy for Frozen<'_> {
+    fn name(&self) -> &'static str {
+        "frozen barrier"
+    }
+
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn value(&self, at: Configuration<'_>, _: Range<usize>) -> f64 {
+        self.case.weight() * self.barrier(self.distance(at))
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, _: Range<usize>, sink: &mut dyn Sink) {
+        let (g, h) = self.slopes(self.distance(at));
+        let bodies = self.case.barrier.bodies();
+        let (mut vertices, mut components, mut t) = (vec![], vec![], 0.0);
+        for (&i, w) in self.case.pair.iter().zip(self.separation.weights) {
+            match (i as usize).checked_sub(bodies.garment_count()) {
+                Some(k) => t += w * self.normal().dot(bodies.avatar.motion[k]),
+                None => {
+                    vertices.push(i);
+                    components.push(w * self.normal());
+                }
+            }
+        }
+        let a = Direction { vertices: &vertices, components: &components, t };
+        sink.rank_one(a, self.case.weight() * g, self.case.weight() * h);
+    }
+
+    fn stencils(&self, _: &mut dyn FnMut(&[u32])) {}
+}
+
+#[test]
+fn hessian_is_that_of_the_frozen_pair() {
+    for (seed, fraction, parallel) in [(6, 0.1, false), (7, 0.5, false), (8, 0.9, false), (9, 0.3, true)] {
+        cases(seed, fraction, parallel, |case, random| {
+            let x = case.positions();
+            let m = match case.kind {
+                Kind::PointTriangle => 1.0,
+                Kind::EdgeEdge => {
+                    let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
+                    mollifier::value(&x, mollifier::threshold(&rest))
+                }
+            };
+            let frozen = Frozen { case: &case, separation: case.kind.separation(&x), m };
+            // The model is right by itself, and ours is the model.
+            check_hessian(&frozen, &case.x, T, 1e-6, 1e-4);
+            let (ours, model) = (dense(&case.barrier, &case.x, T).hessian, dense(&frozen, &case.x, T).hessian);
+            let scale = model.iter().flatten().fold(0.0_f64, |s, v| s.max(v.abs()));
+            for (a, b) in ours.iter().flatten().zip(model.iter().flatten()) {
+                assert!((a - b).abs() <= 1e-5 * scale, "{a:e} {b:e} {scale:e}");
+            }
+            check_semidefinite(&case.barrier, &case.x, T, &mut || random.signed());
+        });
+    }
+}
+
+#[test]
+fn vertices_without_weight_are_left_out() {
+    struct Count(Vec<usize>);
+    impl Sink for Count {
+        fn rank_one(&mut self, a: Direction<'_>, _: f64, _: f64) {
+            self.0.push(a.vertices.len());
+        }
+        fn gradient(&mut self, _: u32, _: DVec3) {}
+        fn block(&mut self, _: &[u32], _: &[f64]) {}
+    }
+    let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
+    // The point is closest to a corner, to an edge, to the face.
+    for (point, count) in [(p(-0.05, -0.05, 0.0), 2), (p(0.5, -0.05, 0.0), 3), (p(0.2, 0.2, 0.05), 4)] {
+        let x = [point, p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)];
+        let case = Case::new(Kind::PointTriangle, Sides::Garment, x, x);
+        let mut sink = Count(vec![]);
+        case.barrier.derivatives(case.at(), 0..1, &mut sink);
+        assert_eq!(sink.0, [count]);
+    }
+}
+
+#[test]
+fn value_is_infinite_at_the_floor_and_zero_beyond_dhat() {
+    for (parallel, seed) in [(false, 10), (true, 11)] {
+        cases(seed, -0.0005, parallel, |case, _| {
+            assert!(case.kind.separation(&case.positions()).squared.sqrt() < SETTINGS.floor);
+            assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
+        });
+        cases(seed, 1.01, parallel, |mut case, _| {
+            assert_eq!(case.barrier.value(case.at(), 0..1), 0.0);
+            let x = case.x.clone();
+            let activity = case.barrier.refresh(Configuration { x: &x, t: T });
+            assert_eq!((activity.count, activity.min_distance_self), (0, f64::INFINITY));
+        });
+    }
+}
+
+#[test]
+fn two_edges_exactly_parallel_at_the_floor_are_still_refused() {
+    let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
+    let lift = DVec3::Z * 0.5 * SETTINGS.floor;
+    let x = [p(0., 0., 0.) + lift, p(1., 0., 0.) + lift, p(-1., 0., 0.), p(2., 0., 0.)];
+    let case = Case::new(Kind::EdgeEdge, Sides::Garment, x, x);
+    assert_eq!(mollifier::value(&x, mollifier::threshold(&x)), 0.0);
+    assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
+}
+
+#[test]
+fn pattern_and_statistics_follow_refresh_and_ranges_add_up() {
+    // 2000 points over one garment triangle and one avatar triangle, some active.
+    let mut random = Random::new(12);
+    let corner = [DVec3::ZERO, SIZE * DVec3::X, SIZE * DVec3::Y];
+    let mut x: Vec<DVec3> = corner.to_vec();
+    x.extend(
+        (0..2000).map(|_| SIZE * DVec3::new(0.5 * random.unit(), 0.5 * random.unit(), 0.05 + 0.4 * random.unit())),
+    );
+    let avatar = Avatar {
+        surface: Surface::new(3, vec![[0, 1, 2]]),
+        start: corner.to_vec(),
+        motion: vec![0.5 * SIZE * DVec3::Z; 3],
+    };
+    let n = x.len() as u32;
+    let bodies =
+        Bodies { garment: Garment { surface: Surface::new(x.len(), vec![[0, 1, 2]]), rest: x.clone() }, avatar };
+    let own: Vec<[u32; 4]> = (3..n).map(|p| [p, 0, 1, 2]).collect();
+    let theirs: Vec<[u32; 4]> = (3..n).map(|p| [p, n, n + 1, n + 2]).collect();
+    let mut barrier = Barrier::new(Arc::new(bodies), SETTINGS);
+    *barrier.candidates_mut() = CandidateSet::new(&own, &[], &theirs, &[]);
+    let at = Configuration { x: &x, t: 1.0 };
+    let pattern = |barrier: &Barrier| {
+        let mut cliques = Vec::new();
+        barrier.stencils(&mut |v| cliques.push(v.to_vec()));
+        cliques
+    };
+    assert!(pattern(&barrier).is_empty());
+
+    let height = |p: &DVec3, z: f64| (p.z - z).abs();
+    let avatar_z = 0.5 * SIZE;
+    let close_own: Vec<u32> = (3..n).filter(|&i| height(&x[i as usize], 0.0) < SETTINGS.dhat_self).collect();
+    let close_theirs: Vec<u32> = (3..n).filter(|&i| height(&x[i as usize], avatar_z) < SETTINGS.dhat_avatar).collect();
+    assert!(close_own.len() > 50 && close_theirs.len() > 50 && close_theirs.len() < 1900);
+    let activity = barrier.refresh(at);
+    assert_eq!(activity, barrier.activity(at));
+    assert_eq!(activity.count, close_own.len() + close_theirs.len());
+    let least = |z: f64| x[3..].iter().map(|p| height(p, z)).fold(f64::INFINITY, f64::min);
+    assert!((activity.min_distance_self - least(0.0)).abs() < 1e-15);
+    assert!((activity.min_distance_avatar - least(avatar_z)).abs() < 1e-15);
+    let mut expected: Vec<Vec<u32>> = close_own.iter().map(|&p| vec![p, 0, 1, 2]).collect();
+    expected.extend(close_theirs.iter().map(|&p| vec![p]));
+    assert_eq!(pattern(&barrier), expected);
+
+    let whole = barrier.value(at, 0..barrier.len());
+    let parts: f64 = (0..barrier.len()).map(|i| barrier.value(at, i..i + 1)).sum();
+    assert!(whole > 0.0 && (whole - parts).abs() < 1e-12 * whole);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| barrier.activity(at)), activity);
+    }
+
+    // A wider barrier forgets the pattern until it is refreshed.
+    barrier.set_settings(BarrierSettings { dhat_avatar: 0.1, ..SETTINGS });
+    assert!(pattern(&barrier).is_empty());
+    assert!(barrier.refresh(at).count > activity.count);
+}
