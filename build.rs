@@ -16,6 +16,8 @@ fn main() {
     let mut build = cc::Build::new();
     // The voxeliser is two orders slower without optimisation, so the profile does not decide.
     build.cpp(true).std("c++17").opt_level(2).warnings(true).extra_warnings(true);
+    // Half floats are only named by the headers, never used: no need to link Imath for its table.
+    build.define("IMATH_HALF_NO_LOOKUP_TABLE", None);
     if let Some(root) = &root {
         build.include(root.join("include"));
     }

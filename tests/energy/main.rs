@@ -1,3 +1,7 @@
 //! Every derivative against finite differences.
 
+#[path = "../support/mod.rs"]
+mod support;
+
+mod fit;
 mod harness;
