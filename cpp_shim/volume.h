@@ -29,11 +29,11 @@ typedef struct BespokeVolume BespokeVolume;
 // Returns non-zero to stop. Called from several threads at once; must not throw.
 typedef int (*BespokeVolumeCancelled)(const void* context);
 
-// Builds a volume from `point_count` points (x, y, z each) and `triangle_count` index triples.
+// Builds a volume from `point_count` points (x, y, z each; single precision is plenty to tell the side) and `triangle_count` index triples.
 // Distances are kept up to `outside_band` and `inside_band` voxels from the surface, the side everywhere.
 // At most `threads` threads work (at least one). On failure `*volume` is null, and `message` (of
 // `message_capacity` bytes, may be null with 0) holds a terminated sentence. Nothing is ever thrown.
-int bespoke_volume_build(const double* points, size_t point_count, const uint32_t* triangles,
+int bespoke_volume_build(const float* points, size_t point_count, const uint32_t* triangles,
                          size_t triangle_count, float outside_band, float inside_band, uint32_t threads,
                          BespokeVolumeCancelled cancelled, const void* context, BespokeVolume** volume,
                          char* message, size_t message_capacity);

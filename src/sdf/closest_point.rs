@@ -87,9 +87,10 @@ impl ClosestPoint {
         self.search(p, None).map_or(0, |(_, slot)| slot as u32)
     }
 
-    /// The same as [`Self::distance`], sooner where the triangle at `hint` is close.
-    pub(super) fn distance_hinted(&self, p: DVec3, hint: u32) -> f64 {
-        self.search(p, Some(hint as usize)).map_or(f64::INFINITY, |(squared, _)| squared.sqrt())
+    /// The same as [`Self::distance`] to the last bit, sooner where the triangle at `hint` is close; and the hint
+    /// for the next query nearby.
+    pub(super) fn distance_hinted(&self, p: DVec3, hint: u32) -> (f64, u32) {
+        self.search(p, Some(hint as usize)).map_or((f64::INFINITY, 0), |(squared, slot)| (squared.sqrt(), slot as u32))
     }
 
     /// Squared distance and place of the closest triangle.
@@ -195,25 +196,28 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
     let normal = ab.cross(ac);
     let area = normal.length_squared();
     let length = ab.length_squared().max(ac.length_squared());
-    if area > SLIVER * length * length {
-        // Barycentric coordinates of the projection onto the plane.
-        let v = ap.cross(ac).dot(normal) / area;
-        let w = ab.cross(ap).dot(normal) / area;
-        if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
-            return a + v * ab + w * ac;
+    let sliver = area <= SLIVER * length * length;
+    // Barycentric coordinates of b and c, times the area squared, of the projection onto the plane.
+    let v = ap.cross(ac).dot(normal);
+    let w = ab.cross(ap).dot(normal);
+    let u = area - v - w;
+    if !sliver && v >= 0.0 && w >= 0.0 && u >= 0.0 {
+        let scale = area.recip();
+        return a + (v * scale) * ab + (w * scale) * ac;
+    }
+    // Outside, the closest point is on an edge that the projection lies beyond.
+    let mut best = a;
+    let mut best_squared = f64::INFINITY;
+    for (beyond, start, edge) in [(w, a, ab), (v, a, ac), (u, b, c - b)] {
+        if sliver || beyond < 0.0 {
+            let on_edge = closest_on_segment(p, start, edge);
+            let squared = on_edge.distance_squared(p);
+            if squared < best_squared {
+                (best, best_squared) = (on_edge, squared);
+            }
         }
     }
-    let on_ab = closest_on_segment(p, a, ab);
-    let on_ac = closest_on_segment(p, a, ac);
-    let on_bc = closest_on_segment(p, b, c - b);
-    let (d_ab, d_ac, d_bc) = (on_ab.distance_squared(p), on_ac.distance_squared(p), on_bc.distance_squared(p));
-    if d_ab <= d_ac && d_ab <= d_bc {
-        on_ab
-    } else if d_ac <= d_bc {
-        on_ac
-    } else {
-        on_bc
-    }
+    best
 }
 
 /// The point of the segment from `a` along `edge` closest to `p`.

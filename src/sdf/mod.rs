@@ -99,7 +99,8 @@ impl Field {
         }
         let (low, high) = used_bounds(mesh)?;
         let (origin, extent) = layout(low, high, voxel)?;
-        let points: Vec<[f64; 3]> = mesh.positions.iter().map(|&p| ((p - origin) / voxel).to_array()).collect();
+        let points: Vec<[f32; 3]> =
+            mesh.positions.iter().map(|&p| ((p - origin) / voxel).as_vec3().to_array()).collect();
         let volume = Volume::build(&points, &mesh.triangles, [BAND; 2], options.threads, cancel)?;
         let mut blocks = Vec::new();
         blocks.resize_with(extent.iter().product(), OnceLock::new);
@@ -193,6 +194,8 @@ impl Field {
     #[cold]
     fn complete(&self, base: [usize; 3], blocks: &[[[&Block; 2]; 2]; 2], out: &mut Coefficients) {
         let inner = base.map(|b| b % BLOCK);
+        // The neighbour's triangle is the best hint; a hint changes how long the search takes, not its result.
+        let mut hint = None;
         for (n, value) in out.iter_mut().enumerate() {
             if !value.is_nan() {
                 continue;
@@ -201,7 +204,9 @@ impl Field {
             let [x, y, z] = [0, 1, 2].map(|a| inner[a] + step[a]);
             let block = blocks[(x / BLOCK) & 1][(y / BLOCK) & 1][(z / BLOCK) & 1];
             let node = self.node([0, 1, 2].map(|a| (base[a] + step[a]) as f64));
-            *value = self.tree.distance_hinted(node, block.hint).copysign(*value);
+            let (distance, triangle) = self.tree.distance_hinted(node, hint.unwrap_or(block.hint));
+            hint = Some(triangle);
+            *value = distance.copysign(*value);
             block.nodes[offset(x, y, z)].store(value.to_bits(), Ordering::Relaxed);
         }
     }

@@ -23,7 +23,7 @@ struct Opaque {
 
 unsafe extern "C" {
     fn bespoke_volume_build(
-        points: *const f64,
+        points: *const f32,
         point_count: usize,
         triangles: *const u32,
         triangle_count: usize,
@@ -62,7 +62,7 @@ impl Volume {
     /// voxels, at least 1), with at most `threads` threads. Stops with [`ErrorKind::Cancelled`] soon after
     /// `cancel` is set.
     pub fn build(
-        points: &[[f64; 3]],
+        points: &[[f32; 3]],
         triangles: &[[u32; 3]],
         bands: [f32; 2],
         threads: u32,

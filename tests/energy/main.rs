@@ -4,6 +4,7 @@
 mod support;
 
 mod curve;
+mod fit;
 mod harness;
 mod inflation;
 mod patch;

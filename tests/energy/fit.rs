@@ -1,0 +1,119 @@
+//! The fit term: its closed form on a plane, its derivatives, its clearances.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use bespoke::energy::fit::Fit;
+use bespoke::energy::{Configuration, Energy};
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::sdf::{Field, FieldOptions};
+use glam::DVec3;
+
+use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
+use crate::support::Random;
+
+/// A tetrahedron with one face in the plane z = 0 and the rest below.
+fn field(voxel: f64) -> Arc<Field> {
+    let positions = vec![
+        DVec3::new(-2.0, -1.5, 0.0),
+        DVec3::new(2.0, -1.5, 0.0),
+        DVec3::new(0.0, 2.5, 0.0),
+        DVec3::new(0.0, 0.0, -2.0),
+    ];
+    let mesh = TriangleMesh { positions, triangles: vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] };
+    Arc::new(Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &AtomicBool::new(false)).expect("a field"))
+}
+
+/// Two triangles over one edge, some way above the plane.
+fn garment(random: &mut Random, height: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let corners = [[-0.3, -0.2], [0.4, -0.1], [0.1, 0.3], [0.0, -0.5]];
+    let x = corners.map(|[x, y]| DVec3::new(x, y, height) + 0.05 * random.vector());
+    (x.to_vec(), vec![[0, 1, 2], [1, 0, 3]])
+}
+
+fn value(fit: &Fit, x: &[DVec3]) -> f64 {
+    fit.value(Configuration { x, t: 1.0 }, 0..fit.len())
+}
+
+#[test]
+fn integral_over_a_plane_is_exact() {
+    let field = field(0.05);
+    let mut random = Random::new(1);
+    let (x, triangles) = garment(&mut random, 0.2);
+    // The integral of d^2 over a triangle with corner values d, over its area.
+    let moment =
+        |d: [f64; 3]| (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + d[0] * d[1] + d[0] * d[2] + d[1] * d[2]) / 6.0;
+    // Large faces and small ones use different rules; both are exact here.
+    for area in [0.3, 1e-4] {
+        let fit = Fit::new(field.clone(), &triangles, &[area, 2.0 * area], &[1.0; 4]);
+        let per_face = |t: [u32; 3]| moment(t.map(|v| x[v as usize].z));
+        let exact = area * per_face(triangles[0]) + 2.0 * area * per_face(triangles[1]);
+        assert!((value(&fit, &x) / exact - 1.0).abs() < 1e-11, "area {area}: {} {exact}", value(&fit, &x));
+    }
+    // Weights are linear on a face: with constant distance the integral is their mean.
+    let flat: Vec<DVec3> = x.iter().map(|p| p.with_z(0.25)).collect();
+    let fit = Fit::new(field, &triangles[..1], &[0.3], &[1.0, 0.5, 3.0, 9.0]);
+    assert!((value(&fit, &flat) - 0.3 * 1.5 * 0.0625).abs() < 1e-13);
+}
+
+#[test]
+fn derivatives_agree_with_finite_differences() {
+    let field = field(0.05);
+    let mut random = Random::new(2);
+    for height in [0.02, 0.1, 0.5, 1.5] {
+        let (x, triangles) = garment(&mut random, height);
+        let mut fit = Fit::new(field.clone(), &triangles, &[0.2, 0.1], &[1.0, 0.3, 2.0, 0.0]);
+        let aims: Vec<f64> = fit.sample_points(&x).iter().map(|_| 0.04 * random.unit()).collect();
+        fit.set_aims(&aims).expect("one a sample");
+        check_gradient(&fit, &x, 1.0, 1e-5, 1e-7);
+        check_semidefinite(&fit, &x, 1.0, &mut || random.signed());
+    }
+    // Beside the edges of the body, where D bends.
+    let (mut x, triangles) = garment(&mut random, 0.1);
+    x.iter_mut().for_each(|p| *p += DVec3::new(1.6, -1.5, 0.0));
+    let fit = Fit::new(field.clone(), &triangles, &[0.2, 0.1], &[1.0; 4]);
+    check_gradient(&fit, &x, 1.0, 1e-5, 1e-7);
+    check_semidefinite(&fit, &x, 1.0, &mut || random.signed());
+    // D is linear above the plane, so Gauss-Newton is the whole Hessian.
+    let (x, triangles) = garment(&mut random, 0.3);
+    check_hessian(&Fit::new(field, &triangles, &[0.2, 0.1], &[1.0; 4]), &x, 1.0, 1e-4, 1e-7);
+}
+
+#[test]
+fn inside_and_within_the_clearance_cost_nothing() {
+    let field = field(0.05);
+    let mut random = Random::new(3);
+    let (below, triangles) = garment(&mut random, -0.2);
+    let mut fit = Fit::new(field, &triangles, &[0.2, 0.1], &[1.0; 4]);
+    assert_eq!(value(&fit, &below), 0.0);
+    assert!(dense(&fit, &below, 1.0).gradient.iter().all(|g| *g == 0.0));
+
+    let (above, _) = garment(&mut random, 0.2);
+    assert!(value(&fit, &above) > 0.0);
+    // As designed: the clearance that the samples have now.
+    let aims: Vec<f64> = fit.sample_points(&above).iter().map(|p| p.z + 1e-9).collect();
+    fit.set_aims(&aims).expect("one a sample");
+    assert_eq!(value(&fit, &above), 0.0);
+    let higher: Vec<DVec3> = above.iter().map(|p| *p + 0.1 * DVec3::Z).collect();
+    assert!((value(&fit, &higher) - 0.3 * 0.01).abs() < 1e-9);
+    assert!(fit.set_aims(&aims[1..]).is_err());
+    assert!(fit.set_aims(&vec![-1.0; aims.len()]).is_err());
+}
+
+#[test]
+fn faces_without_weight_are_left_out() {
+    let (x, triangles) = garment(&mut Random::new(4), 0.2);
+    let field = field(0.1);
+    let areas = [0.2, 0.1];
+    let both = Fit::new(field.clone(), &triangles, &areas, &[1.0; 4]);
+    let one = Fit::new(field.clone(), &triangles, &areas, &[0.0, 0.0, 0.0, 1.0]);
+    let none = Fit::new(field, &triangles, &areas, &[0.0; 4]);
+    assert_eq!((both.len(), one.len(), none.len()), (2, 1, 0));
+    let mut stencils = Vec::new();
+    one.stencils(&mut |s| stencils.push(s.to_vec()));
+    assert_eq!(stencils, [[1, 0, 3]]);
+    assert_eq!(value(&none, &x), 0.0);
+    // The elements add up, however they are cut.
+    let at = Configuration { x: &x, t: 1.0 };
+    assert_eq!(both.value(at, 0..2), both.value(at, 0..1) + both.value(at, 1..2));
+}

@@ -1,0 +1,10 @@
+//! The distance field, the search tree below it, and the shim around OpenVDB.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod closest_point;
+mod field;
+mod real_avatar;
+mod shapes;
+mod volume;

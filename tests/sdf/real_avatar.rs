@@ -1,0 +1,168 @@
+//! The Goblin: 20 components that cross each other, with open loops. Prints its figures (`--nocapture`).
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::sdf::closest_point::closest_on_triangle;
+use bespoke::sdf::volume::Volume;
+use bespoke::sdf::{Field, FieldOptions};
+use glam::DVec3;
+
+use crate::support::Random;
+
+fn vertices(text: &str) -> Vec<DVec3> {
+    let numbers = |line: &str| line.split_whitespace().filter_map(|w| w.parse().ok()).collect::<Vec<f64>>();
+    text.lines().filter_map(|l| l.strip_prefix("v ")).map(|l| DVec3::from_slice(&numbers(l))).collect()
+}
+
+fn triangles(text: &str) -> Vec<[u32; 3]> {
+    let index = |w: &str| w.split('/').next().and_then(|i| i.parse::<u32>().ok()).expect("a face index") - 1;
+    text.lines()
+        .filter_map(|l| l.strip_prefix("f "))
+        .flat_map(|l| {
+            let corners: Vec<u32> = l.split_whitespace().map(index).collect();
+            (2..corners.len()).map(move |i| [corners[0], corners[i - 1], corners[i]]).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// The Goblin, scaled so that the longest side of its skeleton's box is 2; none without the assets.
+fn goblin() -> Option<TriangleMesh> {
+    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/assets");
+    let folder = std::env::var_os("BESPOKE_ASSETS").map_or_else(beside, PathBuf::from).join("avatars/Goblin");
+    let (Ok(avatar), Ok(skeleton)) =
+        (fs::read_to_string(folder.join("avatar.obj")), fs::read_to_string(folder.join("skeleton.obj")))
+    else {
+        println!("skipped: no avatar in {}", folder.display());
+        return None;
+    };
+    let joints = vertices(&skeleton);
+    let low = joints.iter().fold(DVec3::INFINITY, |m, &p| m.min(p));
+    let high = joints.iter().fold(DVec3::NEG_INFINITY, |m, &p| m.max(p));
+    let scale = 2.0 / (high - low).max_element();
+    Some(TriangleMesh {
+        positions: vertices(&avatar).iter().map(|&p| p * scale).collect(),
+        triangles: triangles(&avatar),
+    })
+}
+
+fn brute_force(mesh: &TriangleMesh, p: DVec3) -> f64 {
+    let all = mesh.triangles.iter().map(|t| closest_on_triangle(p, &t.map(|v| mesh.positions[v as usize])));
+    all.map(|q| q.distance_squared(p)).fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// Points at random distances up to `reach` from random triangles.
+fn around(mesh: &TriangleMesh, reach: f64, count: usize) -> Vec<DVec3> {
+    let mut random = Random::new(7);
+    (0..count)
+        .map(|_| {
+            let t = mesh.triangles[(random.unit() * mesh.triangles.len() as f64) as usize];
+            mesh.positions[t[0] as usize] + reach * random.vector()
+        })
+        .collect()
+}
+
+/// Six points a triangle some way in front of it, triangle by triangle: what a garment's faces sample.
+fn layer(mesh: &TriangleMesh, height: f64) -> Vec<DVec3> {
+    mesh.triangles
+        .iter()
+        .flat_map(|t| {
+            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+            let lift = height * (b - a).cross(c - a).normalize_or_zero();
+            [(0.1, 0.1), (0.8, 0.1), (0.1, 0.8), (0.4, 0.2), (0.2, 0.4), (0.4, 0.4)]
+                .map(|(v, w)| a + v * (b - a) + w * (c - a) + lift)
+        })
+        .collect()
+}
+
+#[test]
+fn field_outside_is_the_distance() {
+    let Some(mesh) = goblin() else { return };
+    let voxel = 0.01;
+    let start = Instant::now();
+    let options = FieldOptions { voxel, threads: 1 };
+    let field = Field::build(&mesh, options, &AtomicBool::new(false)).expect("a field");
+    println!("build {:.3} s, {:.1} MB", start.elapsed().as_secs_f64(), field.memory() as f64 / 1e6);
+
+    let points = around(&mesh, 0.3, 3000);
+    let mut errors: Vec<f64> = Vec::new();
+    let mut inside = 0;
+    for &p in &points {
+        let value = field.value(p);
+        let exact = brute_force(&mesh, p);
+        assert!((exact - field.closest_point().distance(p)).abs() <= 1e-14);
+        if value > 2.0 * voxel {
+            errors.push((value - exact).abs());
+        } else if value < 0.0 {
+            inside += 1;
+        }
+        // Never farther from the truth than the support of the spline, whatever the side.
+        assert!((value.abs() - exact).abs() < 2.0 * voxel, "{p}: {value} {exact}");
+    }
+    errors.sort_by(f64::total_cmp);
+    let at = |q: f64| errors[(q * (errors.len() - 1) as f64) as usize];
+    println!(
+        "{} outside, {inside} inside; error median {:.1e}, 99 % {:.1e}, largest {:.1e} (voxel {voxel})",
+        errors.len(),
+        at(0.5),
+        at(0.99),
+        at(1.0)
+    );
+    assert!(errors.len() > 1000 && inside > 100);
+    // Halfway between two parts of the body the distance has a ridge, which the spline rounds by half a voxel:
+    // the mean of |x| under the cubic B-spline is 0.47 along one axis, 0.6 where ridges cross.
+    assert!(at(0.5) < 0.02 * voxel && at(0.99) < 0.3 * voxel && at(1.0) < 0.65 * voxel);
+}
+
+#[test]
+fn bits_do_not_depend_on_threads() {
+    let Some(mesh) = goblin() else { return };
+    let points = around(&mesh, 0.02, 60_000);
+    let sample = |threads| -> Vec<u64> {
+        let options = FieldOptions { voxel: 0.01, threads };
+        let field = Field::build(&mesh, options, &AtomicBool::new(false)).expect("a field");
+        points.iter().map(|&p| field.value(p).to_bits()).collect()
+    };
+    let one = sample(1);
+    for _ in 0..3 {
+        let two = sample(2);
+        let differing = one.iter().zip(&two).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "samples that differ between one thread and two");
+    }
+}
+
+#[test]
+fn figures() {
+    let Some(mesh) = goblin() else { return };
+    let voxel = 0.01;
+    let points: Vec<[f32; 3]> = mesh.positions.iter().map(|&p| (p / voxel).as_vec3().to_array()).collect();
+    for bands in [[2.0, 2.0], [3.0, 3.0], [5.0, 3.0]] {
+        for threads in [1, 2] {
+            let start = Instant::now();
+            let volume = Volume::build(&points, &mesh.triangles, bands, threads, &AtomicBool::new(false)).expect("one");
+            let seconds = start.elapsed().as_secs_f64();
+            let (nodes, megabytes) = (volume.active_count(), volume.memory() as f64 / 1e6);
+            println!("bands {bands:?}, {threads} threads: {seconds:.2} s, {nodes} nodes, {megabytes:.1} MB");
+            assert!(nodes > 100_000);
+        }
+    }
+    let field = Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &AtomicBool::new(false)).expect("a field");
+    let points = layer(&mesh, 0.03);
+    let per = |name: &str, sample: &dyn Fn(DVec3) -> f64| {
+        let start = Instant::now();
+        let sum: f64 = points.iter().map(|&p| sample(p)).sum();
+        let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / points.len() as f64;
+        println!("{name}: {nanoseconds:.0} ns a sample (sum {sum:.3}), {:.1} MB", field.memory() as f64 / 1e6);
+        assert!(sum.is_finite());
+    };
+    per("first touch", &|p| field.value(p));
+    for _ in 0..2 {
+        per("value", &|p| field.value(p));
+        per("gradient", &|p| field.value_gradient(p).1.x);
+        per("Hessian", &|p| field.value_gradient_hessian(p).2.x_axis.x);
+    }
+    per("closest point", &|p| field.closest_point().distance(p));
+}
