@@ -267,7 +267,6 @@ impl Newton {
         let before = assembly::total(&terms, state.configuration());
         let found = backtrack(&terms, state.configuration(), &self.dx, 0.0, slope, before, longest, &mut self.trial);
         self.counters.line_search += clock.elapsed();
-        if std::env::var_os("DBG").is_some() { eprintln!("kept {kept:.3} longest {longest:.4} taken {:?} slope {slope:.3e} before {before:.6e}", found.map(|f| f.0)); }
         Ok(found.map(|(fraction, after)| {
             std::mem::swap(&mut state.x, &mut self.trial);
             Accepted {
