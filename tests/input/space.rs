@@ -1,0 +1,91 @@
+//! Axes, units and winding.
+
+use bespoke::error::ErrorKind;
+use bespoke::input::space::{Axis, Space, Winding};
+use glam::DVec3;
+
+use crate::support::Random;
+
+const AXES: [(Axis, DVec3); 6] = [
+    (Axis::PositiveX, DVec3::X),
+    (Axis::NegativeX, DVec3::NEG_X),
+    (Axis::PositiveY, DVec3::Y),
+    (Axis::NegativeY, DVec3::NEG_Y),
+    (Axis::PositiveZ, DVec3::Z),
+    (Axis::NegativeZ, DVec3::NEG_Z),
+];
+
+#[test]
+fn every_choice_of_axes() {
+    let mut random = Random::new(4);
+    let (mut good, mut left) = (0, 0);
+    for (right, r) in AXES {
+        for (up, u) in AXES {
+            for (forward, f) in AXES {
+                let space = Space { right, up, forward, ..Space::default() };
+                let perpendicular = r.dot(u) == 0.0 && r.dot(f) == 0.0 && u.dot(f) == 0.0;
+                assert_eq!(space.check("target space").is_ok(), perpendicular);
+                if !perpendicular {
+                    continue;
+                }
+                good += 1;
+                left += usize::from(space.is_left_handed());
+                assert_eq!(space.is_left_handed(), r.cross(u).dot(-f) < 0.0);
+                assert_eq!(space.position_to_ours(r), DVec3::X);
+                assert_eq!(space.position_to_ours(u), DVec3::Y);
+                assert_eq!(space.position_to_ours(f), DVec3::NEG_Z);
+                let p = random.vector();
+                assert_eq!(space.position_from_ours(space.position_to_ours(p)), p);
+            }
+        }
+    }
+    assert_eq!((good, left), (48, 24));
+}
+
+#[test]
+fn default_is_the_identity() {
+    let space = Space::default();
+    let p = DVec3::new(0.1, -2.0, 1e-9);
+    assert_eq!((space.position_to_ours(p), space.position_from_ours(p)), (p, p));
+    assert_eq!(space.triangle([4, 5, 6]), [4, 5, 6]);
+    assert!(!space.is_left_handed());
+}
+
+#[test]
+fn units() {
+    let mut random = Random::new(6);
+    let centimetres = Space { metres_per_unit: 0.01, ..Space::default() };
+    assert_eq!(centimetres.position_to_ours(DVec3::new(100.0, 200.0, -300.0)), DVec3::new(1.0, 2.0, -3.0));
+    for _ in 0..1000 {
+        let p = random.vector() * 100.0;
+        let back = centimetres.position_from_ours(centimetres.position_to_ours(p));
+        assert!((back - p).abs().max_element() <= 2e-16 * 100.0);
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12] {
+        let error = Space { metres_per_unit: bad, ..Space::default() }.check("target space").unwrap_err();
+        assert_eq!(error.kind, ErrorKind::InvalidArgument);
+        assert!(error.message.starts_with("target space: the unit is"), "{error}");
+    }
+    let flat = Space { up: Axis::NegativeX, ..Space::default() }.check("target space").unwrap_err();
+    assert_eq!(flat.message, "target space: right is +x and up is -x, the axes must be perpendicular to each other");
+}
+
+#[test]
+fn front_faces_face_the_viewer() {
+    // A triangle in front of somebody who looks forward, its corners low left, high left, high right: clockwise.
+    for (right, r) in AXES {
+        for (up, u) in AXES {
+            for (forward, f) in AXES {
+                let space = Space { right, up, forward, winding: Winding::Clockwise, ..Space::default() };
+                if space.check("space").is_err() {
+                    continue;
+                }
+                let seen = [f, f + u, f + u + r].map(|p| space.position_to_ours(p));
+                let [a, b, c] = space.triangle([0, 1, 2]).map(|v| seen[v as usize]);
+                // In ours the normal of a front face points back to the viewer, +z.
+                assert_eq!((b - a).cross(c - a), DVec3::Z);
+                assert_eq!(space.triangle(space.triangle([7, 8, 9])), [7, 8, 9]);
+            }
+        }
+    }
+}
