@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod barrier;
 mod curve;
 mod fit;
 mod harness;
@@ -10,4 +11,3 @@ mod inflation;
 mod patch;
 mod position;
 mod surface;
-mod barrier;

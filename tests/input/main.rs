@@ -1,12 +1,12 @@
-//! What a caller hands in.
+//! What a caller hands in: checks, connectivity, skeleton, weights, buffers, spaces, guides of boundary loops.
 
-mod guide;
-//! What a caller hands in: checks, connectivity, skeleton, weights, buffers, spaces.
 mod buffer;
+mod guide;
 mod mesh;
 mod skeleton;
 mod skin;
 mod space;
+
 #[path = "../support/obj.rs"]
 mod obj;
 #[path = "../support/mod.rs"]
