@@ -1,4 +1,5 @@
 //! What a caller hands in, checked and turned into ours.
 
+pub mod guide;
 pub mod mesh;
 pub mod skeleton;

@@ -1,0 +1,130 @@
+//! Position along the skeleton, Eq. 3 of the paper: cuffs and hems keep their place on their bones.
+//!
+//! ```text
+//! L = sum l_v (w(x_v, t) - w_v)^2,   w(x, t) = (x - A) . (B - A) / |B - A|^2
+//! ```
+//!
+//! A and B are the ends of the vertex's [`Guide`] at t, `w_v` is the coordinate of the rest vertex on the guide
+//! at t = 0, and `l_v` the mean rest length of the edges at v. The guide moves with t, so w depends on t too.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::{Configuration, Direction, Energy, Sink};
+use crate::input::guide::Guide;
+
+/// A guide whose squared length falls below this has no direction, and no say.
+const NO_AXIS: f64 = 1e-24;
+
+#[derive(Clone, Copy, Debug)]
+struct Constraint {
+    vertex: u32,
+    guide: u32,
+    coordinate: f64,
+    weight: f64,
+}
+
+/// The axis of a guide at one t: its first end, the vector to the other, and how fast both move with t.
+#[derive(Clone, Copy)]
+struct Axis {
+    origin: DVec3,
+    span: DVec3,
+    squared: f64,
+    origin_rate: DVec3,
+    span_rate: DVec3,
+}
+
+impl Axis {
+    #[inline]
+    fn new(guide: &Guide, t: f64) -> Option<Self> {
+        let [a, b] = [0, 1].map(|k| guide.start[k].lerp(guide.end[k], t));
+        let [a_rate, b_rate] = [0, 1].map(|k| guide.end[k] - guide.start[k]);
+        let span = b - a;
+        let squared = span.length_squared();
+        (squared > NO_AXIS).then_some(Self {
+            origin: a,
+            span,
+            squared,
+            origin_rate: a_rate,
+            span_rate: b_rate - a_rate,
+        })
+    }
+
+    #[inline]
+    fn coordinate(&self, x: DVec3) -> f64 {
+        (x - self.origin).dot(self.span) / self.squared
+    }
+
+    /// The derivative by t of the coordinate `w` of `x`: the quotient rule.
+    #[inline]
+    fn rate(&self, x: DVec3, w: f64) -> f64 {
+        let dividend_rate = (x - self.origin).dot(self.span_rate) - self.origin_rate.dot(self.span);
+        (dividend_rate - 2.0 * w * self.span.dot(self.span_rate)) / self.squared
+    }
+}
+
+/// Position term; an element is a vertex on its guide.
+#[derive(Clone, Debug)]
+pub struct Position {
+    constraints: Vec<Constraint>,
+    guides: Vec<Guide>,
+}
+
+impl Position {
+    /// The term for a garment with vertices `rest`.
+    ///
+    /// `constraints` are pairs of a vertex and an index into `guides`; `weights` holds one value for each
+    /// vertex of the garment, the mean rest length of its edges. A guide without length at t = 0 constrains nothing.
+    pub fn new(rest: &[DVec3], constraints: &[(u32, u32)], guides: Vec<Guide>, weights: &[f64]) -> Self {
+        let constraints = constraints
+            .iter()
+            .filter_map(|&(vertex, guide)| {
+                let axis = Axis::new(&guides[guide as usize], 0.0)?;
+                let coordinate = axis.coordinate(rest[vertex as usize]);
+                Some(Constraint { vertex, guide, coordinate, weight: weights[vertex as usize] })
+            })
+            .collect();
+        Self { constraints, guides }
+    }
+
+    #[inline]
+    fn axis(&self, k: &Constraint, t: f64) -> Option<Axis> {
+        Axis::new(&self.guides[k.guide as usize], t)
+    }
+}
+
+impl Energy for Position {
+    fn name(&self) -> &'static str {
+        "position"
+    }
+
+    fn len(&self) -> usize {
+        self.constraints.len()
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        let cost = |k: &Constraint| {
+            self.axis(k, at.t).map_or(0.0, |axis| {
+                let residual = axis.coordinate(at.x[k.vertex as usize]) - k.coordinate;
+                k.weight * residual * residual
+            })
+        };
+        self.constraints[range].iter().map(cost).sum()
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        for k in &self.constraints[range] {
+            let Some(axis) = self.axis(k, at.t) else { continue };
+            let x = at.x[k.vertex as usize];
+            let w = axis.coordinate(x);
+            let components = [axis.span / axis.squared];
+            let direction = Direction { vertices: &[k.vertex], components: &components, t: axis.rate(x, w) };
+            sink.rank_one(direction, 2.0 * k.weight * (w - k.coordinate), 2.0 * k.weight);
+        }
+    }
+
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        self.constraints.iter().for_each(|k| visit(&[k.vertex]));
+    }
+}

@@ -1,0 +1,234 @@
+//! Surface shape, Eq. 2 of the paper: neighbouring triangles must deform alike.
+//!
+//! For a hinge `t1 = (v1, v2, v3)`, `t2 = (v2, v1, v4)` and `x = (v4 - v3) / |v4 - v3|` at rest,
+//!
+//! ```text
+//! L = sum w |tau1 x - tau2 x|^2,   w = area(t1) + area(t2) at rest,
+//! tau1 x = c1 e1 + c2 e2 + c3 N(e1 x e2),   e1 = v2 - v1,  e2 = v3 - v1,
+//! tau2 x = d1 f1 + d2 f2 + d3 N(f1 x f2),   f1 = v1 - v2,  f2 = v4 - v2,
+//! ```
+//!
+//! with the coefficients that reproduce x at rest. As printed, N(n) = n, which grows with the square of a
+//! scale. N(n) = n / sqrt(|n|) grows like an edge, so that every similarity of the rest shape costs nothing.
+//! The residual has the scale of the garment: growing an imperfect fit by s multiplies its value by s^2.
+
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+
+use super::{Configuration, Energy, Sink};
+use crate::input::mesh::Hinge;
+
+/// A rest triangle whose doubled area is below this share of its longest edge squared has no frame.
+const DEGENERATE: f64 = 1e-10;
+
+/// Below this squared length (of the normalised space, to the fourth) a normal counts as none: the square
+/// root has no derivative there.
+const NO_NORMAL: f64 = 1e-60;
+
+/// How the normal of a triangle's frame grows with the triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SurfaceForm {
+    /// Like an edge: any similarity of the rest shape costs nothing, uniform scale included.
+    #[default]
+    Similarity,
+    /// Like an area, as the paper prints it: a uniform scale costs wherever the rest shape is bent.
+    Printed,
+}
+
+/// One hinge: its vertices and what is known from the rest shape.
+#[derive(Clone, Copy, Debug)]
+struct Element {
+    vertices: [u32; 4],
+    /// Factor of the shared edge `e1`: `c1 + d1`, as `f1 = -e1`.
+    shared: f64,
+    /// Factors of `e2` and of the first normal.
+    first: [f64; 2],
+    /// Factors of `f2` and of the second normal.
+    second: [f64; 2],
+    weight: f64,
+}
+
+/// Surface shape term; an element is a hinge.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    elements: Vec<Element>,
+    form: SurfaceForm,
+    degenerate_count: usize,
+}
+
+/// The normal of a triangle in the chosen form, with what its differential
+/// `dN = scale dn - pull n (n . dn)` needs.
+#[derive(Clone, Copy)]
+struct Normal {
+    value: DVec3,
+    n: DVec3,
+    scale: f64,
+    pull: f64,
+}
+
+impl Normal {
+    #[inline]
+    fn new(n: DVec3, form: SurfaceForm) -> Self {
+        match form {
+            SurfaceForm::Printed => Self { value: n, n, scale: 1.0, pull: 0.0 },
+            SurfaceForm::Similarity => {
+                let squared = n.length_squared();
+                if squared < NO_NORMAL {
+                    return Self { value: DVec3::ZERO, n, scale: 0.0, pull: 0.0 };
+                }
+                let scale = 1.0 / squared.sqrt().sqrt();
+                Self { value: n * scale, n, scale, pull: 0.5 * scale / squared }
+            }
+        }
+    }
+}
+
+/// The three free edges of a hinge and its two normals.
+struct Shape {
+    e1: DVec3,
+    e2: DVec3,
+    f2: DVec3,
+    n1: Normal,
+    n2: Normal,
+}
+
+impl Shape {
+    #[inline]
+    fn new(x: &[DVec3], v: [u32; 4], form: SurfaceForm) -> Self {
+        let p = v.map(|i| x[i as usize]);
+        let (e1, e2, f2) = (p[1] - p[0], p[2] - p[0], p[3] - p[1]);
+        // f1 x f2 = -e1 x f2 = f2 x e1
+        Self { e1, e2, f2, n1: Normal::new(e1.cross(e2), form), n2: Normal::new(f2.cross(e1), form) }
+    }
+
+    #[inline]
+    fn residual(&self, k: &Element) -> DVec3 {
+        self.e1 * k.shared + self.e2 * k.first[0] - self.f2 * k.second[0] + self.n1.value * k.first[1]
+            - self.n2.value * k.second[1]
+    }
+
+    /// Derivatives of the residual by `v1`, `v2`, `v3`, `v4`.
+    #[inline]
+    fn jacobian(&self, k: &Element) -> [DMat3; 4] {
+        let (n1, n2) = (&self.n1, &self.n2);
+        let (c3, d3) = (k.first[1], k.second[1]);
+        let by_e1 = scaled_cross(k.shared, self.e2 * (-c3 * n1.scale) - self.f2 * (d3 * n2.scale))
+            - outer(n1.n * (c3 * n1.pull), self.e2.cross(n1.n))
+            + outer(n2.n * (d3 * n2.pull), n2.n.cross(self.f2));
+        let by_e2 =
+            scaled_cross(k.first[0], self.e1 * (c3 * n1.scale)) - outer(n1.n * (c3 * n1.pull), n1.n.cross(self.e1));
+        let by_f2 =
+            scaled_cross(-k.second[0], self.e1 * (d3 * n2.scale)) + outer(n2.n * (d3 * n2.pull), self.e1.cross(n2.n));
+        [-(by_e1 + by_e2), by_e1 - by_f2, by_e2, by_f2]
+    }
+}
+
+impl Surface {
+    /// The term for a garment with vertices `rest` and `hinges` between its triangles.
+    ///
+    /// A hinge with a degenerate rest triangle, or with both opposite corners in one place, gets no element.
+    pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
+        let elements: Vec<Element> = hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect();
+        let degenerate_count = hinges.len() - elements.len();
+        Self { elements, form, degenerate_count }
+    }
+
+    /// Number of hinges without an element, because their rest shape is degenerate.
+    pub fn degenerate_count(&self) -> usize {
+        self.degenerate_count
+    }
+}
+
+impl Element {
+    fn new(rest: &[DVec3], hinge: &Hinge, form: SurfaceForm) -> Option<Self> {
+        let v = hinge.vertices;
+        let shape = Shape::new(rest, v, form);
+        let across = rest[v[3] as usize] - rest[v[2] as usize];
+        let f1 = -shape.e1;
+        let longest = |a: DVec3, b: DVec3| a.length_squared().max(b.length_squared()).max((a - b).length_squared());
+        let limits = [longest(shape.e1, shape.e2), longest(f1, shape.f2)].map(|l| l * DEGENERATE);
+        let areas = [shape.n1.n, shape.n2.n].map(DVec3::length);
+        // Written so that a rest shape of zero size fails too.
+        if !(areas[0] > limits[0] && areas[1] > limits[1] && across.length_squared() > 0.0) {
+            return None;
+        }
+        let x = across.normalize_or_zero();
+        let [c1, c2, c3] = coefficients(x, shape.e1, shape.e2, &shape.n1)?;
+        let [d1, d2, d3] = coefficients(x, f1, shape.f2, &shape.n2)?;
+        Some(Self {
+            vertices: v,
+            shared: c1 + d1,
+            first: [c2, c3],
+            second: [d2, d3],
+            weight: 0.5 * (areas[0] + areas[1]),
+        })
+    }
+}
+
+/// Solves `c1 a + c2 b + c3 N = x` by Cramer's rule, N being a multiple of `a x b`; none without a finite answer.
+fn coefficients(x: DVec3, a: DVec3, b: DVec3, normal: &Normal) -> Option<[f64; 3]> {
+    let n = normal.n;
+    let squared = n.length_squared();
+    let c = [x.cross(b).dot(n) / squared, a.cross(x).dot(n) / squared, x.dot(n) / normal.value.dot(n)];
+    c.iter().all(|v| v.is_finite()).then_some(c)
+}
+
+/// `s I + [p]x`.
+#[inline]
+fn scaled_cross(s: f64, p: DVec3) -> DMat3 {
+    DMat3::from_cols(DVec3::new(s, p.z, -p.y), DVec3::new(-p.z, s, p.x), DVec3::new(p.y, -p.x, s))
+}
+
+/// `u v^T`.
+#[inline]
+fn outer(u: DVec3, v: DVec3) -> DMat3 {
+    DMat3::from_cols(u * v.x, u * v.y, u * v.z)
+}
+
+impl Energy for Surface {
+    fn name(&self) -> &'static str {
+        "surface"
+    }
+
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        let cost = |k: &Element| k.weight * Shape::new(at.x, k.vertices, self.form).residual(k).length_squared();
+        self.elements[range].iter().map(cost).sum()
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        let mut rows = [[0.0; 12]; 3];
+        let mut block = [0.0; 144];
+        for k in &self.elements[range] {
+            let shape = Shape::new(at.x, k.vertices, self.form);
+            let jacobian = shape.jacobian(k);
+            let force = shape.residual(k) * (2.0 * k.weight);
+            let root = (2.0 * k.weight).sqrt();
+            for (i, j) in jacobian.iter().enumerate() {
+                for (c, column) in [j.x_axis, j.y_axis, j.z_axis].into_iter().enumerate() {
+                    let column = column * root;
+                    rows[0][3 * i + c] = column.x;
+                    rows[1][3 * i + c] = column.y;
+                    rows[2][3 * i + c] = column.z;
+                }
+                let gradient = DVec3::new(force.dot(j.x_axis), force.dot(j.y_axis), force.dot(j.z_axis));
+                sink.gradient(k.vertices[i], gradient);
+            }
+            let [r0, r1, r2] = &rows;
+            for (a, line) in block.chunks_exact_mut(12).enumerate() {
+                for (b, entry) in line.iter_mut().enumerate() {
+                    *entry = r0[a] * r0[b] + r1[a] * r1[b] + r2[a] * r2[b];
+                }
+            }
+            sink.block(&k.vertices, &block);
+        }
+    }
+
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        self.elements.iter().for_each(|k| visit(&k.vertices));
+    }
+}

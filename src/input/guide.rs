@@ -1,0 +1,157 @@
+//! Which bones a boundary loop follows.
+//!
+//! A cuff follows the closest bone that passes through it. A hem around both legs has no bone of its own:
+//! where several bones cross the loop's plane inside the loop's hull, it follows their mean.
+
+use glam::DVec3;
+
+use super::mesh::BoundaryLoop;
+use super::skeleton::Skeleton;
+
+/// A bone passes through a loop where the cosine of its angle to the loop's normal is above this: 60 degrees.
+const THROUGH: f64 = 0.5;
+
+/// How far a bone reaches beyond a leaf joint, as a share of its length: the foot under the last joint of a leg.
+const LEAF_REACH: f64 = 0.25;
+
+/// A loop whose area is below this share of its squared length is a slit, without a normal.
+const SLIT: f64 = 1e-6;
+
+/// An axis between two points that move with the inflation parameter t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guide {
+    /// Both ends at t = 0, from the source skeleton.
+    pub start: [DVec3; 2],
+    /// Both ends at t = 1, from the target skeleton.
+    pub end: [DVec3; 2],
+}
+
+/// The bones that a loop follows, and their mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopGuide {
+    /// Indices of the bones in the source skeleton, ascending; at least one.
+    pub bones: Vec<u32>,
+    /// The axis: the bone, or the mean of the bones, all taken from the same side of the loop's plane.
+    pub guide: Guide,
+}
+
+/// Chooses what each of `loops` follows; none only for a loop without vertices or a skeleton without length.
+///
+/// `rest` are the garment's vertices; both skeletons are in its space and share one order of joints (the bones
+/// of `target` are not read). For each loop: all the bones through it that cross its plane inside its hull,
+/// if there are several; else the closest bone among those through it; else the closest bone at all. A bone
+/// is *through* the loop within 60 degrees of its normal, and *closest* as a segment, to the mean of the
+/// loop's vertices. The normal is that of the loop's area vector, along which the opening looks largest.
+pub fn choose_guides(
+    rest: &[DVec3],
+    loops: &[BoundaryLoop],
+    source: &Skeleton,
+    target: &Skeleton,
+) -> Vec<Option<LoopGuide>> {
+    let mut degree = vec![0_u32; source.joints.len()];
+    for &joint in source.bones.iter().flatten() {
+        degree[joint as usize] += 1;
+    }
+    loops
+        .iter()
+        .map(|boundary| {
+            let opening = Opening::new(rest, &boundary.vertices)?;
+            let crossing: Vec<u32> = (0..source.bones.len() as u32)
+                .filter(|&bone| opening.is_crossed_by(source, source.bones[bone as usize], &degree))
+                .collect();
+            let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source)?] };
+            let guide = opening.mean_of(&bones, source, target);
+            Some(LoopGuide { bones, guide })
+        })
+        .collect()
+}
+
+/// A loop as a hole to look through.
+struct Opening {
+    centre: DVec3,
+    /// Unit normal, or zero for a slit.
+    normal: DVec3,
+    points: Vec<DVec3>,
+}
+
+impl Opening {
+    fn new(rest: &[DVec3], vertices: &[u32]) -> Option<Self> {
+        let points: Vec<DVec3> = vertices.iter().map(|&v| rest[v as usize]).collect();
+        let last = points.last()?;
+        let centre = points.iter().sum::<DVec3>() / points.len() as f64;
+        let (mut area, mut length, mut previous) = (DVec3::ZERO, 0.0, *last);
+        for &point in &points {
+            area += 0.5 * (previous - centre).cross(point - centre);
+            length += previous.distance(point);
+            previous = point;
+        }
+        let normal = if area.length() > SLIT * length * length { area.normalize_or_zero() } else { DVec3::ZERO };
+        Some(Self { centre, normal, points })
+    }
+
+    fn is_through(&self, span: DVec3) -> bool {
+        span.dot(self.normal).abs() > THROUGH * span.length()
+    }
+
+    /// True where the bone, lengthened at leaf joints, is through the loop and crosses its plane inside its hull.
+    fn is_crossed_by(&self, skeleton: &Skeleton, bone: [u32; 2], degree: &[u32]) -> bool {
+        let [a, b] = bone.map(|joint| skeleton.joints[joint as usize]);
+        let span = b - a;
+        if !self.is_through(span) {
+            return false;
+        }
+        let [before, after] = bone.map(|joint| if degree[joint as usize] == 1 { LEAF_REACH } else { 0.0 });
+        let (a, b) = (a - span * before, b + span * after);
+        let [ha, hb] = [a, b].map(|p| (p - self.centre).dot(self.normal));
+        // Half-open, so that two bones joined on the plane cross it once.
+        (ha < 0.0) != (hb < 0.0) && self.hull_contains(a.lerp(b, ha / (ha - hb)))
+    }
+
+    /// True where `p`, on the loop's plane, is inside the convex hull of the loop projected to that plane: seen
+    /// from there, the loop's points leave no gap of half a turn or more.
+    fn hull_contains(&self, p: DVec3) -> bool {
+        let (u, v) = self.normal.any_orthonormal_pair();
+        let angle_of = |q: &DVec3| (*q - p).dot(v).atan2((*q - p).dot(u));
+        let mut angles: Vec<f64> = self.points.iter().map(angle_of).collect();
+        angles.sort_by(f64::total_cmp);
+        let wrapped = angles[0] + std::f64::consts::TAU;
+        angles.iter().zip(angles.iter().skip(1).chain([&wrapped])).all(|(a, b)| b - a < std::f64::consts::PI)
+    }
+
+    /// The closest bone among those through the loop, or the closest of all; bones without length do not count.
+    fn closest_bone(&self, skeleton: &Skeleton) -> Option<u32> {
+        let (mut through, mut any) = ((f64::INFINITY, None), (f64::INFINITY, None));
+        for (index, bone) in skeleton.bones.iter().enumerate() {
+            let [a, b] = bone.map(|joint| skeleton.joints[joint as usize]);
+            let span = b - a;
+            if span.length_squared() == 0.0 {
+                continue;
+            }
+            let along = ((self.centre - a).dot(span) / span.length_squared()).clamp(0.0, 1.0);
+            let distance = self.centre.distance(a + span * along);
+            if distance < any.0 {
+                any = (distance, Some(index as u32));
+            }
+            if distance < through.0 && self.is_through(span) {
+                through = (distance, Some(index as u32));
+            }
+        }
+        through.1.or(any.1)
+    }
+
+    /// The mean of `bones` in both skeletons, each turned so that it points along the loop's normal.
+    fn mean_of(&self, bones: &[u32], source: &Skeleton, target: &Skeleton) -> Guide {
+        let mut guide = Guide { start: [DVec3::ZERO; 2], end: [DVec3::ZERO; 2] };
+        for &bone in bones {
+            let mut joints = source.bones[bone as usize].map(|joint| joint as usize);
+            if (source.joints[joints[1]] - source.joints[joints[0]]).dot(self.normal) < 0.0 {
+                joints.swap(0, 1);
+            }
+            for (end, joint) in joints.into_iter().enumerate() {
+                guide.start[end] += source.joints[joint] / bones.len() as f64;
+                guide.end[end] += target.joints[joint] / bones.len() as f64;
+            }
+        }
+        guide
+    }
+}

@@ -1,0 +1,100 @@
+//! Position term.
+
+use bespoke::energy::position::Position;
+use bespoke::energy::{Configuration, Energy};
+use bespoke::input::guide::Guide;
+use glam::DVec3;
+
+use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
+use crate::patch::{rotation, shaken};
+use crate::support::Random;
+
+fn value(energy: &Position, x: &[DVec3], t: f64) -> f64 {
+    energy.value(Configuration { x, t }, 0..energy.len())
+}
+
+/// Two guides that turn, move and grow between t = 0 and t = 1.
+fn guides(random: &mut Random) -> Vec<Guide> {
+    let mut guide = |axis: DVec3| {
+        let start = [random.vector(), random.vector() + 3.0 * axis];
+        Guide { start, end: start.map(|p| 1.4 * p + 0.5 * random.vector()) }
+    };
+    vec![guide(DVec3::X), guide(DVec3::Z)]
+}
+
+fn sample(random: &mut Random) -> (Vec<DVec3>, Position, Vec<Guide>) {
+    let rest: Vec<DVec3> = (0..6).map(|_| 2.0 * random.vector()).collect();
+    let weights: Vec<f64> = rest.iter().map(|_| 0.1 + random.unit()).collect();
+    let guides = guides(random);
+    let constraints = [(0, 0), (1, 1), (3, 0), (3, 1), (5, 1)];
+    let energy = Position::new(&rest, &constraints, guides.clone(), &weights);
+    (rest, energy, guides)
+}
+
+#[test]
+fn agrees_with_the_definition() {
+    let mut random = Random::new(21);
+    let guide = guides(&mut random)[0];
+    let (rest, x, t) = ([random.vector()], [random.vector()], 0.35);
+    let energy = Position::new(&rest, &[(0, 0)], vec![guide], &[0.7]);
+    let coordinate = |p: DVec3, [a, b]: [DVec3; 2]| (p - a).dot(b - a) / (b - a).dot(b - a);
+    let now = [0, 1].map(|k| (1.0 - t) * guide.start[k] + t * guide.end[k]);
+    let expected = 0.7 * (coordinate(x[0], now) - coordinate(rest[0], guide.start)).powi(2);
+    assert!((value(&energy, &x, t) - expected).abs() <= 1e-12 * expected);
+}
+
+#[test]
+fn gradient_is_exact_and_hessian_semidefinite() {
+    let mut random = Random::new(22);
+    for _ in 0..10 {
+        let (rest, energy, _) = sample(&mut random);
+        let x = shaken(&rest, 0.5, &mut random);
+        for t in [0.0, 0.4, 1.0] {
+            check_gradient(&energy, &x, t, 1e-4, 1e-8);
+            check_semidefinite(&energy, &x, t, &mut || random.signed());
+        }
+    }
+}
+
+#[test]
+fn the_rest_shape_costs_nothing_and_its_hessian_is_exact() {
+    let mut random = Random::new(23);
+    let (rest, energy, _) = sample(&mut random);
+    assert!(value(&energy, &rest, 0.0) < 1e-28);
+    check_hessian(&energy, &rest, 0.0, 1e-4, 1e-8);
+}
+
+#[test]
+fn carried_along_with_the_guide_costs_nothing() {
+    let mut random = Random::new(24);
+    for _ in 0..10 {
+        let rest: Vec<DVec3> = (0..5).map(|_| random.vector()).collect();
+        let start = [random.vector(), random.vector() + 3.0 * DVec3::X];
+        let (turn, shift, scale) = (rotation(&mut random), random.vector(), 0.5 + random.unit());
+        let carry = |p: DVec3| turn * (scale * p) + shift;
+        let constraints: Vec<(u32, u32)> = (0..5).map(|v| (v, 0)).collect();
+        let guide = Guide { start, end: start.map(carry) };
+        let energy = Position::new(&rest, &constraints, vec![guide], &[1.0; 5]);
+        let carried: Vec<DVec3> = rest.iter().copied().map(carry).collect();
+        assert!(value(&energy, &carried, 1.0) < 1e-24);
+        // Across the guide a vertex is free, along it not.
+        let axis = (guide.end[1] - guide.end[0]).normalize();
+        let moved = |by: DVec3| carried.iter().map(|&p| p + by).collect::<Vec<_>>();
+        assert!(value(&energy, &moved(axis.any_orthonormal_vector()), 1.0) < 1e-24);
+        assert!(value(&energy, &moved(axis), 1.0) > 1e-2);
+    }
+}
+
+#[test]
+fn a_guide_without_length_has_no_say() {
+    let point = [DVec3::ONE; 2];
+    let rest = [DVec3::ZERO];
+    let nothing = Position::new(&rest, &[(0, 0)], vec![Guide { start: point, end: point }], &[1.0]);
+    assert!(nothing.is_empty());
+    // A guide that turns inside out has no length half-way.
+    let start = [-DVec3::X, DVec3::X];
+    let turned = Position::new(&rest, &[(0, 0)], vec![Guide { start, end: [DVec3::X, -DVec3::X] }], &[1.0]);
+    assert_eq!(value(&turned, &[DVec3::ONE], 0.5), 0.0);
+    assert!(dense(&turned, &[DVec3::ONE], 0.5).gradient.iter().all(|&g| g == 0.0));
+    assert!(value(&turned, &[DVec3::ONE], 0.4) > 0.0);
+}

@@ -1,0 +1,204 @@
+//! Surface shape term.
+
+use bespoke::energy::surface::{Surface, SurfaceForm};
+use bespoke::energy::{Configuration, Energy};
+use bespoke::input::mesh::Hinge;
+use glam::{DMat3, DVec3};
+
+use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
+use crate::patch::{Patch, rotation, shaken, sheet, similar, tube};
+use crate::support::Random;
+
+const FORMS: [SurfaceForm; 2] = [SurfaceForm::Similarity, SurfaceForm::Printed];
+
+fn value(energy: &Surface, x: &[DVec3]) -> f64 {
+    energy.value(Configuration { x, t: 0.0 }, 0..energy.len())
+}
+
+fn hinge() -> Hinge {
+    Hinge { vertices: [0, 1, 2, 3], triangles: [0, 1] }
+}
+
+fn patches(random: &mut Random) -> [Patch; 2] {
+    [sheet(4, 3, random), tube(5, 3, random)]
+}
+
+/// Eq. 2 as it is written: tau as a 3x3 matrix, by a matrix inverse.
+fn by_matrices(rest: &[DVec3], x: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> f64 {
+    let frame = |p: &[DVec3], [i, j, k]: [u32; 3]| {
+        let (e1, e2) = (p[j as usize] - p[i as usize], p[k as usize] - p[i as usize]);
+        let n = e1.cross(e2);
+        let n = if form == SurfaceForm::Similarity { n / n.length().sqrt() } else { n };
+        DMat3::from_cols(e1, e2, n)
+    };
+    let area = |[i, j, k]: [u32; 3]| {
+        let p = [i, j, k].map(|v| rest[v as usize]);
+        0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length()
+    };
+    let cost = |h: &Hinge| {
+        let [v1, v2, v3, v4] = h.vertices;
+        let (t1, t2) = ([v1, v2, v3], [v2, v1, v4]);
+        let across = (rest[v4 as usize] - rest[v3 as usize]).normalize();
+        let [tau1, tau2] = [t1, t2].map(|t| frame(x, t) * frame(rest, t).inverse());
+        (area(t1) + area(t2)) * (tau1 * across - tau2 * across).length_squared()
+    };
+    hinges.iter().map(cost).sum()
+}
+
+#[test]
+fn agrees_with_matrices() {
+    let mut random = Random::new(1);
+    for form in FORMS {
+        for patch in patches(&mut random) {
+            let energy = Surface::new(&patch.rest, &patch.hinges, form);
+            assert_eq!((energy.len(), energy.degenerate_count()), (patch.hinges.len(), 0));
+            for _ in 0..20 {
+                let x = shaken(&patch.rest, 1.0, &mut random);
+                let expected = by_matrices(&patch.rest, &x, &patch.hinges, form);
+                assert!((value(&energy, &x) - expected).abs() <= 1e-10 * expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn gradient_is_exact() {
+    let mut random = Random::new(2);
+    for form in FORMS {
+        for patch in patches(&mut random) {
+            for scale in [1e-2, 1.0, 1e2] {
+                let rest: Vec<DVec3> = patch.rest.iter().map(|&p| p * scale).collect();
+                let energy = Surface::new(&rest, &patch.hinges, form);
+                let x = shaken(&rest, 0.3 * scale, &mut random);
+                check_gradient(&energy, &x, 0.0, 1e-4 * scale, 1e-7);
+            }
+        }
+    }
+}
+
+#[test]
+fn gradient_is_exact_on_nasty_hinges() {
+    let mut random = Random::new(7);
+    let (o, x, y) = (DVec3::ZERO, DVec3::X, DVec3::Y);
+    let rest = [o, x, y, DVec3::new(0.4, -0.8, 0.3)];
+    let thin = [o, x, DVec3::new(0.5, 1e-2, 0.0), DVec3::new(0.2, -1.0, 0.1)];
+    let folded = [o, x, y, DVec3::new(0.3, 0.9, 0.02)];
+    let inside_out = [o, x, -y, DVec3::new(0.4, 0.8, 0.3)];
+    for form in FORMS {
+        for (from, to) in
+            [(rest, thin), (rest, folded), (rest, inside_out), (thin, rest), (folded, rest), (thin, folded)]
+        {
+            for scale in [1e-2, 1.0, 1e2] {
+                let energy = Surface::new(&from, &[hinge()], form);
+                check_gradient(&energy, &to.map(|p| p * scale), 0.0, 1e-5 * scale, 1e-6);
+                check_semidefinite(&energy, &to, 0.0, &mut || random.signed());
+            }
+        }
+    }
+}
+
+#[test]
+fn hessian_is_exact_without_residual_and_semidefinite_with() {
+    let mut random = Random::new(3);
+    for form in FORMS {
+        for patch in patches(&mut random) {
+            let energy = Surface::new(&patch.rest, &patch.hinges, form);
+            check_hessian(&energy, &patch.rest, 0.0, 1e-4, 1e-7);
+            let scales: &[f64] = if form == SurfaceForm::Similarity { &[0.5, 1.0, 3.0] } else { &[1.0] };
+            for &scale in scales {
+                let x = similar(&patch.rest, scale, &mut random);
+                check_hessian(&energy, &x, 0.0, 1e-4, 1e-7);
+            }
+            let x = shaken(&patch.rest, 1.0, &mut random);
+            check_semidefinite(&energy, &x, 0.0, &mut || random.signed());
+        }
+    }
+}
+
+#[test]
+fn similarities_cost_nothing() {
+    let mut random = Random::new(4);
+    for patch in patches(&mut random) {
+        let similarity = Surface::new(&patch.rest, &patch.hinges, SurfaceForm::Similarity);
+        let printed = Surface::new(&patch.rest, &patch.hinges, SurfaceForm::Printed);
+        for _ in 0..20 {
+            let scale = 0.2 + 2.0 * random.unit();
+            assert!(value(&similarity, &similar(&patch.rest, scale, &mut random)) < 1e-20);
+            assert!(value(&printed, &similar(&patch.rest, 1.0, &mut random)) < 1e-20);
+        }
+        let scaled = similar(&patch.rest, 1.3, &mut random);
+        assert!(value(&similarity, &scaled) < 1e-20);
+        assert!(value(&printed, &scaled) > 1e-3);
+    }
+}
+
+#[test]
+fn an_affine_map_costs_nothing_on_a_flat_sheet() {
+    let mut random = Random::new(5);
+    let mut patch = sheet(4, 4, &mut random);
+    patch.rest.iter_mut().for_each(|p| p.z = 0.0);
+    let turn = rotation(&mut random);
+    let stretched: Vec<DVec3> =
+        patch.rest.iter().map(|p| turn * DVec3::new(1.7 * p.x + 0.4 * p.y, 0.6 * p.y, 0.0)).collect();
+    for form in FORMS {
+        let energy = Surface::new(&patch.rest, &patch.hinges, form);
+        assert!(value(&energy, &stretched) < 1e-20);
+        // Bending it does cost.
+        let bent: Vec<DVec3> = patch.rest.iter().map(|p| *p + DVec3::Z * 0.2 * p.x * p.x).collect();
+        assert!(value(&energy, &bent) > 1e-3);
+    }
+}
+
+#[test]
+fn an_imperfect_fit_grows_with_the_square_of_scale() {
+    let mut random = Random::new(6);
+    let patch = tube(6, 4, &mut random);
+    let energy = Surface::new(&patch.rest, &patch.hinges, SurfaceForm::Similarity);
+    let x = shaken(&patch.rest, 0.1, &mut random);
+    let larger: Vec<DVec3> = x.iter().map(|&p| 1.5 * p).collect();
+    let ratio = value(&energy, &larger) / value(&energy, &x);
+    assert!((ratio - 2.25).abs() < 1e-12);
+}
+
+#[test]
+fn degenerate_rest_shapes_get_no_element() {
+    let good = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.4, -0.8, 0.3)];
+    let flat_first = [DVec3::ZERO, DVec3::X, 0.5 * DVec3::X, good[3]];
+    let flat_second = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.5, -1e-11, 0.0)];
+    let closed = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Y];
+    let point = [DVec3::ONE; 4];
+    for form in FORMS {
+        for (rest, left_out) in [(good, 0), (flat_first, 1), (flat_second, 1), (closed, 1), (point, 1)] {
+            let energy = Surface::new(&rest, &[hinge()], form);
+            assert_eq!((energy.len(), energy.degenerate_count()), (1 - left_out, left_out));
+        }
+    }
+}
+
+#[test]
+fn a_collapsed_triangle_gives_finite_derivatives() {
+    let rest = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.4, -0.8, 0.3)];
+    for form in FORMS {
+        let energy = Surface::new(&rest, &[hinge()], form);
+        for offset in [0.0, 1e-300, 1e-31, 1e-29] {
+            let x = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, offset, 0.0), DVec3::new(0.2, -offset, 0.0)];
+            let d = dense(&energy, &x, 0.0);
+            assert!(value(&energy, &x).is_finite());
+            assert!(d.gradient.iter().chain(d.hessian.iter().flatten()).all(|v| v.is_finite()));
+        }
+    }
+}
+
+#[test]
+fn ranges_add_up_and_stencils_cover_the_hessian() {
+    let mut random = Random::new(8);
+    let patch = sheet(4, 3, &mut random);
+    let energy = Surface::new(&patch.rest, &patch.hinges, SurfaceForm::default());
+    let x = shaken(&patch.rest, 0.5, &mut random);
+    let at = Configuration { x: &x, t: 0.0 };
+    let parts = energy.value(at, 0..5) + energy.value(at, 5..energy.len());
+    assert!((parts - value(&energy, &x)).abs() < 1e-12);
+    let mut stencils = Vec::new();
+    energy.stencils(&mut |v| stencils.push(v.to_vec()));
+    assert_eq!(stencils, patch.hinges.iter().map(|h| h.vertices.to_vec()).collect::<Vec<_>>());
+}

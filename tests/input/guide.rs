@@ -1,0 +1,228 @@
+//! The bones that boundary loops follow.
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::{Path, PathBuf};
+
+use bespoke::input::guide::{Guide, LoopGuide, choose_guides};
+use bespoke::input::mesh::{BoundaryLoop, TriangleMesh};
+use bespoke::input::skeleton::Skeleton;
+use glam::DVec3;
+
+/// A person of height 1.7, z up, arms hanging down beside the body.
+fn person() -> Skeleton {
+    let at = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let joints = vec![
+        at(0.0, 0.95),  // 0 root
+        at(0.0, 1.1),   // 1 waist
+        at(0.0, 1.5),   // 2 neck
+        at(0.2, 1.45),  // 3 left shoulder
+        at(0.28, 1.15), // 4 left elbow
+        at(0.34, 0.85), // 5 left wrist
+        at(-0.2, 1.45),
+        at(-0.28, 1.15),
+        at(-0.34, 0.85),
+        at(0.1, 0.9), // 9 left hip
+        at(0.1, 0.5), // 10 left knee
+        at(0.1, 0.1), // 11 left ankle
+        at(-0.1, 0.9),
+        at(-0.1, 0.5),
+        at(-0.1, 0.1),
+    ];
+    // The bones of one leg are listed the other way round.
+    let bones = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [2, 6], [6, 7], [7, 8], [0, 9], [9, 10], [10, 11]]
+        .into_iter()
+        .chain([[12, 0], [13, 12], [14, 13]])
+        .collect();
+    Skeleton { joints, bones }
+}
+
+/// An ellipse of 24 points around `centre`, with the half-axes `u` and `v`.
+fn ellipse(centre: DVec3, u: DVec3, v: DVec3) -> Vec<DVec3> {
+    let angle = |k: i32| std::f64::consts::TAU * f64::from(k) / 24.0;
+    (0..24).map(|k| centre + u * angle(k).cos() + v * angle(k).sin()).collect()
+}
+
+/// A horizontal ellipse at a height.
+fn hem(height: f64, width: f64) -> Vec<DVec3> {
+    ellipse(DVec3::Z * height, DVec3::X * width, DVec3::Y * 0.15)
+}
+
+fn choose(points: &[DVec3], source: &Skeleton, target: &Skeleton) -> Option<LoopGuide> {
+    let boundary = BoundaryLoop { vertices: (0..points.len() as u32).collect() };
+    choose_guides(points, &[boundary], source, target).remove(0)
+}
+
+/// The pairs of joints of the bones chosen for a loop, each pair in ascending order.
+fn chosen(points: &[DVec3], source: &Skeleton) -> Vec<[u32; 2]> {
+    let bones = choose(points, source, source).map_or(vec![], |choice| choice.bones);
+    bones.iter().map(|&bone| source.bones[bone as usize]).map(|[a, b]| [a.min(b), a.max(b)]).collect()
+}
+
+#[test]
+fn a_loop_around_one_limb_follows_its_bone() {
+    let person = person();
+    assert_eq!(chosen(&hem(1.05, 0.2), &person), [[0, 1]]);
+    assert_eq!(chosen(&hem(1.2, 0.2), &person), [[1, 2]]);
+    let forearm = person.joints[5] - person.joints[4];
+    let around = |p: DVec3| ellipse(p, 0.06 * forearm.cross(DVec3::Y).normalize(), 0.06 * DVec3::Y);
+    assert_eq!(chosen(&around(person.joints[4].lerp(person.joints[5], 0.8)), &person), [[4, 5]]);
+    // A sleeve that ends beyond the wrist.
+    assert_eq!(chosen(&around(person.joints[4].lerp(person.joints[5], 1.15)), &person), [[4, 5]]);
+    let leg = |height: f64| hem(height, 0.08).iter().map(|p| *p + DVec3::X * 0.1).collect::<Vec<_>>();
+    assert_eq!(chosen(&leg(0.2), &person), [[10, 11]]);
+    assert_eq!(chosen(&leg(0.05), &person), [[10, 11]]);
+}
+
+#[test]
+fn a_hem_around_both_legs_follows_their_mean() {
+    let person = person();
+    let mini = hem(0.75, 0.22);
+    assert_eq!(chosen(&mini, &person), [[9, 10], [12, 13]]);
+    assert_eq!(chosen(&hem(0.3, 0.3), &person), [[10, 11], [13, 14]]);
+    // A gown that ends below the ankles.
+    assert_eq!(chosen(&hem(0.04, 0.5), &person), [[10, 11], [13, 14]]);
+    // The arms hang outside the hem; only where it is as wide as they are do they take part.
+    assert_eq!(chosen(&hem(0.87, 0.25), &person), [[9, 10], [12, 13]]);
+    assert_eq!(chosen(&hem(0.87, 0.6), &person), [[4, 5], [7, 8], [9, 10], [12, 13]]);
+
+    let mut target = person.clone();
+    target.joints[10] += DVec3::new(0.4, 0.2, 0.0);
+    let guide = choose(&mini, &person, &target).unwrap().guide;
+    let (hip, knee) = (DVec3::Z * 0.9, DVec3::Z * 0.5);
+    let is_near = |a: [DVec3; 2], b: [DVec3; 2]| a.iter().zip(b).all(|(a, b)| a.distance(b) < 1e-12);
+    let shift = DVec3::new(0.2, 0.1, 0.0);
+    let down = is_near(guide.start, [hip, knee]) && is_near(guide.end, [hip, knee + shift]);
+    let up = is_near(guide.start, [knee, hip]) && is_near(guide.end, [knee + shift, hip]);
+    assert!(down || up, "{guide:?}");
+}
+
+#[test]
+fn the_mean_does_not_depend_on_how_loop_and_bones_are_listed() {
+    let person = person();
+    let points = hem(0.7, 0.22);
+    let expected = choose(&points, &person, &person).unwrap().guide;
+    let flipped = |g: Guide| Guide { start: [g.start[1], g.start[0]], end: [g.end[1], g.end[0]] };
+    let is_near = |a: &Guide, b: &Guide| {
+        let ends = |g: &Guide| [g.start[0], g.start[1], g.end[0], g.end[1]];
+        ends(a).iter().zip(ends(b)).all(|(a, b)| a.distance(b) < 1e-12)
+    };
+    let reversed: Vec<DVec3> = points.iter().rev().copied().collect();
+    assert!(is_near(&choose(&reversed, &person, &person).unwrap().guide, &flipped(expected)));
+    for turned in 0..person.bones.len() {
+        let mut other = person.clone();
+        other.bones[turned].swap(0, 1);
+        let guide = choose(&points, &other, &person).unwrap().guide;
+        assert!(is_near(&guide, &expected));
+    }
+}
+
+#[test]
+fn a_bone_must_pass_through_the_loop_to_be_preferred() {
+    let joints = vec![DVec3::ZERO, DVec3::X, DVec3::new(0.5, -0.5, 0.3), DVec3::new(0.5, 0.5, 0.3)];
+    let skeleton = Skeleton { joints, bones: vec![[0, 1], [2, 3]] };
+    // Closer to the first bone, but its opening looks along the second.
+    let opening = ellipse(DVec3::new(0.5, 0.0, 0.05), 0.1 * DVec3::X, 0.1 * DVec3::Z);
+    assert_eq!(chosen(&opening, &skeleton), [[2, 3]]);
+    // Looks along neither: the closest of all.
+    let opening = ellipse(DVec3::new(0.5, 0.0, 0.05), 0.1 * DVec3::X, 0.1 * DVec3::Y);
+    assert_eq!(chosen(&opening, &skeleton), [[0, 1]]);
+    // A slit has no direction to look along: the closest of all, again.
+    let slit = ellipse(DVec3::new(0.5, 0.0, 0.05), 0.1 * DVec3::X, DVec3::ZERO);
+    assert_eq!(chosen(&slit, &skeleton), [[0, 1]]);
+}
+
+#[test]
+fn two_bones_joined_on_the_plane_cross_it_once() {
+    let joints = vec![-DVec3::Z, DVec3::ZERO, DVec3::Z];
+    let skeleton = Skeleton { joints, bones: vec![[0, 1], [1, 2]] };
+    let square = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y];
+    assert_eq!(chosen(&square, &skeleton).len(), 1);
+}
+
+#[test]
+fn without_a_loop_or_a_bone_there_is_no_guide() {
+    let point = Skeleton { joints: vec![DVec3::ONE; 2], bones: vec![[0, 1]] };
+    assert_eq!(choose(&[], &person(), &person()), None);
+    assert_eq!(choose(&hem(1.0, 0.2), &point, &point), None);
+    assert_eq!(choose(&hem(1.0, 0.2), &Skeleton::default(), &Skeleton::default()), None);
+    // A single point and a line are loops of a sort.
+    assert!(choose(&[DVec3::Z], &person(), &person()).is_some());
+    assert!(choose(&[DVec3::Z, DVec3::X], &person(), &person()).is_some());
+}
+
+fn assets() -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assets");
+    let path = std::env::var_os("BESPOKE_ASSETS").map_or_else(beside, PathBuf::from);
+    path.join("garments").is_dir().then_some(path)
+}
+
+/// The vertices of an OBJ file, and what stands in its lines that begin with `element`, counted from 0.
+fn read_obj<const N: usize>(path: &Path, element: &str) -> (Vec<DVec3>, Vec<[u32; N]>) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let (mut points, mut elements) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        let key = words.next().unwrap_or("");
+        if key == "v" {
+            let c: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
+            points.push(DVec3::from_slice(&c));
+        } else if key == element {
+            let index = |word: &str| word.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
+            elements.push(words.map(index).collect::<Vec<_>>().try_into().unwrap());
+        }
+    }
+    (points, elements)
+}
+
+/// The boundary loops of a manifold mesh, each from its smallest vertex, in the order of those.
+fn boundary_loops(mesh: &TriangleMesh) -> Vec<BoundaryLoop> {
+    let edges = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
+    let all: HashSet<(u32, u32)> = mesh.triangles.iter().flat_map(edges).collect();
+    let mut next: BTreeMap<u32, u32> = all.iter().copied().filter(|&(a, b)| !all.contains(&(b, a))).collect();
+    let mut loops = Vec::new();
+    while let Some((first, mut vertex)) = next.pop_first() {
+        let mut vertices = vec![first];
+        while vertex != first {
+            vertices.push(vertex);
+            vertex = next.remove(&vertex).unwrap();
+        }
+        loops.push(BoundaryLoop { vertices });
+    }
+    loops
+}
+
+/// The bones for the loops of a published garment, as pairs of joints, sorted.
+fn bones_of(garment: &str) -> Option<Vec<Vec<[u32; 2]>>> {
+    let Some(folder) = assets().map(|path| path.join("garments").join(garment)) else {
+        println!("skipped: set BESPOKE_ASSETS to the folder that holds garments/{garment}");
+        return None;
+    };
+    let (positions, triangles) = read_obj(&folder.join("garment.obj"), "f");
+    let (joints, bones) = read_obj(&folder.join("skeleton.obj"), "l");
+    let mesh = TriangleMesh { positions, triangles };
+    let skeleton = Skeleton { joints, bones };
+    let name = |bone: &u32| {
+        let [a, b] = skeleton.bones[*bone as usize];
+        [a.min(b), a.max(b)]
+    };
+    let choices = choose_guides(&mesh.positions, &boundary_loops(&mesh), &skeleton, &skeleton);
+    let mut pairs: Vec<Vec<[u32; 2]>> =
+        choices.into_iter().map(|choice| choice.unwrap().bones.iter().map(name).collect()).collect();
+    pairs.sort();
+    Some(pairs)
+}
+
+#[test]
+fn the_coat_follows_spine_and_forearms() {
+    // Hem, neck, and the two sleeves (the right wrist is joint 7).
+    if let Some(bones) = bones_of("Puffer_dense") {
+        assert_eq!(bones, [vec![[0, 1]], vec![[1, 2]], vec![[4, 5]], vec![[7, 8]]]);
+    }
+}
+
+#[test]
+fn the_jumpsuit_follows_spine_forearms_and_shins() {
+    if let Some(bones) = bones_of("jumpsuit_dense") {
+        assert_eq!(bones, [vec![[1, 2]], vec![[4, 5]], vec![[7, 8]], vec![[10, 11]], vec![[13, 14]]]);
+    }
+}

@@ -1,0 +1,3 @@
+//! What a caller hands in.
+
+mod guide;
