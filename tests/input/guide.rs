@@ -1,6 +1,6 @@
 //! The bones that boundary loops follow.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use bespoke::input::guide::{Guide, LoopGuide, choose_guides};
@@ -177,9 +177,8 @@ fn read_obj<const N: usize>(path: &Path, element: &str) -> (Vec<DVec3>, Vec<[u32
 /// The boundary loops of a manifold mesh, each from its smallest vertex, in the order of those.
 fn boundary_loops(mesh: &TriangleMesh) -> Vec<BoundaryLoop> {
     let edges = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
-    let mut next: BTreeMap<u32, u32> = BTreeMap::new();
-    let all: std::collections::HashSet<(u32, u32)> = mesh.triangles.iter().flat_map(edges).collect();
-    next.extend(all.iter().filter(|&&(a, b)| !all.contains(&(b, a))));
+    let all: HashSet<(u32, u32)> = mesh.triangles.iter().flat_map(edges).collect();
+    let mut next: BTreeMap<u32, u32> = all.iter().copied().filter(|&(a, b)| !all.contains(&(b, a))).collect();
     let mut loops = Vec::new();
     while let Some((first, mut vertex)) = next.pop_first() {
         let mut vertices = vec![first];
