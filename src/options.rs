@@ -11,6 +11,9 @@ pub struct Options {
     pub threads: u32,
     /// Weight of the fit term (Eq. 4): higher is tighter.
     pub fit_weight: f64,
+    /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point had on
+    /// it. 1 is as designed; 0 is tight, as without a source avatar.
+    pub designed_clearance: f64,
     /// Weight of the surface term (Eq. 2).
     pub surface_weight: f64,
     /// Weight of the curvature of boundary curves (Eq. 5).
@@ -45,6 +48,7 @@ impl Default for Options {
         Self {
             threads: 0,
             fit_weight: 2.0,
+            designed_clearance: 1.0,
             surface_weight: 1.0,
             curvature_weight: 1.0,
             torsion_weight: 1.0,
@@ -90,6 +94,7 @@ impl Options {
             ("separation_floor", self.separation_floor, 1e-8, 0.01),
             ("voxel", self.voxel, 1e-3, 0.2),
             ("tolerance", self.tolerance, 1e-12, 1.0),
+            ("designed_clearance", self.designed_clearance, 0.0, 2.0),
         ] {
             if !(value >= low && value <= high) {
                 return refuse(name, value, &format!("between {low} and {high}"));

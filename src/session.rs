@@ -218,7 +218,8 @@ impl Session {
         Ok(())
     }
 
-    /// The body that the garment was designed on, in the source space. Optional.
+    /// The body that the garment was designed on, in the source space. Optional: with it, each point of the garment aims
+    /// at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -361,6 +362,7 @@ impl Session {
                 avatar: &mesh_to_ours(&self.target_space, avatar),
                 target_skeleton: &skeleton_to_ours(&self.target_space, &target),
                 skin: self.skin.as_ref(),
+                source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
                 fit_weights: self.fit_weights.as_deref(),
             },
             &self.options,
@@ -581,7 +583,7 @@ impl Work {
         let clock = Instant::now();
         let (field, seconds) = self.field.wait(control)?;
         report.field_seconds = seconds;
-        self.objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options);
+        self.objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options)?;
         self.newton = Newton::new(self.state.x.len(), &self.objective.terms())?;
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         report.fit.seconds += clock.elapsed().as_secs_f64();

@@ -184,6 +184,11 @@ impl Newton {
         Err(Error::new(ErrorKind::Internal, "the Hessian could not be made positive definite"))
     }
 
+    /// Derivative of the objective with respect to t at the last linearisation.
+    pub fn t_gradient(&self) -> f64 {
+        self.system.t_gradient
+    }
+
     /// The change of t that the bordered system asks for.
     pub fn newton_dt(&self) -> f64 {
         let n = self.system.gradient.len();
@@ -248,27 +253,32 @@ impl Newton {
         Ok(fraction * kept)
     }
 
-    /// One step of Newton's method at fixed t: linearise, admit, search. `None` where no fraction of the step decreases
-    /// the objective: the state is as good as rounding allows, or contact leaves no way.
+    /// One step of Newton's method, at fixed t or, with `free_t`, on the garment and t together (t never leaves [0, 1]):
+    /// linearise, admit, search. `None` where no fraction of the step decreases the objective: the state is as good as
+    /// rounding allows, or contact leaves no way.
     ///
     /// # Errors
     /// As [`Self::linearise`].
-    pub fn descend(&mut self, model: &mut dyn Model, state: &mut State) -> Result<Option<Accepted>> {
-        self.linearise(&model.terms(), state.configuration(), false)?;
-        let kept = self.aim(0.0);
-        let slope = self.slope(0.0);
+    pub fn descend(&mut self, model: &mut dyn Model, state: &mut State, free_t: bool) -> Result<Option<Accepted>> {
+        self.linearise(&model.terms(), state.configuration(), free_t)?;
+        let wanted = if free_t { self.newton_dt().clamp(-state.t, 1.0 - state.t) } else { 0.0 };
+        let kept = self.aim(wanted);
+        let dt = kept * wanted;
+        let slope = self.slope(dt);
 
         let clock = Instant::now();
-        let longest = model.admit(state.configuration(), &self.dx, 0.0, 1.0);
+        let longest = model.admit(state.configuration(), &self.dx, dt, 1.0);
         self.counters.admission += clock.elapsed();
 
         let clock = Instant::now();
         let terms = model.terms();
-        let before = assembly::total(&terms, state.configuration());
-        let found = backtrack(&terms, state.configuration(), &self.dx, 0.0, slope, before, longest, &mut self.trial);
+        let start = state.configuration();
+        let before = assembly::total(&terms, start);
+        let found = backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial);
         self.counters.line_search += clock.elapsed();
         Ok(found.map(|(fraction, after)| {
             std::mem::swap(&mut state.x, &mut self.trial);
+            state.t += fraction * dt;
             Accepted {
                 fraction: fraction * kept,
                 before,

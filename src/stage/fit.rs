@@ -62,7 +62,7 @@ impl Settling {
     ) -> Result<bool> {
         self.iterations += 1;
         self.at_level += 1;
-        let step = newton.descend(objective, state)?;
+        let step = newton.descend(objective, state, false)?;
         if self.level < LEVELS {
             let ripe = step.is_none_or(|s| s.fraction >= FREE || s.decrement <= SMALL_PROMISE * s.after);
             if ripe || self.at_level >= PATIENCE {

@@ -1,10 +1,12 @@
 //! Step 2: the avatar grows from the skeleton to its own shape while the garment gives way (section 3.5).
 //!
-//! The paper drives t to 1 with an augmented Lagrangian. Here t is the parameter of a path: one factorisation gives the
-//! garment's answer `dx = p0 + dt p1` to a chosen advance dt, p0 being the Newton correction at fixed t. The drive is
-//! then never weighed against the barrier, and needs no weight. Where contact cuts the advance short again and again,
-//! plain Newton steps at fixed t bring the garment back to its balance, and the path goes on from there.
+//! The paper drives t to 1 with an augmented Lagrangian. Here t is first the parameter of a path: one factorisation gives
+//! the garment's answer `dx = p0 + dt p1` to a chosen advance dt, p0 being the Newton correction at fixed t. The drive is
+//! then never weighed against the barrier, and needs no weight. Where contact cuts the advance short, Newton steps at
+//! fixed t bring the garment back to its balance. Where that does not help either, the garment is wedged, and the
+//! augmented Lagrangian takes over: it lets t go back as well as forth.
 
+use crate::energy::inflation::Inflation as Lagrangian;
 use crate::error::{Error, ErrorKind, Result};
 use crate::solver::newton::{Newton, State};
 
@@ -14,26 +16,35 @@ use super::objective::Objective;
 const FIRST_ADVANCE: f64 = 0.05;
 const LARGEST_ADVANCE: f64 = 0.2;
 /// An advance that would be shorter than this is no advance.
-const SMALLEST_ADVANCE: f64 = 1e-7;
+const SMALLEST_ADVANCE: f64 = 1e-6;
 /// Below this fraction of an accepted step, the garment is brought back to balance.
 const CRAMPED: f64 = 0.1;
 /// Newton steps at fixed t after a cramped advance.
 const CORRECTIONS: u32 = 3;
+/// Cramped advances without a free one between them, after which the garment counts as wedged.
+const WEDGED: u32 = 12;
 /// The jump to t = 1 is tried from here on: further away its swept volume is large and its hope small.
 const SNAP_FROM: f64 = 0.7;
+/// Steps of the augmented Lagrangian before its multipliers are updated, at most.
+const INNER_STEPS: u32 = 12;
+/// An inner solve ends where the squared Newton decrement is below this fraction of the objective.
+const INNER_TOLERANCE: f64 = 0.01;
 
-/// The state of the path.
+/// The state of Step 2.
 pub struct Inflation {
-    advance: f64,
-    corrections: u32,
-    stalled: u32,
+    form: Form,
     /// Iterations so far.
     pub iterations: u32,
 }
 
+enum Form {
+    Path { advance: f64, corrections: u32, cramped: u32 },
+    Lagrangian { inner: u32 },
+}
+
 impl Default for Inflation {
     fn default() -> Self {
-        Self { advance: FIRST_ADVANCE, corrections: 0, stalled: 0, iterations: 0 }
+        Self { form: Form::Path { advance: FIRST_ADVANCE, corrections: 0, cramped: 0 }, iterations: 0 }
     }
 }
 
@@ -44,43 +55,72 @@ impl Inflation {
     /// `InflationStalled` where t does not move any more, `Internal` from the solver.
     pub fn iterate(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<bool> {
         self.iterations += 1;
-        if self.corrections > 0 {
-            self.corrections -= 1;
-            if newton.descend(objective, state)?.is_none() {
-                self.corrections = 0;
+        match &mut self.form {
+            Form::Path { corrections, .. } if *corrections > 0 => {
+                *corrections -= 1;
+                if newton.descend(objective, state, false)?.is_none() {
+                    *corrections = 0;
+                }
             }
-        } else {
-            self.follow(objective, newton, state)?;
+            Form::Path { .. } => self.follow(objective, newton, state)?,
+            Form::Lagrangian { .. } => self.push(objective, newton, state)?,
         }
         Ok(state.t >= 1.0 || snap(objective, state))
     }
 
+    /// One advance along the path.
     fn follow(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
-        let wanted = self.advance.min(1.0 - state.t);
-        let taken = newton.advance(objective, state, wanted)?;
+        let Form::Path { advance, corrections, cramped } = &mut self.form else { return Ok(()) };
+        let taken = newton.advance(objective, state, advance.min(1.0 - state.t))?;
         if taken >= 0.99 {
-            self.advance = (2.0 * self.advance).min(LARGEST_ADVANCE);
-            self.stalled = 0;
+            *advance = (2.0 * *advance).min(LARGEST_ADVANCE);
+            *cramped = 0;
         } else if taken < 0.5 {
-            self.advance *= 0.5;
+            *advance *= 0.5;
         }
         if taken < CRAMPED {
-            self.stalled += 1;
-            self.corrections = CORRECTIONS;
+            *cramped += 1;
+            *corrections = CORRECTIONS;
         }
-        if self.advance < SMALLEST_ADVANCE || self.stalled > 60 {
+        if *advance < SMALLEST_ADVANCE || *cramped > WEDGED {
+            // A drive as strong as the resistance that stopped the path.
+            let multiplier = newton.t_gradient().max(0.0);
+            objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));
+            self.form = Form::Lagrangian { inner: 0 };
+        }
+        Ok(())
+    }
+
+    /// One Newton step on garment and t together.
+    fn push(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
+        let Form::Lagrangian { inner } = &mut self.form else { return Ok(()) };
+        *inner += 1;
+        let step = newton.descend(objective, state, true)?;
+        let solved = step.is_none_or(|s| s.decrement <= INNER_TOLERANCE * s.after.abs());
+        if !solved && *inner < INNER_STEPS {
+            return Ok(());
+        }
+        *inner = 0;
+        let Some(drive) = objective.inflation().copied() else { return Ok(()) };
+        if drive.penalty() > STRONGEST_DRIVE {
             return Err(Error::new(
                 ErrorKind::InflationStalled,
                 format!(
                     "the avatar cannot grow beyond {:.4} of its size inside the garment: the garment is wedged between \
-                     parts of the avatar. Try a larger --dhat or another barrier weight, or separate the parts",
+                     parts of the avatar. Try another inflation_dhat or inflation_barrier_weight, or move the parts of \
+                     the avatar apart",
                     state.t
                 ),
             ));
         }
+        let multiplier = drive.multiplier() + drive.penalty() * (1.0 - state.t);
+        objective.set_inflation(Some(Lagrangian::new(2.0 * drive.penalty(), multiplier)));
         Ok(())
     }
 }
+
+/// Penalty at which the augmented Lagrangian gives up: thirty doublings.
+const STRONGEST_DRIVE: f64 = 1e9;
 
 /// Jumps to t = 1 with the garment at rest, where nothing is in the way.
 fn snap(objective: &mut Objective, state: &mut State) -> bool {

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use crate::contact::{Bodies, BroadPhase, Configuration, Step, ccd};
-use crate::energy::Energy;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
+use crate::energy::inflation::Inflation;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::options::Options;
@@ -30,6 +30,7 @@ pub struct Shape {
 pub struct Objective {
     shape: Arc<Shape>,
     fit: Option<Fit>,
+    inflation: Option<Inflation>,
     barrier: Barrier,
     bodies: Arc<Bodies>,
     broad_phase: BroadPhase,
@@ -47,7 +48,15 @@ impl Objective {
             ..BarrierSettings::default()
         };
         let barrier = Barrier::new(bodies.clone(), settings);
-        Self { shape, fit, broad_phase: BroadPhase::new(&bodies), barrier, bodies, weights: weights.clone() }
+        Self {
+            shape,
+            fit,
+            inflation: None,
+            broad_phase: BroadPhase::new(&bodies),
+            barrier,
+            bodies,
+            weights: weights.clone(),
+        }
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
@@ -60,6 +69,16 @@ impl Objective {
     pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
         self.weights.barrier_weight = weight;
+    }
+
+    /// The drive on t, where there is one.
+    pub fn inflation(&self) -> Option<&Inflation> {
+        self.inflation.as_ref()
+    }
+
+    /// Sets or removes the drive on t.
+    pub fn set_inflation(&mut self, drive: Option<Inflation>) {
+        self.inflation = drive;
     }
 
     /// The largest fraction of the avatar's motion by `dt` that a resting garment allows.
@@ -90,8 +109,11 @@ impl Model for Objective {
             Term { energy: &shape.position, weight: w.position_weight },
             Term { energy: &self.barrier, weight: w.barrier_weight },
         ];
+        if let Some(drive) = &self.inflation {
+            terms.push(Term { energy: drive, weight: 1.0 });
+        }
         if let Some(fit) = &self.fit {
-            terms.push(Term { energy: fit as &dyn Energy, weight: w.fit_weight });
+            terms.push(Term { energy: fit, weight: w.fit_weight });
         }
         terms
     }

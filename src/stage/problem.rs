@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
@@ -19,6 +20,7 @@ use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::options::Options;
 use crate::sdf::Field;
+use crate::sdf::closest_point::ClosestPoint;
 use crate::verify::intersections;
 
 /// What a caller handed in, in the caller's own spaces.
@@ -33,6 +35,8 @@ pub struct Inputs<'a> {
     pub target_skeleton: &'a Skeleton,
     /// Its skin.
     pub skin: Option<&'a SkinWeights>,
+    /// The body that the garment was designed on, in the garment's space.
+    pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each garment vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
 }
@@ -55,6 +59,8 @@ pub struct Problem {
     shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
     fit_weights: Vec<f64>,
+    /// The body that the garment was designed on.
+    source_body: Option<ClosestPoint>,
 }
 
 impl Problem {
@@ -100,6 +106,12 @@ impl Problem {
             torsion: Torsion::new(&garment.positions, &topology.loops),
             position: Position::new(&garment.positions, &constraints, guides, &lengths),
         };
+        let source_body = inputs.source_avatar.map(|mesh| {
+            ClosestPoint::new(&TriangleMesh {
+                positions: normalised(&source_frame, &mesh.positions),
+                triangles: mesh.triangles.clone(),
+            })
+        });
         let fit_weights = match inputs.fit_weights {
             Some(weights) => weights.to_vec(),
             None => vec![1.0; garment.positions.len()],
@@ -113,6 +125,7 @@ impl Problem {
             projected,
             shape: Arc::new(shape),
             fit_weights,
+            source_body,
         })
     }
 
@@ -130,8 +143,12 @@ impl Problem {
 
     /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
     /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the step, `x`, and
-    /// then kept, for a measure that follows the garment would pay for shrinking it.
-    pub fn fit_objective(&self, field: Arc<Field>, x: &[DVec3], options: &Options) -> Objective {
+    /// then kept, for a measure that follows the garment would pay for shrinking it. Where the source body is known, each
+    /// point aims at the clearance that it had there; distances of both bodies are in units of their skeletons.
+    ///
+    /// # Errors
+    /// `InvalidArgument` for a clearance that is not finite.
+    pub fn fit_objective(&self, field: Arc<Field>, x: &[DVec3], options: &Options) -> Result<Objective> {
         let areas = TriangleMesh { positions: x.to_vec(), triangles: self.triangles.clone() }.areas();
         let positions = &self.avatar.positions;
         let avatar = Avatar {
@@ -139,8 +156,13 @@ impl Problem {
             start: positions.clone(),
             motion: vec![DVec3::ZERO; positions.len()],
         };
-        let fit = Fit::new(field, &self.triangles, &areas, &self.fit_weights);
-        Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), options.dhat, options)
+        let mut fit = Fit::new(field, &self.triangles, &areas, &self.fit_weights);
+        if let Some(body) = &self.source_body {
+            let designed = fit.sample_points(&self.rest);
+            let aims: Vec<f64> = designed.par_iter().map(|&p| options.designed_clearance * body.distance(p)).collect();
+            fit.set_aims(&aims)?;
+        }
+        Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), options.dhat, options))
     }
 
     fn bodies(&self, avatar: Avatar) -> Arc<Bodies> {

@@ -80,7 +80,7 @@ fn descent_reaches_a_minimum_and_never_rises() {
     let mut newton = Newton::new(5, &model.terms()).unwrap();
     let mut last = f64::INFINITY;
     for _ in 0..200 {
-        let Some(step) = newton.descend(&mut model, &mut state).unwrap() else { break };
+        let Some(step) = newton.descend(&mut model, &mut state, false).unwrap() else { break };
         assert!(step.after <= step.before && step.before <= last * (1.0 + 1e-12));
         assert!(step.displacement <= 0.1 * 3.0_f64.sqrt() + 1e-12);
         last = step.after;
@@ -96,7 +96,7 @@ fn a_step_never_goes_beyond_what_the_model_admits() {
     let mut newton = Newton::new(5, &model.terms()).unwrap();
     for _ in 0..5 {
         let before = state.x.clone();
-        newton.descend(&mut model, &mut state).unwrap().unwrap();
+        newton.descend(&mut model, &mut state, false).unwrap().unwrap();
         let moved = before.iter().zip(&state.x).fold(0.0_f64, |m, (a, b)| m.max((*a - *b).abs().max_element()));
         assert!(moved <= 0.25 * 0.1 + 1e-12, "{moved}");
     }
