@@ -1,0 +1,58 @@
+//! The real meshes, where they are at hand: ten pairs, the same defaults for all.
+
+use bespoke::control::Stage;
+use bespoke::input::skin::SkinWeights;
+use bespoke::session::{Precision, Session};
+
+use super::obj::{assets, read_mesh, read_skeleton};
+
+fn dress(garment: &str, avatar: &str) {
+    let Some(folder) = assets() else { return };
+    let (garment, avatar) = (folder.join("garments").join(garment), folder.join("avatars").join(avatar));
+    let mut session = Session::new();
+    let cloth = read_mesh(&garment.join("garment.obj"));
+    let body = read_mesh(&avatar.join("avatar.obj"));
+    let skeleton = read_skeleton(&avatar.join("skeleton.obj"));
+    if let Ok(text) = std::fs::read_to_string(avatar.join("skin.txt")) {
+        let weights: Vec<f64> = text.split_whitespace().map(|w| w.parse().unwrap()).collect();
+        let skin = SkinWeights::from_dense(&weights, skeleton.joints.len(), body.positions.len(), "skin").unwrap();
+        session.set_target_skin(skin).unwrap();
+    }
+    if let Ok(text) = std::fs::read_to_string(garment.join("no-fit.txt")) {
+        let mut weights = vec![1.0; cloth.positions.len()];
+        text.split_whitespace().for_each(|v| weights[v.parse::<usize>().unwrap()] = 0.0);
+        session.set_fit_weights(weights).unwrap();
+    }
+    session.set_garment(cloth, Precision::F32).unwrap();
+    session.set_source_skeleton(read_skeleton(&garment.join("skeleton.obj"))).unwrap();
+    session.set_target_avatar(body, Precision::F32).unwrap();
+    session.set_target_skeleton(skeleton).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    let report = session.report();
+    assert!(report.verification.unwrap().is_clean());
+    assert!(session.verify(Precision::F64).unwrap().is_clean());
+    // Generous bounds that a garment on the wrong limb, or inside out, is far beyond.
+    let term = |name| report.terms.iter().find(|t| t.name == name).unwrap().value;
+    assert!(term("surface") < 0.15, "surface {}", term("surface"));
+    assert!(term("fit") < 0.02, "fit {}", term("fit"));
+    assert!(term("position") < 1e-3, "position {}", term("position"));
+}
+
+macro_rules! pairs {
+    ($($name:ident: $garment:literal on $avatar:literal),* $(,)?) => {
+        $(#[test] fn $name() { dress($garment, $avatar); })*
+    };
+}
+
+pairs! {
+    coat_on_goblin: "Puffer_dense" on "Goblin",
+    coat_on_fox_girl: "Puffer_dense" on "FoxGirl",
+    coat_on_slim_adult: "Puffer_dense" on "slim_adult",
+    coat_on_heavy_adult: "Puffer_dense" on "heavy_adult",
+    coat_on_child: "Puffer_dense" on "child",
+    jumpsuit_on_goblin: "jumpsuit_dense" on "Goblin",
+    jumpsuit_on_fox_girl: "jumpsuit_dense" on "FoxGirl",
+    jumpsuit_on_slim_adult: "jumpsuit_dense" on "slim_adult",
+    jumpsuit_on_heavy_adult: "jumpsuit_dense" on "heavy_adult",
+    jumpsuit_on_child: "jumpsuit_dense" on "child",
+}

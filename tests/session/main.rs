@@ -1,0 +1,9 @@
+//! A session from inputs to a verified result.
+
+mod assets;
+mod small;
+
+#[path = "../support/obj.rs"]
+mod obj;
+#[path = "../support/mod.rs"]
+mod support;
