@@ -1,6 +1,7 @@
 // The one translation unit that includes OpenVDB: its headers take most of a C++ build.
 #include "volume.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -103,7 +104,9 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
         openvdb::util::NullInterrupter& any_interrupter = interrupter;
         const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
         openvdb::FloatGrid::Ptr grid;
-        tbb::task_arena arena(threads > 0 ? static_cast<int>(threads) : 1);
+        // More than the machine has would make TBB complain on the standard error of the host.
+        const int most = tbb::this_task_arena::max_concurrency();
+        tbb::task_arena arena(std::clamp(static_cast<int>(std::min(threads, 1024u)), 1, std::max(most, 1)));
         arena.execute([&] {
             // Renormalisation would move the surface by a fraction of a voxel.
             grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(any_interrupter, soup, *transform, outside_band,

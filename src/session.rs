@@ -75,6 +75,8 @@ pub struct Session {
 /// What exists between `prepare` and `reset`.
 struct Work {
     pool: Arc<rayon::ThreadPool>,
+    /// The caller's, with the separation floor that the problem allows.
+    options: Options,
     problem: Problem,
     state: State,
     objective: Objective,
@@ -309,12 +311,11 @@ impl Session {
             .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")))?;
         let problem = pool.install(|| self.pose_problem())?;
         let field = FieldTask::start(problem.avatar.clone(), self.options.voxel, threads)?;
-        let (objective, newton, state) = pool.install(|| {
+        let (objective, options, newton, state) = pool.install(|| {
             let state = State { x: problem.rest.clone(), t: 0.0 };
-            let mut objective = problem.inflation_objective(&self.options);
-            objective.settle(state.configuration());
+            let (objective, options) = problem.begin(&self.options);
             let newton = Newton::new(state.x.len(), &objective.terms())?;
-            Ok((objective, newton, state))
+            Ok((objective, options, newton, state))
         })?;
         self.report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
@@ -325,7 +326,7 @@ impl Session {
         };
         self.report.prepare.seconds = clock.elapsed().as_secs_f64();
         let step = Step::Inflate(Inflation::default());
-        self.work = Some(Work { pool: Arc::new(pool), problem, state, objective, newton, step, field });
+        self.work = Some(Work { pool: Arc::new(pool), options, problem, state, objective, newton, step, field });
         self.enter(Stage::Prepared);
         Ok(())
     }
@@ -402,8 +403,8 @@ impl Session {
                 return Err(Error::new(ErrorKind::Internal, "there is no work in a running session"));
             };
             let pool = work.pool.clone();
-            let (control, options, report) = (&self.control, &self.options, &mut self.report);
-            let stage = pool.install(|| work.iterate(control, options, report))?;
+            let (control, report) = (&self.control, &mut self.report);
+            let stage = pool.install(|| work.iterate(control, report))?;
             self.enter(stage);
             if stage == Stage::Verify {
                 return self.finish();
@@ -551,7 +552,8 @@ impl Session {
 
 impl Work {
     /// One iteration, and the passage to the next stage where one has ended. [`Stage::Verify`] when all are.
-    fn iterate(&mut self, control: &Control, options: &Options, report: &mut Report) -> Result<Stage> {
+    fn iterate(&mut self, control: &Control, report: &mut Report) -> Result<Stage> {
+        let options = &self.options;
         let clock = Instant::now();
         let before = self.newton.counters;
         let (stage, ended) = match &mut self.step {
@@ -572,14 +574,15 @@ impl Work {
         match (stage, ended) {
             (_, false) => Ok(stage),
             (Stage::Inflate, true) => {
-                self.begin_fit(control, options, report)?;
+                self.begin_fit(control, report)?;
                 Ok(Stage::Fit)
             }
             (_, true) => Ok(Stage::Verify),
         }
     }
 
-    fn begin_fit(&mut self, control: &Control, options: &Options, report: &mut Report) -> Result<()> {
+    fn begin_fit(&mut self, control: &Control, report: &mut Report) -> Result<()> {
+        let options = &self.options;
         let clock = Instant::now();
         let (field, seconds) = self.field.wait(control)?;
         report.field_seconds = seconds;

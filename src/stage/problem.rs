@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{Objective, Shape};
-use crate::contact::{Avatar, Bodies, Garment, Surface as ContactSurface};
+use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
@@ -22,6 +22,9 @@ use crate::options::Options;
 use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
 use crate::verify::intersections;
+
+/// The separation floor is at most this fraction of the smallest distance at the start.
+const FLOOR_SHARE: f64 = 0.25;
 
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
@@ -86,6 +89,7 @@ impl Problem {
         };
         let projected = project(&avatar, &target, &source, inputs.skin)?;
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
+        check_itself(&garment)?;
         check_enclosure(&garment, &projected, &source)?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
@@ -129,8 +133,24 @@ impl Problem {
         })
     }
 
-    /// The objective of Step 2: the avatar moves with t.
-    pub fn inflation_objective(&self, options: &Options) -> Objective {
+    /// The objective of Step 2, the avatar moving with t, settled at its beginning; and the options with the separation
+    /// floor that this problem allows, which is lower where the garment is nearer to itself or the skeleton than that.
+    pub fn begin(&self, options: &Options) -> (Objective, Options) {
+        let at = Configuration { x: &self.rest, t: 0.0 };
+        let mut objective = self.inflation_objective(options);
+        objective.settle(at);
+        let near = objective.activity(at);
+        let nearest = near.min_distance_self.min(near.min_distance_avatar);
+        if nearest > FLOOR_SHARE.recip() * options.separation_floor {
+            return (objective, options.clone());
+        }
+        let options = Options { separation_floor: FLOOR_SHARE * nearest, ..options.clone() };
+        objective = self.inflation_objective(&options);
+        objective.settle(at);
+        (objective, options)
+    }
+
+    fn inflation_objective(&self, options: &Options) -> Objective {
         let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
         let avatar = Avatar {
             surface: ContactSurface::new(self.projected.start.len(), self.projected.triangles.clone()),
@@ -169,6 +189,24 @@ impl Problem {
         let surface = ContactSurface::new(self.rest.len(), self.triangles.clone());
         Arc::new(Bodies { garment: Garment { surface, rest: self.rest.clone() }, avatar })
     }
+}
+
+/// The barrier keeps apart what is apart; it cannot part what has met.
+fn check_itself(garment: &TriangleMesh) -> Result<()> {
+    let found = intersections(garment, None, 4)?;
+    if found.count == 0 {
+        return Ok(());
+    }
+    let named: Vec<String> = found.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
+    Err(Error::new(
+        ErrorKind::SelfIntersection,
+        format!(
+            "garment: {} pairs of triangles intersect or touch before anything has moved (triangles {}); move them apart, \
+             and merge vertices that lie at one point",
+            found.count,
+            named.join(", ")
+        ),
+    ))
 }
 
 /// The shrunk avatar is a set of segments on the bones; none may touch the garment, or Step 2 cannot begin.

@@ -114,9 +114,9 @@ fn no_iterate_of_the_inflation_intersects() {
         fit_weights: None,
     };
     let problem = Problem::new(&inputs, &options).unwrap();
-    let mut objective = problem.inflation_objective(&options);
+    let (mut objective, kept) = problem.begin(&options);
+    assert_eq!(kept, options);
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
-    objective.settle(state.configuration());
     let mut newton = Newton::new(state.x.len(), &objective.terms()).unwrap();
     let mut inflation = Inflation::default();
     let mut last = 0.0;
@@ -169,6 +169,31 @@ fn a_garment_beside_its_skeleton_is_refused_with_the_place() {
     assert_eq!(session.stage(), Stage::Setup);
     session.set_garment(sleeve(), Precision::F64).unwrap();
     assert_eq!(session.run().unwrap(), Stage::Done, "the session is as good as new");
+}
+
+#[test]
+fn a_garment_through_itself_is_refused_with_the_triangles() {
+    let mut session = session(1.0, DVec3::ZERO);
+    let mut garment = sleeve();
+    garment.positions[45] = garment.positions[245] + DVec3::new(0.001, 0.0, 0.0);
+    session.set_garment(garment, Precision::F64).unwrap();
+    let error = session.prepare().unwrap_err();
+    assert_eq!(error.kind, ErrorKind::SelfIntersection);
+    assert!(error.message.contains("pairs of triangles"), "{error}");
+}
+
+/// Two layers nearer than the separation floor: the floor gives way, the promise does not.
+#[test]
+fn layers_nearer_than_the_floor_stay_apart() {
+    let mut garment = sleeve();
+    let count = garment.positions.len() as u32;
+    let outer = tube(-0.6, 0.7, |z, _| 0.300004 + 0.03 * (12.0 * z).sin(), 16, 20, false);
+    garment.positions.extend(outer.positions);
+    garment.triangles.extend(outer.triangles.iter().map(|t| t.map(|v| v + count)));
+    let mut session = session(1.0, DVec3::ZERO);
+    session.set_garment(garment, Precision::F64).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    assert!(session.verify(Precision::F64).unwrap().is_clean());
 }
 
 #[test]
