@@ -42,9 +42,9 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
     cloth.add(Shape::Loft(trunk), 0.02, own);
     for (side, [shoulder, ..]) in [1.0, -1.0].into_iter().zip(ARMS) {
         let sections =
-            [Section::circle(0.0, 0.055), Section::ellipse(0.5, 0.060, 0.072), Section::ellipse(1.0, 0.070, 0.078)];
-        let tip = j[shoulder] + DVec3::new(side * 0.01, 0.0, -0.002);
-        let yoke = Loft::new(j[NECK] - DVec3::Z * 0.05, tip, DVec3::Y, &sections);
+            [Section::circle(0.0, 0.048), Section::ellipse(0.5, 0.050, 0.068), Section::ellipse(1.0, 0.054, 0.068)];
+        let tip = j[shoulder] + DVec3::new(side * 0.01, 0.0, -0.010);
+        let yoke = Loft::new(j[NECK] - DVec3::Z * 0.075, tip, DVec3::Y, &sections);
         cloth.add(Shape::Loft(yoke), 0.05, own);
     }
     for [upper, lower] in &sleeves {
@@ -68,8 +68,11 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
     }
     let neck = j[NECK];
     cuts.push(Box::new(move |p| {
-        // Higher at the nape; in front it dips where the zip ends.
+        // Higher at the nape; in front it dips where the zip ends. The shoulders stay whole.
         let (x, y) = (p.x, p.y - neck.y);
+        if x.abs() > 0.13 {
+            return -1.0;
+        }
         let dip = 0.022 * (-(x / 0.030).powi(2)).exp() / (1.0 + (y / 0.012).exp());
         p.z - (neck.z - 0.006 + 0.36 * y - dip)
     }));
@@ -122,7 +125,7 @@ fn trunk(skeleton: &Skeleton, hem: f64, random: &mut Random) -> Loft {
 fn sleeve([shoulder, elbow, wrist]: [usize; 3], skeleton: &Skeleton, random: &mut Random) -> [Loft; 2] {
     let [a, b, c] = [shoulder, elbow, wrist].map(|joint| skeleton.joints[joint]);
     let upper =
-        [Section::ellipse(0.0, 0.070, 0.078), Section::ellipse(0.4, 0.066, 0.072), Section::ellipse(1.0, 0.060, 0.062)];
+        [Section::ellipse(0.0, 0.058, 0.070), Section::ellipse(0.4, 0.061, 0.068), Section::ellipse(1.0, 0.060, 0.062)];
     // The last sections make the ribbed cuff.
     let lower = [
         Section::ellipse(0.0, 0.060, 0.062),

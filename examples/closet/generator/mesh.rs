@@ -38,18 +38,35 @@ impl Mesh {
 
     /// All the edges, sorted by their vertices. An edge of three triangles would appear twice.
     pub fn edges(&self) -> Vec<Edge> {
-        let mut sides: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * self.triangles.len());
-        for (index, &[a, b, c]) in self.triangles.iter().enumerate() {
-            for (v, w) in [(a, b), (b, c), (c, a)] {
-                sides.push((v.min(w), v.max(w), index as u32));
+        // One bucket for each smaller vertex; the buckets are short, so sorting within them is cheap.
+        let sides = |triangle: &[u32; 3]| {
+            let [a, b, c] = *triangle;
+            [(a, b), (b, c), (c, a)].map(|(v, w)| (v.min(w), v.max(w)))
+        };
+        let mut first = vec![0u32; self.positions.len() + 1];
+        for (v, _) in self.triangles.iter().flat_map(sides) {
+            first[v as usize + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        let mut next = first.clone();
+        let mut others = vec![(0, 0); 3 * self.triangles.len()];
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            for (v, w) in sides(triangle) {
+                others[next[v as usize] as usize] = (w, index as u32);
+                next[v as usize] += 1;
             }
         }
-        sides.sort_unstable();
-        let mut edges: Vec<Edge> = Vec::with_capacity(sides.len() / 2 + 1);
-        for (v, w, triangle) in sides {
-            match edges.last_mut() {
-                Some(last) if last.vertices == [v, w] && last.is_boundary() => last.triangles[1] = triangle,
-                _ => edges.push(Edge { vertices: [v, w], triangles: [triangle, NONE] }),
+        let mut edges: Vec<Edge> = Vec::with_capacity(others.len() / 2 + 1);
+        for v in 0..self.positions.len() {
+            let bucket = &mut others[first[v] as usize..first[v + 1] as usize];
+            bucket.sort_unstable();
+            for &(w, triangle) in &*bucket {
+                match edges.last_mut() {
+                    Some(last) if last.vertices == [v as u32, w] && last.is_boundary() => last.triangles[1] = triangle,
+                    _ => edges.push(Edge { vertices: [v as u32, w], triangles: [triangle, NONE] }),
+                }
             }
         }
         edges

@@ -19,6 +19,9 @@ pub trait Surface {
 const LONG: f64 = 4.0 / 3.0;
 const SHORT: f64 = 4.0 / 5.0;
 
+/// Cosine of the smallest angle that is accepted for the sake of regular vertices.
+const SHARP: f64 = 0.92;
+
 /// The triangles around each vertex, one after the other.
 struct Stars {
     first: Vec<u32>,
@@ -60,17 +63,15 @@ pub fn remesh(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface, roun
                 break;
             }
         }
-        for _ in 0..3 {
+        for _ in 0..2 {
             flip(mesh, 2 * round < rounds);
         }
-        for _ in 0..2 {
-            relax(mesh, marks, surface);
-        }
-    }
-    for _ in 0..2 {
-        flip(mesh, false);
+        relax(mesh, marks, surface);
+        flip(mesh, 2 * round < rounds);
         relax(mesh, marks, surface);
     }
+    flip(mesh, false);
+    relax(mesh, marks, surface);
 }
 
 /// Splits every edge that is too long at its middle, all at once.
@@ -249,12 +250,10 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-fn smallest_angle(corners: [DVec3; 3]) -> f64 {
-    let angle = |i: usize| {
-        let (p, q, r) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-        (q - p).angle_between(r - p)
-    };
-    angle(0).min(angle(1)).min(angle(2))
+/// The cosine of the smallest angle.
+fn sharpest([a, b, c]: [DVec3; 3]) -> f64 {
+    let [u, v, w] = [b - a, c - b, a - c].map(DVec3::normalize_or_zero);
+    (-u.dot(w)).max(-u.dot(v)).max(-v.dot(w))
 }
 
 /// Flips edges: towards six triangles around each vertex (`regular`), or else towards larger smallest angles.
@@ -293,15 +292,10 @@ fn flip(mesh: &mut Mesh, regular: bool) {
         if before[0].dot(before[1]) < 0.3 || after.iter().any(|n| n.dot(mean) < 0.5 * mean.length()) {
             continue;
         }
-        let angle = |pair: [[u32; 3]; 2]| pair.map(|t| smallest_angle(corners(t))).into_iter().fold(9.0, f64::min);
-        let (angle_before, angle_after) = (angle(old), angle(new));
+        let cosine = |[t0, t1]: [[u32; 3]; 2]| sharpest(corners(t0)).max(sharpest(corners(t1)));
         let square = |v: u32, change: i32| (surplus[v as usize] + change).pow(2);
         let cost = |change: i32| square(a, -change) + square(b, -change) + square(c, change) + square(d, change);
-        let better = if regular {
-            cost(1) < cost(0) && angle_after > 0.5 * angle_before
-        } else {
-            angle_after > angle_before + 0.01
-        };
+        let better = if regular { cost(1) < cost(0) && cosine(new) < SHARP } else { cosine(new) < cosine(old) - 0.005 };
         if !better {
             continue;
         }
