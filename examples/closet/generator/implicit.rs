@@ -89,7 +89,7 @@ pub struct Primitive {
 impl Primitive {
     /// The signed distance, never below that to the capsule around the shape, so that skipping far shapes is exact.
     pub fn distance(&self, point: DVec3) -> f64 {
-        self.shape.distance(point).max(self.from_axis_squared(point).sqrt() - self.radius)
+        self.shape.distance(point).max(self.axis_distance_squared(point).sqrt() - self.radius)
     }
 
     /// True for a shape that is taken away.
@@ -100,20 +100,63 @@ impl Primitive {
     /// True if the distance is less than `limit`, perhaps also if it is not.
     fn may_be_closer(&self, point: DVec3, limit: f64) -> bool {
         let reach = limit + self.radius;
-        reach > 0.0 && self.from_axis_squared(point) < reach * reach
+        reach > 0.0 && self.axis_distance_squared(point) < reach * reach
     }
 
-    fn from_axis_squared(&self, point: DVec3) -> f64 {
+    fn axis_distance_squared(&self, point: DVec3) -> f64 {
         let d = point - self.start;
         let t = (d.dot(self.axis) * self.inverse_square).clamp(0.0, 1.0);
         (d - t * self.axis).length_squared()
     }
 }
 
+/// Values up to this distance (metres) from the solid are right; farther away they may be too large.
+pub const REACH: f64 = 0.07;
+
 /// A solid: negative inside, positive outside, about the distance near its surface.
 #[derive(Clone, Debug, Default)]
 pub struct Field {
     primitives: Vec<Primitive>,
+    cells: Cells,
+}
+
+/// A grid that knows for each cell the primitives that matter in it.
+#[derive(Clone, Debug, Default)]
+struct Cells {
+    low: DVec3,
+    count: [usize; 3],
+    first: Vec<u32>,
+    primitives: Vec<u16>,
+}
+
+impl Cells {
+    const SIDE: f64 = 0.05;
+
+    fn new(primitives: &[Primitive], [low, high]: [DVec3; 2]) -> Self {
+        let blend = primitives.iter().map(|part| part.blend).fold(0.0, f64::max);
+        let limit = 0.5 * 3f64.sqrt() * Self::SIDE + REACH + blend;
+        let count = ((high - low) / Self::SIDE).ceil().to_array().map(|n| n as usize);
+        let mut cells = Self { low, count, first: vec![0], primitives: Vec::new() };
+        for index in 0..count.iter().product() {
+            let [i, j, k] = [index % count[0], index / count[0] % count[1], index / count[0] / count[1]];
+            let middle = low + Self::SIDE * (DVec3::new(i as f64, j as f64, k as f64) + 0.5);
+            let near = (0u16..).zip(primitives).filter(|(_, part)| part.may_be_closer(middle, limit));
+            cells.primitives.extend(near.map(|(number, _)| number));
+            cells.first.push(cells.primitives.len() as u32);
+        }
+        cells
+    }
+
+    /// The primitives around a point; none outside the grid.
+    fn around(&self, point: DVec3) -> &[u16] {
+        let p = (point - self.low) / Self::SIDE;
+        let [i, j, k] = p.to_array().map(|x| if x < 0.0 { usize::MAX } else { x as usize });
+        if i >= self.count[0] || j >= self.count[1] || k >= self.count[2] {
+            return &[];
+        }
+        let cell = i + self.count[0] * (j + self.count[1] * k);
+        &self.primitives[self.first[cell] as usize..self.first[cell + 1] as usize]
+    }
 }
 
 impl Field {
@@ -150,10 +193,18 @@ impl Field {
         bounds
     }
 
-    /// The value at a point.
+    /// Sorts the parts into cells: to be called when the last one is in.
+    pub fn finish(mut self) -> Self {
+        let [low, high] = self.bounds();
+        self.cells = Cells::new(&self.primitives, [low - REACH, high + REACH]);
+        self
+    }
+
+    /// The value at a point, right up to [`REACH`] from the solid, after [`Field::finish`].
     pub fn value(&self, point: DVec3) -> f64 {
         let mut value = f64::MAX;
-        for part in &self.primitives {
+        for &number in self.cells.around(point) {
+            let part = &self.primitives[number as usize];
             if part.carve {
                 if part.may_be_closer(point, part.blend - value) {
                     value = -smooth_min(-value, part.distance(point), part.blend);

@@ -52,6 +52,7 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
         cloth.add(Shape::Loft(lower.clone()), 0.012, own);
     }
     cloth.add(Shape::Loft(collar.clone()), 0.018, own);
+    let cloth = cloth.finish();
 
     let zip_top = j[NECK].z;
     let solid = |p: DVec3| {
@@ -105,9 +106,9 @@ fn trunk(skeleton: &Skeleton, hem: f64, random: &mut Random) -> Loft {
         (hem + 0.055, 0.216, 0.150, 0.158),
         (hem + 0.100, 0.222, 0.156, 0.162),
         (j[ROOT].z + 0.04, 0.216, 0.152, 0.152),
-        (waist + 0.02, 0.202, 0.146, 0.136),
-        (up(0.40), 0.202, 0.150, 0.140),
-        (up(0.70), 0.206, 0.152, 0.148),
+        (waist + 0.02, 0.192, 0.142, 0.134),
+        (up(0.40), 0.194, 0.146, 0.138),
+        (up(0.70), 0.200, 0.150, 0.146),
         (up(0.90), 0.192, 0.134, 0.144),
         (shoulder + 0.30 * (neck - shoulder), 0.140, 0.090, 0.116),
         (top, 0.085, 0.072, 0.080),

@@ -57,7 +57,7 @@ impl Quilt {
             return 0.0;
         }
         let arch = (std::f64::consts::PI * x.fract()).sin().powi(2);
-        self.heights[x as usize] * arch * (2.0 - arch)
+        self.heights[x as usize] * arch * (1.4 - 0.4 * arch)
     }
 }
 
@@ -133,8 +133,12 @@ impl Loft {
         if t == inner {
             return radial;
         }
-        let beyond = (t - inner).abs() * self.length / self.cap;
-        ((radial + narrow).powi(2) + beyond * beyond).sqrt() - narrow
+        // Beyond an end: half an ellipsoid, as high as the narrow half-axis times the cap.
+        let height = narrow * self.cap;
+        let (u, v) = ((radial + narrow) / narrow, (t - inner).abs() * self.length / height);
+        let k0 = (u * u + v * v).sqrt();
+        let k1 = ((u / narrow).powi(2) + (v / height).powi(2)).sqrt();
+        k0 * (k0 - 1.0) / k1
     }
 
     fn section(&self, t: f64) -> [f64; 5] {

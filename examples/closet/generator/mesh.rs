@@ -85,31 +85,6 @@ impl Mesh {
         normals.into_iter().map(DVec3::normalize_or_zero).collect()
     }
 
-    /// The closed boundary curves, each along the direction of its triangles.
-    pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
-        let mut next = vec![NONE; self.positions.len()];
-        for edge in self.edges().iter().filter(|edge| edge.is_boundary()) {
-            let [v, w] = edge.vertices;
-            let [a, b, c] = self.triangles[edge.triangles[0] as usize];
-            let forward = [(a, b), (b, c), (c, a)].contains(&(v, w));
-            let (from, to) = if forward { (v, w) } else { (w, v) };
-            next[from as usize] = to;
-        }
-        let mut loops = Vec::new();
-        for start in 0..next.len() {
-            let mut curve = Vec::new();
-            let mut at = start as u32;
-            while next[at as usize] != NONE {
-                curve.push(at);
-                at = std::mem::replace(&mut next[at as usize], NONE);
-            }
-            if !curve.is_empty() {
-                loops.push(curve);
-            }
-        }
-        loops
-    }
-
     /// The number of the connected component of each vertex, and how many there are.
     pub fn components(&self) -> (Vec<u32>, usize) {
         let mut parent: Vec<u32> = (0..self.positions.len() as u32).collect();

@@ -71,12 +71,14 @@ pub fn sample(kind: Kind) -> Sample {
     let mut mesh = body_mesh(&skeleton, &build, &solid);
     let mut skin = skin::skin(&mesh, &solid);
     if kind == Kind::Creature {
-        let horns = body::horns(&skeleton, &build);
-        let horn_mesh = horn_mesh(&horns);
-        for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horns)) {
-            row.extend(more);
+        for side in [1.0, -1.0] {
+            let horn = body::horn(&skeleton, &build, side);
+            let horn_mesh = horn_mesh(&horn);
+            for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horn)) {
+                row.extend(more);
+            }
+            mesh.append(&horn_mesh);
         }
-        mesh.append(&horn_mesh);
     }
     Sample { mesh, skeleton, skin, texture: Texture::default(), no_fit: Vec::new() }
 }
@@ -88,7 +90,8 @@ fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
     let face = j[NECK] + build.head * DVec3::new(0.0, -0.04, 0.07);
     // Balls of finer triangles: centre, radius, edge length.
     let mut fine = vec![(face, 0.095 * build.head, 0.0085 * build.head)];
-    for ([_, elbow, wrist], [_, _, ankle]) in ARMS.into_iter().zip(LEGS) {
+    for ([shoulder, elbow, wrist], [_, _, ankle]) in ARMS.into_iter().zip(LEGS) {
+        fine.push((j[shoulder] - DVec3::Z * 0.06, 0.07, 0.016));
         let palm = j[wrist] + 0.08 * build.hands * (j[wrist] - j[elbow]).normalize();
         fine.push((palm, 0.11 * build.hands, 0.010 * build.hands));
         let toes = DVec3::new(j[ankle].x, j[ankle].y - 0.14 * build.feet, 0.02);
@@ -105,13 +108,13 @@ fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
     let function = |p: DVec3| solid.value(p);
     let bounds = solid.bounds();
     let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0125 }.mesh()
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135 }.mesh()
 }
 
-fn horn_mesh(horns: &Field) -> Mesh {
-    let function = |p: DVec3| horns.value(p);
+fn horn_mesh(horn: &Field) -> Mesh {
+    let function = |p: DVec3| horn.value(p);
     let edge_length = |_: DVec3| 0.012;
-    let bounds = horns.bounds();
+    let bounds = horn.bounds();
     let cuts = Vec::new();
     Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009 }.mesh()
 }

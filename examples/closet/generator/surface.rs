@@ -41,7 +41,7 @@ impl Design<'_> {
         let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
         let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
         marks = old.iter().map(|&v| marks[v as usize]).collect();
-        remesh(&mut mesh, &mut marks, self, 5);
+        remesh(&mut mesh, &mut marks, self, 4);
         mesh
     }
 }
@@ -54,7 +54,7 @@ impl Surface for Design<'_> {
     fn settle(&self, point: DVec3, mark: u32) -> DVec3 {
         const LARGEST_STEP: f64 = 0.02;
         let mut point = point;
-        for _ in 0..if mark == 0 { 1 } else { 2 } {
+        for _ in 0..if mark == 0 { 1 } else { 3 } {
             let (f, df) = value_and_gradient(&self.solid, point);
             let mut step = -f * df / df.length_squared().max(1e-3);
             if mark.count_ones() == 1 {
