@@ -82,7 +82,9 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
         if p.y < 0.0 { ZIP_EDGE + (EDGE - ZIP_EDGE) * beside } else { EDGE }
     };
     let bounds = cloth.bounds();
-    let mesh = Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.017 }.mesh();
+    let mesh =
+        Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.017, rounds: 4 }
+            .mesh();
 
     let no_fit = (0..mesh.positions.len() as u32)
         .filter(|&v| {
@@ -168,8 +170,8 @@ fn texture(mesh: &Mesh, skeleton: &Skeleton, sleeves: &[[Loft; 2]; 2]) -> Textur
                 let [t, s] = [upper.local(p), lower.local(p)];
                 let ([_, x, y], along) =
                     if t[0] < 1.0 { (t, t[0] * above) } else { (s, above + s[0].max(0.0) * below) };
-                let out = if wrist.x > 0.0 { x } else { -x };
-                (y.atan2(out), along)
+                // Mirrored to the left, so that the cloth's outside shows on both.
+                (if wrist.x > 0.0 { (-y).atan2(x) } else { y.atan2(-x) }, along)
             }),
             radius: 0.06,
             corner: [0.2 * TAU + 0.03 + side as f64 * (0.06 * TAU + 0.03), 0.0],

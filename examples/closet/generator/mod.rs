@@ -108,7 +108,8 @@ fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
     let function = |p: DVec3| solid.value(p);
     let bounds = solid.bounds();
     let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135 }.mesh()
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 3 }
+        .mesh()
 }
 
 fn horn_mesh(horn: &Field) -> Mesh {
@@ -116,7 +117,8 @@ fn horn_mesh(horn: &Field) -> Mesh {
     let edge_length = |_: DVec3| 0.012;
     let bounds = horn.bounds();
     let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009 }.mesh()
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009, rounds: 3 }
+        .mesh()
 }
 
 fn shape(kind: Kind) -> (Proportions, Build) {

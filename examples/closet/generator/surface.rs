@@ -23,6 +23,8 @@ pub struct Design<'a> {
     pub bounds: [DVec3; 2],
     /// Cell of the first, coarse mesh in metres: parts and gaps must be wider.
     pub cell: f64,
+    /// Rounds of remeshing: three for good triangles, four where cuts leave slivers.
+    pub rounds: usize,
 }
 
 impl Design<'_> {
@@ -41,7 +43,7 @@ impl Design<'_> {
         let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
         let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
         marks = old.iter().map(|&v| marks[v as usize]).collect();
-        remesh(&mut mesh, &mut marks, self, 4);
+        remesh(&mut mesh, &mut marks, self, self.rounds);
         mesh
     }
 }
