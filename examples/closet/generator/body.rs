@@ -52,23 +52,26 @@ pub fn body(skeleton: &Skeleton, build: &Build) -> Field {
         arm(&mut field, side, joints, skeleton, build);
     }
     neck_and_head(&mut field, skeleton, build);
-    field
+    field.finish()
 }
 
-/// Two curved horns, one solid, that begin inside the head.
-pub fn horns(skeleton: &Skeleton, build: &Build) -> Field {
+/// A curved horn on the left (`side` 1) or the right (-1), a solid of its own that begins inside the head.
+pub fn horn(skeleton: &Skeleton, build: &Build, side: f64) -> Field {
     let mut field = Field::default();
     let at = |x: f64, y: f64, z: f64| skeleton.joints[NECK] + build.head * DVec3::new(x, y, z);
-    for side in [1.0, -1.0] {
-        let path = [(0.03, -0.03, 0.15), (0.085, -0.05, 0.215), (0.105, -0.02, 0.27), (0.09, 0.035, 0.30)];
-        let points = path.map(|(x, y, z)| at(side * x, y, z));
-        for (i, radii) in [(0.026, 0.021), (0.021, 0.014), (0.014, 0.005)].into_iter().enumerate() {
-            let sections = [Section::circle(0.0, build.head * radii.0), Section::circle(1.0, build.head * radii.1)];
-            let loft = Loft::new(points[i], points[i + 1], BACK, &sections);
-            field.add(Shape::Loft(loft), 0.012, Owner::Joint(NECK));
-        }
+    // A spiral that starts inside the skull, bends out and back, and thins towards the tip.
+    const PIECES: usize = 8;
+    let point = |t: f64| {
+        let turn = 2.3 * t;
+        at(side * (0.030 + 0.075 * turn.sin()), -0.045 + 0.045 * (1.0 - turn.cos()), 0.140 + 0.150 * t)
+    };
+    let radius = |t: f64| build.head * (0.026 - 0.020 * t);
+    for piece in 0..PIECES {
+        let [s, t] = [piece, piece + 1].map(|i| i as f64 / PIECES as f64);
+        let sections = [Section::circle(0.0, radius(s)), Section::circle(1.0, radius(t))];
+        field.add(Shape::Loft(Loft::new(point(s), point(t), BACK, &sections)), 0.004, Owner::Joint(NECK));
     }
-    field
+    field.finish()
 }
 
 fn trunk(field: &mut Field, skeleton: &Skeleton, build: &Build) {
@@ -80,7 +83,7 @@ fn trunk(field: &mut Field, skeleton: &Skeleton, build: &Build) {
     let forward = |z: f64| {
         // Where the spine is: straight up to the waist, then bent forward to the neck.
         let t = ((z - waist.z) / (neck.z - waist.z)).clamp(0.0, 1.0);
-        waist.y + (neck.y - waist.y) * t * t
+        waist.y + (neck.y - waist.y) * t.powf(1.5)
     };
     let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
     let (hips, middle, chest, depth) = (build.hips, build.waist, build.chest, build.depth);
@@ -113,24 +116,25 @@ fn trunk(field: &mut Field, skeleton: &Skeleton, build: &Build) {
         field.add(Shape::ellipsoid(centre, radii), 0.08, spine);
     }
     for side in [1.0, -1.0] {
-        let seat = DVec3::new(side * 0.080 * hips, 0.062 * depth, hip.z - 0.025);
-        field.add(Shape::ellipsoid(seat, DVec3::new(0.078 * hips, 0.072 * depth, 0.088)), 0.05, Owner::Joint(ROOT));
+        let seat = DVec3::new(side * 0.078 * hips, 0.052 * depth, hip.z - 0.022);
+        let radii = DVec3::new(0.080 * hips, 0.072 * depth, 0.092 * hips.sqrt());
+        field.add(Shape::ellipsoid(seat, radii), 0.06, Owner::Joint(ROOT));
         let height = between(waist.z, shoulder.z, 0.66);
         let breast = DVec3::new(side * 0.075 * chest, forward(height) - 0.080 * depth, height);
         let radii = DVec3::new(0.064, 0.048, 0.056) * build.bust;
         field.add(Shape::ellipsoid(breast, radii), 0.045, Owner::Joint(WAIST));
         // Shoulder blade and the muscle from the neck to the shoulder.
-        let blade = DVec3::new(side * 0.085 * chest, forward(height) + 0.062 * depth, height + 0.05);
+        let blade = DVec3::new(side * 0.085 * chest, forward(height) + 0.058 * depth, height + 0.03);
         field.add(Shape::ellipsoid(blade, DVec3::new(0.060, 0.040, 0.085) * chest), 0.05, Owner::Joint(WAIST));
-        let outer = DVec3::new(side * shoulder.x, shoulder.y, shoulder.z + 0.012);
+        let outer = DVec3::new(side * shoulder.x, shoulder.y, shoulder.z - 0.012);
         let collar = Loft::new(
-            neck - DVec3::Z * 0.045,
+            neck - DVec3::Z * 0.062,
             outer,
             BACK,
             &[
-                Section::ellipse(0.0, 0.040, 0.046),
-                Section::ellipse(0.55, 0.036 * build.arms.sqrt(), 0.050),
-                Section::ellipse(1.0, 0.040 * build.arms, 0.046 * build.arms),
+                Section::ellipse(0.0, 0.034, 0.044),
+                Section::ellipse(0.55, 0.035, 0.048),
+                Section::ellipse(1.0, 0.036 * build.arms.sqrt(), 0.046 * build.arms.sqrt()),
             ],
         );
         field.add(Shape::Loft(collar), 0.05, Owner::Joint(WAIST));
@@ -161,15 +165,15 @@ fn leg(field: &mut Field, side: f64, [hip, knee, ankle]: [usize; 3], skeleton: &
     let sole = DVec3::new(c.x, c.y, 0.0);
     let heel = sole + size * DVec3::new(0.0, 0.022, 0.034);
     field.add(Shape::ellipsoid(heel, size * DVec3::new(0.034, 0.040, 0.044)), 0.03, Owner::Joint(ankle));
-    let toes = sole + size * DVec3::new(side * 0.025, -0.150, 0.014);
+    let toes = sole + size * DVec3::new(side * 0.025, -0.150, 0.016);
     let instep = [
         Section::ellipse(0.0, 0.032 * size, 0.040 * size),
         Section::ellipse(0.45, 0.036 * size, 0.034 * size),
-        Section::ellipse(0.75, 0.044 * size, 0.022 * size),
-        Section::ellipse(1.0, 0.036 * size, 0.013 * size),
+        Section::ellipse(0.75, 0.044 * size, 0.026 * size),
+        Section::ellipse(1.0, 0.034 * size, 0.019 * size),
     ];
     let ankle_front = sole + size * DVec3::new(0.0, -0.005, 0.045);
-    field.add(Shape::Loft(Loft::new(ankle_front, toes, DVec3::Z, &instep).capped(1.6)), 0.03, Owner::Joint(ankle));
+    field.add(Shape::Loft(Loft::new(ankle_front, toes, DVec3::Z, &instep).capped(1.4)), 0.03, Owner::Joint(ankle));
     field.carve(Shape::Below { height: 0.0 }, 0.012, Owner::Joint(ankle));
 }
 
@@ -177,13 +181,13 @@ fn arm(field: &mut Field, side: f64, [shoulder, elbow, wrist]: [usize; 3], skele
     let [a, b, c] = [shoulder, elbow, wrist].map(|joint| skeleton.joints[joint]);
     let section = |t: f64, width: f64, depth: f64| Section::ellipse(t, width * build.arms, depth * build.arms);
     let upper = [
-        section(0.0, 0.050, 0.054),
-        section(0.25, 0.048, 0.054),
+        section(0.0, 0.041, 0.047),
+        section(0.25, 0.046, 0.052),
         section(0.55, 0.042, 0.048),
         section(0.85, 0.037, 0.039),
         section(1.0, 0.037, 0.038),
     ];
-    field.add(Shape::Loft(Loft::new(a, b, BACK, &upper)), 0.035, Owner::Joint(shoulder));
+    field.add(Shape::Loft(Loft::new(a, b, BACK, &upper)), 0.055, Owner::Joint(shoulder));
     let lower = [
         section(0.0, 0.037, 0.038),
         section(0.28, 0.040, 0.043),
@@ -212,15 +216,15 @@ fn arm(field: &mut Field, side: f64, [shoulder, elbow, wrist]: [usize; 3], skele
         let knuckle = at(0.080, v, 0.003);
         let bend = at(0.080 + 0.55 * length, v, 0.007);
         let tip = at(0.080 + length, 0.97 * v, 0.018);
-        for (p, q, r0, r1) in [(knuckle, bend, 0.0118, 0.0112), (bend, tip, 0.0112, 0.0098)] {
+        for (p, q, r0, r1) in [(knuckle, bend, 0.0118, 0.0114), (bend, tip, 0.0114, 0.0104)] {
             let sections = [Section::circle(0.0, r0 * size), Section::circle(1.0, r1 * size)];
-            field.add(Shape::Loft(Loft::new(p, q, BACK, &sections)), 0.006 * size, own);
+            field.add(Shape::Loft(Loft::new(p, q, BACK, &sections)), 0.012 * size, own);
         }
     }
-    let thumb = [at(0.018, 0.018, 0.008), at(0.052, 0.058, 0.020), at(0.088, 0.072, 0.026)];
+    let thumb = [at(0.016, 0.014, 0.005), at(0.048, 0.054, 0.013), at(0.080, 0.078, 0.018)];
     for (p, q, r0, r1) in [(thumb[0], thumb[1], 0.019, 0.014), (thumb[1], thumb[2], 0.014, 0.010)] {
         let sections = [Section::circle(0.0, r0 * size), Section::circle(1.0, r1 * size)];
-        field.add(Shape::Loft(Loft::new(p, q, BACK, &sections)), 0.014 * size, own);
+        field.add(Shape::Loft(Loft::new(p, q, BACK, &sections)), 0.020 * size, own);
     }
 }
 
@@ -232,15 +236,16 @@ fn neck_and_head(field: &mut Field, skeleton: &Skeleton, build: &Build) {
     let mut ball = |centre: DVec3, radii: [f64; 3], blend: f64| {
         field.add(Shape::ellipsoid(centre, size * DVec3::from_array(radii)), blend * size, own);
     };
-    ball(at(0.0, 0.004, 0.122), [0.074, 0.094, 0.084], 0.03);
-    ball(at(0.0, -0.052, 0.062), [0.056, 0.050, 0.080], 0.04);
-    ball(at(0.0, -0.030, 0.030), [0.054, 0.056, 0.046], 0.03);
-    let chin = at(0.0, -0.072, -0.004) - DVec3::Y * build.jaw;
-    ball(chin, [0.026 + 0.3 * build.jaw, 0.024, 0.022], 0.035);
+    ball(at(0.0, 0.004, 0.122), [0.073, 0.094, 0.084], 0.03);
+    ball(at(0.0, -0.052, 0.064), [0.054, 0.050, 0.078], 0.04);
+    ball(at(0.0, -0.030, 0.032), [0.053, 0.056, 0.042], 0.03);
+    let jaw = DVec3::Y * build.jaw;
+    ball(at(0.0, -0.069, 0.026) - 0.8 * jaw, [0.030, 0.033, 0.028], 0.03);
+    ball(at(0.0, -0.075, -0.006) - jaw, [0.027 + 0.3 * build.jaw, 0.022, 0.020], 0.03);
     let column = [
         Section::circle(0.0, 0.066 * build.neck),
-        Section::circle(0.4, 0.054 * build.neck),
-        Section::circle(1.0, 0.053 * build.neck),
+        Section::circle(0.4, 0.052 * build.neck),
+        Section::circle(1.0, 0.049 * build.neck),
     ];
     let low = neck + DVec3::new(0.0, 0.012, -0.085);
     let column = Loft::new(low, at(0.0, 0.010, 0.075), BACK, &column);
@@ -250,7 +255,7 @@ fn neck_and_head(field: &mut Field, skeleton: &Skeleton, build: &Build) {
         at(0.0, -0.094, 0.100),
         at(0.0, -0.112, 0.056),
         BACK,
-        &[Section::circle(0.0, 0.008 * size), Section::circle(0.7, 0.011 * size), Section::circle(1.0, 0.013 * size)],
+        &[Section::circle(0.0, 0.008 * size), Section::circle(0.7, 0.0105 * size), Section::circle(1.0, 0.0120 * size)],
     );
     field.add(Shape::Loft(nose), 0.012 * size, own);
     for side in [1.0, -1.0] {
@@ -270,22 +275,21 @@ fn neck_and_head(field: &mut Field, skeleton: &Skeleton, build: &Build) {
                 tip,
                 DVec3::new(side * 0.3, 1.0, 0.0),
                 &[
-                    Section::ellipse(0.0, 0.030 * size, 0.012 * size),
-                    Section::ellipse(0.35, 0.034 * size, 0.010 * size),
-                    Section::ellipse(1.0, 0.006 * size, 0.006 * size),
+                    Section::ellipse(0.0, 0.028 * size, 0.017 * size),
+                    Section::ellipse(0.35, 0.031 * size, 0.015 * size),
+                    Section::ellipse(1.0, 0.008 * size, 0.008 * size),
                 ],
             );
             field.add(Shape::Loft(ear), 0.012 * size, own);
         } else {
             let turned = DMat3::from_rotation_z(side * 0.35);
-            let radii = size * DVec3::new(0.008, 0.018, 0.030);
-            let ear = Shape::Ellipsoid { centre: at(side * 0.077, 0.004, 0.074), radii, rotation: turned };
-            field.add(ear, 0.008 * size, own);
+            let radii = size * DVec3::new(0.013, 0.019, 0.031);
+            let ear = Shape::Ellipsoid { centre: at(side * 0.074, 0.004, 0.074), radii, rotation: turned };
+            field.add(ear, 0.012 * size, own);
         }
     }
-    let jaw = DVec3::Y * build.jaw;
-    for (y, z, radii) in [(-0.098, 0.028, [0.021, 0.010, 0.0055]), (-0.096, 0.017, [0.019, 0.010, 0.0060])] {
-        let lip = Shape::ellipsoid(at(0.0, y, z) - jaw, size * DVec3::from_array(radii));
+    for (y, z, radii) in [(-0.105, 0.031, [0.020, 0.008, 0.0055]), (-0.103, 0.019, [0.018, 0.008, 0.0060])] {
+        let lip = Shape::ellipsoid(at(0.0, y, z) - 0.9 * jaw, size * DVec3::from_array(radii));
         field.add(lip, 0.006 * size, own);
     }
 }

@@ -12,7 +12,7 @@ pub fn clip(mesh: &mut Mesh, marks: &mut Vec<u32>, mark: u32, function: &dyn Fn(
     let mut values: Vec<f64> = mesh.positions.iter().map(|&p| function(p)).collect();
     let old = std::mem::take(&mut mesh.triangles);
     let boundary: HashMap<[u32; 2], bool> = {
-        let whole = Mesh { positions: Vec::new(), triangles: old.clone() };
+        let whole = Mesh { positions: mesh.positions.clone(), triangles: old.clone() };
         whole.edges().iter().map(|edge| (edge.vertices, edge.is_boundary())).collect()
     };
     let mut crossings = HashMap::new();

@@ -45,11 +45,12 @@ impl Shape {
         }
     }
 
-    fn bound(&self) -> (DVec3, f64) {
+    /// A capsule around the shape: the two ends of its axis and its radius.
+    fn bound(&self) -> ([DVec3; 2], f64) {
         match self {
             Self::Loft(loft) => loft.bound(),
-            Self::Ellipsoid { centre, radii, .. } => (*centre, radii.max_element()),
-            Self::Below { .. } => (DVec3::ZERO, f64::INFINITY),
+            Self::Ellipsoid { centre, radii, .. } => ([*centre; 2], radii.max_element()),
+            Self::Below { .. } => ([DVec3::ZERO; 2], f64::INFINITY),
         }
     }
 }
@@ -79,14 +80,16 @@ pub struct Primitive {
     pub owner: Owner,
     blend: f64,
     carve: bool,
-    centre: DVec3,
+    start: DVec3,
+    axis: DVec3,
+    inverse_square: f64,
     radius: f64,
 }
 
 impl Primitive {
-    /// The signed distance, never below that to the ball around the shape, so that skipping far shapes is exact.
+    /// The signed distance, never below that to the capsule around the shape, so that skipping far shapes is exact.
     pub fn distance(&self, point: DVec3) -> f64 {
-        self.shape.distance(point).max(self.beyond_ball(point))
+        self.shape.distance(point).max(self.axis_distance_squared(point).sqrt() - self.radius)
     }
 
     /// True for a shape that is taken away.
@@ -94,15 +97,66 @@ impl Primitive {
         self.carve
     }
 
-    fn beyond_ball(&self, point: DVec3) -> f64 {
-        point.distance(self.centre) - self.radius
+    /// True if the distance is less than `limit`, perhaps also if it is not.
+    fn may_be_closer(&self, point: DVec3, limit: f64) -> bool {
+        let reach = limit + self.radius;
+        reach > 0.0 && self.axis_distance_squared(point) < reach * reach
+    }
+
+    fn axis_distance_squared(&self, point: DVec3) -> f64 {
+        let d = point - self.start;
+        let t = (d.dot(self.axis) * self.inverse_square).clamp(0.0, 1.0);
+        (d - t * self.axis).length_squared()
     }
 }
+
+/// Values up to this distance (metres) from the solid are right; farther away they may be too large.
+pub const REACH: f64 = 0.07;
 
 /// A solid: negative inside, positive outside, about the distance near its surface.
 #[derive(Clone, Debug, Default)]
 pub struct Field {
     primitives: Vec<Primitive>,
+    cells: Cells,
+}
+
+/// A grid that knows for each cell the primitives that matter in it.
+#[derive(Clone, Debug, Default)]
+struct Cells {
+    low: DVec3,
+    count: [usize; 3],
+    first: Vec<u32>,
+    primitives: Vec<u16>,
+}
+
+impl Cells {
+    const SIDE: f64 = 0.05;
+
+    fn new(primitives: &[Primitive], [low, high]: [DVec3; 2]) -> Self {
+        let blend = primitives.iter().map(|part| part.blend).fold(0.0, f64::max);
+        let limit = 0.5 * 3f64.sqrt() * Self::SIDE + REACH + blend;
+        let count = ((high - low) / Self::SIDE).ceil().to_array().map(|n| n as usize);
+        let mut cells = Self { low, count, first: vec![0], primitives: Vec::new() };
+        for index in 0..count.iter().product() {
+            let [i, j, k] = [index % count[0], index / count[0] % count[1], index / count[0] / count[1]];
+            let middle = low + Self::SIDE * (DVec3::new(i as f64, j as f64, k as f64) + 0.5);
+            let near = (0u16..).zip(primitives).filter(|(_, part)| part.may_be_closer(middle, limit));
+            cells.primitives.extend(near.map(|(number, _)| number));
+            cells.first.push(cells.primitives.len() as u32);
+        }
+        cells
+    }
+
+    /// The primitives around a point; none outside the grid.
+    fn around(&self, point: DVec3) -> &[u16] {
+        let p = (point - self.low) / Self::SIDE;
+        let [i, j, k] = p.to_array().map(|x| if x < 0.0 { usize::MAX } else { x as usize });
+        if i >= self.count[0] || j >= self.count[1] || k >= self.count[2] {
+            return &[];
+        }
+        let cell = i + self.count[0] * (j + self.count[1] * k);
+        &self.primitives[self.first[cell] as usize..self.first[cell + 1] as usize]
+    }
 }
 
 impl Field {
@@ -117,8 +171,10 @@ impl Field {
     }
 
     fn push(&mut self, shape: Shape, blend: f64, owner: Owner, carve: bool) {
-        let (centre, radius) = shape.bound();
-        self.primitives.push(Primitive { shape, owner, blend, carve, centre, radius });
+        let ([start, end], radius) = shape.bound();
+        let axis = end - start;
+        let inverse_square = if start == end { 0.0 } else { axis.length_squared().recip() };
+        self.primitives.push(Primitive { shape, owner, blend, carve, start, axis, inverse_square, radius });
     }
 
     /// The parts, in the order in which they were added.
@@ -128,24 +184,32 @@ impl Field {
 
     /// The corners of a box around the solid.
     pub fn bounds(&self) -> [DVec3; 2] {
-        self.primitives
-            .iter()
-            .filter(|part| !part.carve)
-            .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], part| {
-                [low.min(part.centre - part.radius), high.max(part.centre + part.radius)]
-            })
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for part in self.primitives.iter().filter(|part| !part.carve) {
+            for end in [part.start, part.start + part.axis] {
+                bounds = [bounds[0].min(end - part.radius), bounds[1].max(end + part.radius)];
+            }
+        }
+        bounds
     }
 
-    /// The value at a point.
+    /// Sorts the parts into cells: to be called when the last one is in.
+    pub fn finish(mut self) -> Self {
+        let [low, high] = self.bounds();
+        self.cells = Cells::new(&self.primitives, [low - REACH, high + REACH]);
+        self
+    }
+
+    /// The value at a point, right up to [`REACH`] from the solid, after [`Field::finish`].
     pub fn value(&self, point: DVec3) -> f64 {
         let mut value = f64::MAX;
-        for part in &self.primitives {
-            let far = part.beyond_ball(point);
+        for &number in self.cells.around(point) {
+            let part = &self.primitives[number as usize];
             if part.carve {
-                if -far > value - part.blend {
+                if part.may_be_closer(point, part.blend - value) {
                     value = -smooth_min(-value, part.distance(point), part.blend);
                 }
-            } else if far < value + part.blend {
+            } else if part.may_be_closer(point, value + part.blend) {
                 value = smooth_min(value, part.distance(point), part.blend);
             }
         }
@@ -159,9 +223,10 @@ pub fn smooth_min(a: f64, b: f64, blend: f64) -> f64 {
     if h == 0.0 { a.min(b) } else { a.min(b) - 0.25 * h * h / blend }
 }
 
-/// The gradient of any function by central differences over 0.2 mm.
-pub fn gradient(function: &dyn Fn(DVec3) -> f64, point: DVec3) -> DVec3 {
-    const STEP: f64 = 1e-4;
-    let along = |axis: DVec3| function(point + STEP * axis) - function(point - STEP * axis);
-    DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)) / (2.0 * STEP)
+/// The value and the gradient of any function, by differences over 0.02 mm.
+pub fn value_and_gradient(function: &dyn Fn(DVec3) -> f64, point: DVec3) -> (f64, DVec3) {
+    const STEP: f64 = 2e-5;
+    let value = function(point);
+    let along = |axis: DVec3| (function(point + STEP * axis) - value) / STEP;
+    (value, DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)))
 }

@@ -42,9 +42,9 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
     cloth.add(Shape::Loft(trunk), 0.02, own);
     for (side, [shoulder, ..]) in [1.0, -1.0].into_iter().zip(ARMS) {
         let sections =
-            [Section::circle(0.0, 0.055), Section::ellipse(0.5, 0.060, 0.072), Section::ellipse(1.0, 0.070, 0.078)];
-        let tip = j[shoulder] + DVec3::new(side * 0.01, 0.0, -0.002);
-        let yoke = Loft::new(j[NECK] - DVec3::Z * 0.05, tip, DVec3::Y, &sections);
+            [Section::circle(0.0, 0.048), Section::ellipse(0.5, 0.050, 0.068), Section::ellipse(1.0, 0.054, 0.068)];
+        let tip = j[shoulder] + DVec3::new(side * 0.01, 0.0, -0.010);
+        let yoke = Loft::new(j[NECK] - DVec3::Z * 0.075, tip, DVec3::Y, &sections);
         cloth.add(Shape::Loft(yoke), 0.05, own);
     }
     for [upper, lower] in &sleeves {
@@ -52,6 +52,7 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
         cloth.add(Shape::Loft(lower.clone()), 0.012, own);
     }
     cloth.add(Shape::Loft(collar.clone()), 0.018, own);
+    let cloth = cloth.finish();
 
     let zip_top = j[NECK].z;
     let solid = |p: DVec3| {
@@ -68,8 +69,11 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
     }
     let neck = j[NECK];
     cuts.push(Box::new(move |p| {
-        // Higher at the nape; in front it dips where the zip ends.
+        // Higher at the nape; in front it dips where the zip ends. The shoulders stay whole.
         let (x, y) = (p.x, p.y - neck.y);
+        if x.abs() > 0.13 {
+            return -1.0;
+        }
         let dip = 0.022 * (-(x / 0.030).powi(2)).exp() / (1.0 + (y / 0.012).exp());
         p.z - (neck.z - 0.006 + 0.36 * y - dip)
     }));
@@ -78,7 +82,9 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
         if p.y < 0.0 { ZIP_EDGE + (EDGE - ZIP_EDGE) * beside } else { EDGE }
     };
     let bounds = cloth.bounds();
-    let mesh = Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.017 }.mesh();
+    let mesh =
+        Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.017, rounds: 4 }
+            .mesh();
 
     let no_fit = (0..mesh.positions.len() as u32)
         .filter(|&v| {
@@ -102,9 +108,9 @@ fn trunk(skeleton: &Skeleton, hem: f64, random: &mut Random) -> Loft {
         (hem + 0.055, 0.216, 0.150, 0.158),
         (hem + 0.100, 0.222, 0.156, 0.162),
         (j[ROOT].z + 0.04, 0.216, 0.152, 0.152),
-        (waist + 0.02, 0.202, 0.146, 0.136),
-        (up(0.40), 0.202, 0.150, 0.140),
-        (up(0.70), 0.206, 0.152, 0.148),
+        (waist + 0.02, 0.192, 0.142, 0.134),
+        (up(0.40), 0.194, 0.146, 0.138),
+        (up(0.70), 0.200, 0.150, 0.146),
         (up(0.90), 0.192, 0.134, 0.144),
         (shoulder + 0.30 * (neck - shoulder), 0.140, 0.090, 0.116),
         (top, 0.085, 0.072, 0.080),
@@ -122,7 +128,7 @@ fn trunk(skeleton: &Skeleton, hem: f64, random: &mut Random) -> Loft {
 fn sleeve([shoulder, elbow, wrist]: [usize; 3], skeleton: &Skeleton, random: &mut Random) -> [Loft; 2] {
     let [a, b, c] = [shoulder, elbow, wrist].map(|joint| skeleton.joints[joint]);
     let upper =
-        [Section::ellipse(0.0, 0.070, 0.078), Section::ellipse(0.4, 0.066, 0.072), Section::ellipse(1.0, 0.060, 0.062)];
+        [Section::ellipse(0.0, 0.058, 0.070), Section::ellipse(0.4, 0.061, 0.068), Section::ellipse(1.0, 0.060, 0.062)];
     // The last sections make the ribbed cuff.
     let lower = [
         Section::ellipse(0.0, 0.060, 0.062),
@@ -164,8 +170,8 @@ fn texture(mesh: &Mesh, skeleton: &Skeleton, sleeves: &[[Loft; 2]; 2]) -> Textur
                 let [t, s] = [upper.local(p), lower.local(p)];
                 let ([_, x, y], along) =
                     if t[0] < 1.0 { (t, t[0] * above) } else { (s, above + s[0].max(0.0) * below) };
-                let out = if wrist.x > 0.0 { x } else { -x };
-                (y.atan2(out), along)
+                // Mirrored to the left, so that the cloth's outside shows on both.
+                (if wrist.x > 0.0 { (-y).atan2(x) } else { y.atan2(-x) }, along)
             }),
             radius: 0.06,
             corner: [0.2 * TAU + 0.03 + side as f64 * (0.06 * TAU + 0.03), 0.0],

@@ -49,14 +49,15 @@ struct Quilt {
 }
 
 impl Quilt {
-    /// How far the cloth stands out at `t`, in metres: a flat arch over each puff, a valley at each stitched ring.
+    /// How far the cloth stands out at `t`, in metres: a flat arch over each puff, a rounded valley at each
+    /// stitched ring.
     fn height(&self, t: f64) -> f64 {
         let x = (t - self.range[0]) / (self.range[1] - self.range[0]) * self.heights.len() as f64;
         if x <= 0.0 || x >= self.heights.len() as f64 {
             return 0.0;
         }
-        let arch = (std::f64::consts::PI * x.fract()).sin();
-        self.heights[x as usize] * arch * (2.0 - arch)
+        let arch = (std::f64::consts::PI * x.fract()).sin().powi(2);
+        self.heights[x as usize] * arch * (1.4 - 0.4 * arch)
     }
 }
 
@@ -102,14 +103,12 @@ impl Loft {
         self
     }
 
-    /// The centre and radius of a ball around the solid.
-    pub fn bound(&self) -> (DVec3, f64) {
+    /// A capsule around the solid: the two ends of its axis and its radius.
+    pub fn bound(&self) -> ([DVec3; 2], f64) {
         let extra = self.quilt.as_ref().map_or(0.0, |quilt| quilt.heights.iter().copied().fold(0.0, f64::max));
         let side =
             self.values.iter().fold(0.0, |side: f64, v| side.max(v[2].max(v[3]).max(v[4]) + v[0].hypot(v[1]) + extra));
-        let ends = [self.values[0], self.values[self.values.len() - 1]];
-        let reach = ends.iter().fold(0.0, |reach: f64, v| reach.max(v[2].max(v[3]).max(v[4]))) * self.cap.max(1.0);
-        (self.start + 0.5 * self.length * self.axis, (0.5 * self.length + reach).hypot(side))
+        ([self.start, self.start + self.length * self.axis], side * self.cap.max(1.0))
     }
 
     /// Coordinates of `point`: t along the axis (not clamped) and the two lateral lengths from the axis.
@@ -128,14 +127,18 @@ impl Loft {
         let (width, depth) = (width + puff, if y < 0.0 { front } else { back } + puff);
         let narrow = width.min(depth);
         let (u, v) = (x / width, y / depth);
-        let k0 = u.hypot(v);
-        let k1 = (u / width).hypot(v / depth);
+        let k0 = (u * u + v * v).sqrt();
+        let k1 = ((u / width).powi(2) + (v / depth).powi(2)).sqrt();
         let radial = if k1 < 1e-9 { -narrow } else { k0 * (k0 - 1.0) / k1 };
         if t == inner {
             return radial;
         }
-        let beyond = (t - inner).abs() * self.length / self.cap;
-        (radial + narrow).hypot(beyond) - narrow
+        // Beyond an end: half an ellipsoid, as high as the narrow half-axis times the cap.
+        let height = narrow * self.cap;
+        let (u, v) = ((radial + narrow) / narrow, (t - inner).abs() * self.length / height);
+        let k0 = (u * u + v * v).sqrt();
+        let k1 = ((u / narrow).powi(2) + (v / height).powi(2)).sqrt();
+        k0 * (k0 - 1.0) / k1
     }
 
     fn section(&self, t: f64) -> [f64; 5] {

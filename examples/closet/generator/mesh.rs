@@ -38,18 +38,35 @@ impl Mesh {
 
     /// All the edges, sorted by their vertices. An edge of three triangles would appear twice.
     pub fn edges(&self) -> Vec<Edge> {
-        let mut sides: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * self.triangles.len());
-        for (index, &[a, b, c]) in self.triangles.iter().enumerate() {
-            for (v, w) in [(a, b), (b, c), (c, a)] {
-                sides.push((v.min(w), v.max(w), index as u32));
+        // One bucket for each smaller vertex; the buckets are short, so sorting within them is cheap.
+        let sides = |triangle: &[u32; 3]| {
+            let [a, b, c] = *triangle;
+            [(a, b), (b, c), (c, a)].map(|(v, w)| (v.min(w), v.max(w)))
+        };
+        let mut first = vec![0u32; self.positions.len() + 1];
+        for (v, _) in self.triangles.iter().flat_map(sides) {
+            first[v as usize + 1] += 1;
+        }
+        for v in 1..first.len() {
+            first[v] += first[v - 1];
+        }
+        let mut next = first.clone();
+        let mut others = vec![(0, 0); 3 * self.triangles.len()];
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            for (v, w) in sides(triangle) {
+                others[next[v as usize] as usize] = (w, index as u32);
+                next[v as usize] += 1;
             }
         }
-        sides.sort_unstable();
-        let mut edges: Vec<Edge> = Vec::with_capacity(sides.len() / 2 + 1);
-        for (v, w, triangle) in sides {
-            match edges.last_mut() {
-                Some(last) if last.vertices == [v, w] && last.is_boundary() => last.triangles[1] = triangle,
-                _ => edges.push(Edge { vertices: [v, w], triangles: [triangle, NONE] }),
+        let mut edges: Vec<Edge> = Vec::with_capacity(others.len() / 2 + 1);
+        for v in 0..self.positions.len() {
+            let bucket = &mut others[first[v] as usize..first[v + 1] as usize];
+            bucket.sort_unstable();
+            for &(w, triangle) in &*bucket {
+                match edges.last_mut() {
+                    Some(last) if last.vertices == [v as u32, w] && last.is_boundary() => last.triangles[1] = triangle,
+                    _ => edges.push(Edge { vertices: [v as u32, w], triangles: [triangle, NONE] }),
+                }
             }
         }
         edges
@@ -66,31 +83,6 @@ impl Mesh {
             }
         }
         normals.into_iter().map(DVec3::normalize_or_zero).collect()
-    }
-
-    /// The closed boundary curves, each along the direction of its triangles.
-    pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
-        let mut next = vec![NONE; self.positions.len()];
-        for edge in self.edges().iter().filter(|edge| edge.is_boundary()) {
-            let [v, w] = edge.vertices;
-            let [a, b, c] = self.triangles[edge.triangles[0] as usize];
-            let forward = [(a, b), (b, c), (c, a)].contains(&(v, w));
-            let (from, to) = if forward { (v, w) } else { (w, v) };
-            next[from as usize] = to;
-        }
-        let mut loops = Vec::new();
-        for start in 0..next.len() {
-            let mut curve = Vec::new();
-            let mut at = start as u32;
-            while next[at as usize] != NONE {
-                curve.push(at);
-                at = std::mem::replace(&mut next[at as usize], NONE);
-            }
-            if !curve.is_empty() {
-                loops.push(curve);
-            }
-        }
-        loops
     }
 
     /// The number of the connected component of each vertex, and how many there are.

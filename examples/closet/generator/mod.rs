@@ -23,7 +23,7 @@ use body::Build;
 use glam::DVec3;
 use implicit::Field;
 use mesh::Mesh;
-use skeleton::{ARMS, NECK, Proportions, Skeleton};
+use skeleton::{ARMS, LEGS, NECK, Proportions, Skeleton};
 use surface::Design;
 use texture::Texture;
 
@@ -71,40 +71,54 @@ pub fn sample(kind: Kind) -> Sample {
     let mut mesh = body_mesh(&skeleton, &build, &solid);
     let mut skin = skin::skin(&mesh, &solid);
     if kind == Kind::Creature {
-        let horns = body::horns(&skeleton, &build);
-        let horn_mesh = horn_mesh(&horns);
-        for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horns)) {
-            row.extend(more);
+        for side in [1.0, -1.0] {
+            let horn = body::horn(&skeleton, &build, side);
+            let horn_mesh = horn_mesh(&horn);
+            for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horn)) {
+                row.extend(more);
+            }
+            mesh.append(&horn_mesh);
         }
-        mesh.append(&horn_mesh);
     }
     Sample { mesh, skeleton, skin, texture: Texture::default(), no_fit: Vec::new() }
 }
 
 /// Coarse on trunk and limbs, fine on the face and the hands.
 fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
-    let neck = skeleton.joints[NECK];
-    let face = neck + build.head * DVec3::new(0.0, -0.06, 0.07);
-    let wrists = ARMS.map(|[_, _, wrist]| skeleton.joints[wrist]);
+    const COARSE: f64 = 0.024;
+    let j = &skeleton.joints;
+    let face = j[NECK] + build.head * DVec3::new(0.0, -0.04, 0.07);
+    // Balls of finer triangles: centre, radius, edge length.
+    let mut fine = vec![(face, 0.095 * build.head, 0.0085 * build.head)];
+    for ([shoulder, elbow, wrist], [_, _, ankle]) in ARMS.into_iter().zip(LEGS) {
+        fine.push((j[shoulder] - DVec3::Z * 0.06, 0.07, 0.016));
+        let palm = j[wrist] + 0.08 * build.hands * (j[wrist] - j[elbow]).normalize();
+        fine.push((palm, 0.11 * build.hands, 0.010 * build.hands));
+        let toes = DVec3::new(j[ankle].x, j[ankle].y - 0.14 * build.feet, 0.02);
+        fine.push((toes, 0.06 * build.feet, 0.012 * build.feet));
+    }
+    if build.ears > 0.0 {
+        fine.push((face, 0.085 * build.head + build.ears, 0.013));
+    }
     let edge_length = |p: DVec3| {
-        let from_face = p.distance(face) / build.head - 0.06;
-        let from_hands = wrists.iter().map(|w| p.distance(*w)).fold(f64::INFINITY, f64::min) / build.hands - 0.20;
-        let fine = 0.0085 * build.head + 0.08 * from_face.max(0.0);
-        let hands = 0.0105 * build.hands + 0.08 * from_hands.max(0.0);
-        fine.min(hands).min(0.024)
+        fine.iter().fold(COARSE, |length, (centre, radius, edge)| {
+            length.min(edge + 0.1 * (p.distance(*centre) - radius).max(0.0))
+        })
     };
     let function = |p: DVec3| solid.value(p);
     let bounds = solid.bounds();
     let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0145 }.mesh()
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 3 }
+        .mesh()
 }
 
-fn horn_mesh(horns: &Field) -> Mesh {
-    let function = |p: DVec3| horns.value(p);
+fn horn_mesh(horn: &Field) -> Mesh {
+    let function = |p: DVec3| horn.value(p);
     let edge_length = |_: DVec3| 0.012;
-    let bounds = horns.bounds();
+    let bounds = horn.bounds();
     let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009 }.mesh()
+    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009, rounds: 3 }
+        .mesh()
 }
 
 fn shape(kind: Kind) -> (Proportions, Build) {
@@ -115,10 +129,10 @@ fn shape(kind: Kind) -> (Proportions, Build) {
         leg_angle: 7.5,
         hip: 0.105,
         belly: 0.095,
-        chest: 0.440,
+        chest: 0.450,
         hunch: 0.010,
         shoulder: 0.172,
-        shoulder_drop: 0.092,
+        shoulder_drop: 0.108,
         upper_arm: 0.285,
         forearm: 0.250,
         arm_angle: 53.0,
@@ -158,7 +172,7 @@ fn shape(kind: Kind) -> (Proportions, Build) {
                 waist: 1.75,
                 chest: 1.32,
                 depth: 1.40,
-                belly: 0.17,
+                belly: 0.15,
                 bust: 1.45,
                 arms: 1.40,
                 legs: 1.36,

@@ -4,6 +4,7 @@
 
 use glam::DVec3;
 
+use super::implicit::REACH;
 use super::mesh::{Mesh, NONE};
 
 /// The corner offsets of the tetrahedra: paths from (0,0,0) to (1,1,1), one axis at a time, positively oriented.
@@ -11,7 +12,7 @@ const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
 /// Side of the blocks (in cubes) that are skipped as a whole where the surface is far.
-const BLOCK: usize = 6;
+const BLOCK: usize = 3;
 
 /// A crossing stays this far (as part of the edge) from both ends, so that no triangle is degenerate.
 const MARGIN: f64 = 0.1;
@@ -25,8 +26,9 @@ pub fn polygonize(function: &dyn Fn(DVec3) -> f64, [low, high]: [DVec3; 2], cell
     let stride = [1, count[0], count[0] * count[1]];
     let place = |i: usize, j: usize, k: usize| low + cell * DVec3::new(i as f64, j as f64, k as f64);
 
-    // Far from the surface the sign is enough. The estimate may be too large by its slope, hence the margin.
-    let reach = 2.0 * 0.5 * BLOCK as f64 * cell * 3f64.sqrt();
+    // Blocks far from the surface are skipped. The function may be steeper than a distance, hence the margin of half.
+    let reach = 1.5 * 0.5 * BLOCK as f64 * cell * 3f64.sqrt();
+    debug_assert!(reach <= REACH, "cells of {cell} m are too coarse");
     let mut values = vec![f64::NAN; count.iter().product()];
     let mut near = Vec::new();
     for bk in 0..blocks[2] {

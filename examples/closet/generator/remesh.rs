@@ -19,6 +19,12 @@ pub trait Surface {
 const LONG: f64 = 4.0 / 3.0;
 const SHORT: f64 = 4.0 / 5.0;
 
+/// Passes of collapses in one round.
+const MOST_PASSES: usize = 8;
+
+/// Cosine of the smallest angle that is accepted for the sake of regular vertices.
+const SHARP: f64 = 0.92;
+
 /// The triangles around each vertex, one after the other.
 struct Stars {
     first: Vec<u32>,
@@ -55,37 +61,36 @@ impl Stars {
 pub fn remesh(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface, rounds: usize) {
     for round in 0..rounds {
         split(mesh, marks, surface);
-        for _ in 0..4 {
-            if !collapse(mesh, marks, surface) {
+        for _ in 0..MOST_PASSES {
+            if collapse(mesh, marks, surface) * 200 < mesh.positions.len() {
                 break;
             }
         }
-        for _ in 0..3 {
+        for _ in 0..2 {
             flip(mesh, 2 * round < rounds);
         }
-        for _ in 0..2 {
-            relax(mesh, marks, surface);
-        }
+        relax(mesh, marks, surface, false);
+        flip(mesh, 2 * round < rounds);
+        relax(mesh, marks, surface, true);
     }
-    for _ in 0..2 {
-        flip(mesh, false);
-        relax(mesh, marks, surface);
-    }
+    flip(mesh, false);
+    relax(mesh, marks, surface, true);
 }
 
 /// Splits every edge that is too long at its middle, all at once.
 fn split(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) {
+    let wanted = wanted_lengths(mesh, surface);
     let mut middles = vec![[NONE; 3]; mesh.triangles.len()];
     for edge in mesh.edges() {
         let [v, w] = edge.vertices;
         let (p, q) = (mesh.positions[v as usize], mesh.positions[w as usize]);
         let middle = p.midpoint(q);
-        if p.distance(q) <= LONG * surface.edge_length(middle) {
+        if p.distance(q) <= LONG * f64::midpoint(wanted[v as usize], wanted[w as usize]) {
             continue;
         }
         let mark = if edge.is_boundary() { marks[v as usize] & marks[w as usize] } else { 0 };
         let new = mesh.positions.len() as u32;
-        mesh.positions.push(surface.settle(middle, mark));
+        mesh.positions.push(middle);
         marks.push(mark);
         for triangle in edge.triangles.into_iter().filter(|&t| t != NONE) {
             let opposite = mesh.triangles[triangle as usize].iter().position(|&u| u != v && u != w);
@@ -128,23 +133,29 @@ fn boundary_vertices(edges: &[Edge], count: usize) -> Vec<bool> {
     boundary
 }
 
-/// Collapses edges that are too short, the shortest first, no two next to each other. False if there were none.
-fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> bool {
+/// The wanted edge length at each vertex.
+fn wanted_lengths(mesh: &Mesh, surface: &dyn Surface) -> Vec<f64> {
+    mesh.positions.iter().map(|&p| surface.edge_length(p)).collect()
+}
+
+/// Collapses edges that are too short, the shortest first, no two next to each other; returns how many.
+fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> usize {
+    let wanted = wanted_lengths(mesh, surface);
     let edges = mesh.edges();
     let boundary = boundary_vertices(&edges, mesh.positions.len());
     let stars = Stars::new(mesh);
     let mut short: Vec<(f64, usize)> = Vec::new();
     for (index, edge) in edges.iter().enumerate() {
         let [p, q] = edge.vertices.map(|v| mesh.positions[v as usize]);
-        let relative = p.distance(q) / surface.edge_length(p.midpoint(q));
+        let [v, w] = edge.vertices.map(|v| wanted[v as usize]);
+        let relative = p.distance(q) / f64::midpoint(v, w);
         if relative < SHORT {
             short.push((relative, index));
         }
     }
-    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut touched = vec![false; mesh.positions.len()];
-    let mut ring = Vec::new();
-    let mut any = false;
+    let mut rings = [Vec::new(), Vec::new()];
     for (_, index) in short {
         let edge = edges[index];
         let [mut keep, mut gone] = edge.vertices;
@@ -160,64 +171,52 @@ fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> boo
             continue;
         }
         let target = if ranks[0] == ranks[1] {
-            let middle = mesh.positions[keep as usize].midpoint(mesh.positions[gone as usize]);
-            surface.settle(middle, marks[keep as usize])
+            mesh.positions[keep as usize].midpoint(mesh.positions[gone as usize])
         } else {
             mesh.positions[keep as usize]
         };
-        ring.clear();
-        if !may_collapse(mesh, &stars, surface, [keep, gone], edge.is_boundary(), target, &mut ring) {
+        if !may_collapse(mesh, &stars, &wanted, [keep, gone], edge.is_boundary(), target, &mut rings) {
             continue;
-        }
-        for &v in &ring {
-            touched[v as usize] = true;
         }
         mesh.positions[keep as usize] = target;
         for &triangle in stars.of(gone) {
             for v in &mut mesh.triangles[triangle as usize] {
+                // The triangles around these vertices are not what they were.
+                touched[*v as usize] = true;
                 if *v == gone {
                     *v = keep;
                 }
             }
         }
-        any = true;
     }
-    if any {
-        let old = mesh.retain(|&[a, b, c]| a != b && b != c && c != a);
-        *marks = old.iter().map(|&v| marks[v as usize]).collect();
-    }
-    any
+    let before = mesh.positions.len();
+    let old = mesh.retain(|&[a, b, c]| a != b && b != c && c != a);
+    *marks = old.iter().map(|&v| marks[v as usize]).collect();
+    before - old.len()
 }
 
 /// True where merging the two ends at `target` keeps the mesh manifold, turns no triangle over and makes no long
-/// edge. `ring` receives the two ends and all their neighbours.
+/// edge. `rings` is room for the neighbours of the two ends.
 fn may_collapse(
     mesh: &Mesh,
     stars: &Stars,
-    surface: &dyn Surface,
+    wanted: &[f64],
     ends: [u32; 2],
     boundary: bool,
     target: DVec3,
-    ring: &mut Vec<u32>,
+    rings: &mut [Vec<u32>; 2],
 ) -> bool {
-    let neighbours = |v: u32, into: &mut Vec<u32>| {
+    for (ring, v) in rings.iter_mut().zip(ends) {
+        ring.clear();
         for &t in stars.of(v) {
-            into.extend(mesh.triangles[t as usize].iter().filter(|&&w| w != v));
+            ring.extend(mesh.triangles[t as usize].iter().filter(|&&w| w != v));
         }
-        into.sort_unstable();
-        into.dedup();
-    };
-    let mut around = Vec::new();
-    neighbours(ends[0], ring);
-    neighbours(ends[1], &mut around);
-    let common = around.iter().filter(|v| ring.binary_search(v).is_ok()).count();
-    if common != if boundary { 1 } else { 2 } {
-        return false;
+        ring.sort_unstable();
+        ring.dedup();
     }
-    ring.extend(around);
-    ring.sort_unstable();
-    ring.dedup();
-    if ring.len() < 6 {
+    let common = rings[1].iter().filter(|v| rings[0].binary_search(v).is_ok()).count();
+    // The two ends count in each other's ring. Nothing smaller than an octahedron is made smaller.
+    if common != if boundary { 1 } else { 2 } || rings[0].len() + rings[1].len() - common < 6 {
         return false;
     }
     for end in ends {
@@ -233,9 +232,10 @@ fn may_collapse(
                 return false;
             }
             let too_long = |i: usize| {
-                let (p, q) = (new[i], new[(i + 1) % 3]);
-                p.distance(q) > LONG * surface.edge_length(p.midpoint(q))
-                    && p.distance(q) > old[i].distance(old[(i + 1) % 3])
+                let k = (i + 1) % 3;
+                let length = new[i].distance(new[k]);
+                let [v, w] = [triangle[i], triangle[k]].map(|v| wanted[v as usize]);
+                length > LONG * f64::midpoint(v, w) && length > old[i].distance(old[k])
             };
             if (0..3).any(too_long) {
                 return false;
@@ -249,12 +249,10 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-fn smallest_angle(corners: [DVec3; 3]) -> f64 {
-    let angle = |i: usize| {
-        let (p, q, r) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
-        (q - p).angle_between(r - p)
-    };
-    angle(0).min(angle(1)).min(angle(2))
+/// The cosine of the smallest angle.
+fn sharpest([a, b, c]: [DVec3; 3]) -> f64 {
+    let [u, v, w] = [b - a, c - b, a - c].map(DVec3::normalize_or_zero);
+    (-u.dot(w)).max(-u.dot(v)).max(-v.dot(w))
 }
 
 /// Flips edges: towards six triangles around each vertex (`regular`), or else towards larger smallest angles.
@@ -293,15 +291,10 @@ fn flip(mesh: &mut Mesh, regular: bool) {
         if before[0].dot(before[1]) < 0.3 || after.iter().any(|n| n.dot(mean) < 0.5 * mean.length()) {
             continue;
         }
-        let angle = |pair: [[u32; 3]; 2]| pair.map(|t| smallest_angle(corners(t))).into_iter().fold(9.0, f64::min);
-        let (angle_before, angle_after) = (angle(old), angle(new));
+        let cosine = |[t0, t1]: [[u32; 3]; 2]| sharpest(corners(t0)).max(sharpest(corners(t1)));
         let square = |v: u32, change: i32| (surplus[v as usize] + change).pow(2);
         let cost = |change: i32| square(a, -change) + square(b, -change) + square(c, change) + square(d, change);
-        let better = if regular {
-            cost(1) < cost(0) && angle_after > 0.5 * angle_before
-        } else {
-            angle_after > angle_before + 0.01
-        };
+        let better = if regular { cost(1) < cost(0) && cosine(new) < SHARP } else { cosine(new) < cosine(old) - 0.005 };
         if !better {
             continue;
         }
@@ -316,8 +309,9 @@ fn flip(mesh: &mut Mesh, regular: bool) {
     }
 }
 
-/// Moves each vertex towards the middle of its neighbours, along the surface or along its boundary curve.
-fn relax(mesh: &mut Mesh, marks: &[u32], surface: &dyn Surface) {
+/// Moves each vertex towards the middle of its neighbours, along the surface or along its boundary curve; `settle`
+/// brings it back onto them, which costs more than the move.
+fn relax(mesh: &mut Mesh, marks: &[u32], surface: &dyn Surface, settle: bool) {
     const STEP: f64 = 0.6;
     let edges = mesh.edges();
     let boundary = boundary_vertices(&edges, mesh.positions.len());
@@ -341,6 +335,6 @@ fn relax(mesh: &mut Mesh, marks: &[u32], surface: &dyn Surface) {
         if !boundary[v] {
             step -= normals[v] * step.dot(normals[v]);
         }
-        mesh.positions[v] = surface.settle(position + step, marks[v]);
+        mesh.positions[v] = if settle { surface.settle(position + step, marks[v]) } else { position + step };
     }
 }

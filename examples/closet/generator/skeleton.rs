@@ -39,15 +39,6 @@ pub struct Skeleton {
     pub joints: [DVec3; JOINTS],
 }
 
-impl Skeleton {
-    /// The longest side of the box around the joints, in metres: 2 in the normalised space.
-    pub fn longest_side(&self) -> f64 {
-        let low = self.joints.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = self.joints.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        (high - low).max_element()
-    }
-}
-
 /// Lengths (metres) and angles (degrees) from which a skeleton is laid out.
 #[derive(Clone, Copy, Debug)]
 pub struct Proportions {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::clip::clip;
-use super::implicit::gradient;
+use super::implicit::value_and_gradient;
 use super::mesh::Mesh;
 use super::polygonize::polygonize;
 use super::remesh::{Surface, remesh};
@@ -23,27 +23,27 @@ pub struct Design<'a> {
     pub bounds: [DVec3; 2],
     /// Cell of the first, coarse mesh in metres: parts and gaps must be wider.
     pub cell: f64,
+    /// Rounds of remeshing: three for good triangles, four where cuts leave slivers.
+    pub rounds: usize,
 }
 
 impl Design<'_> {
-    /// Makes the mesh. Of a surface that was cut, only the largest component is kept.
+    /// Makes the mesh: the largest component of the surface.
     pub fn mesh(&self) -> Mesh {
         let mut mesh = polygonize(&self.solid, self.bounds, self.cell);
         let mut marks = vec![0; mesh.positions.len()];
         for (index, cut) in self.cuts.iter().enumerate() {
             clip(&mut mesh, &mut marks, 1 << index, cut);
         }
-        if !self.cuts.is_empty() {
-            let (component, count) = mesh.components();
-            let mut sizes = vec![0; count];
-            for &c in &component {
-                sizes[c as usize] += 1;
-            }
-            let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
-            let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
-            marks = old.iter().map(|&v| marks[v as usize]).collect();
+        let (component, count) = mesh.components();
+        let mut sizes = vec![0; count];
+        for &c in &component {
+            sizes[c as usize] += 1;
         }
-        remesh(&mut mesh, &mut marks, self, 6);
+        let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
+        let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
+        marks = old.iter().map(|&v| marks[v as usize]).collect();
+        remesh(&mut mesh, &mut marks, self, self.rounds);
         mesh
     }
 }
@@ -57,13 +57,12 @@ impl Surface for Design<'_> {
         const LARGEST_STEP: f64 = 0.02;
         let mut point = point;
         for _ in 0..if mark == 0 { 1 } else { 3 } {
-            let f = (self.solid)(point);
-            let df = gradient(&self.solid, point);
+            let (f, df) = value_and_gradient(&self.solid, point);
             let mut step = -f * df / df.length_squared().max(1e-3);
             if mark.count_ones() == 1 {
                 // The shortest step to where both functions are zero to first order.
                 let cut = &self.cuts[mark.trailing_zeros() as usize];
-                let (g, dg) = (cut(point), gradient(cut, point));
+                let (g, dg) = value_and_gradient(cut, point);
                 let (ff, fg, gg) = (df.length_squared(), df.dot(dg), dg.length_squared());
                 let determinant = ff * gg - fg * fg;
                 if determinant > 1e-3 * ff * gg {
