@@ -12,7 +12,11 @@
 //! examples and may change at any time.
 
 pub mod contact;
+pub mod control;
 pub mod energy;
 pub mod error;
 pub mod input;
+pub mod options;
+pub mod report;
+pub mod session;
 pub mod verify;

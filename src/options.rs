@@ -1,0 +1,111 @@
+//! TEMPORARY, until the real options are merged: what a caller may tune, with the paper's defaults.
+
+use crate::error::{Error, ErrorKind, Result};
+
+/// Form of the surface term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceForm {
+    /// Zero for every similarity.
+    Similarity,
+    /// As printed.
+    Printed,
+}
+
+/// Weights, distances and limits. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// bounding box is 2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Threads of this session; 0 takes as many as the machine has cores.
+    pub threads: u32,
+    /// Weight of the fit term (Eq. 4): higher is tighter.
+    pub fit_weight: f64,
+    /// Weight of the surface term (Eq. 2).
+    pub surface_weight: f64,
+    /// Weight of the curvature of boundary curves (Eq. 5).
+    pub curvature_weight: f64,
+    /// Weight of the torsion of boundary curves (section 3.4.5).
+    pub torsion_weight: f64,
+    /// Weight of the position of boundaries along their bones (Eq. 3).
+    pub position_weight: f64,
+    /// Weight of the contact barrier (Eq. 1, on squared distances).
+    pub barrier_weight: f64,
+    /// Distance at which the barrier begins.
+    pub dhat: f64,
+    /// Distance that no pair of primitives ever falls below.
+    pub separation_floor: f64,
+    /// Edge of a voxel of the distance field.
+    pub voxel: f64,
+    /// The fit ends where the squared Newton decrement falls below this fraction of the objective.
+    pub tolerance: f64,
+    /// Largest number of Newton iterations of each stage.
+    pub max_iterations: u32,
+    /// Which form of the surface term.
+    pub surface_form: SurfaceForm,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            threads: 0,
+            fit_weight: 2.0,
+            surface_weight: 1.0,
+            curvature_weight: 1.0,
+            torsion_weight: 1.0,
+            position_weight: 10.0,
+            barrier_weight: 1e8,
+            dhat: 0.002,
+            separation_floor: 1e-5,
+            voxel: 0.01,
+            tolerance: 1e-3,
+            max_iterations: 500,
+            surface_form: SurfaceForm::Similarity,
+        }
+    }
+}
+
+impl Options {
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// `InvalidArgument`, naming the option, its value and its range.
+    pub fn check(&self) -> Result<()> {
+        let refuse = |name: &str, value: f64, range: &str| {
+            Err(Error::new(ErrorKind::InvalidArgument, format!("option {name} is {value}; it must be {range}")))
+        };
+        for (name, value) in [
+            ("fit_weight", self.fit_weight),
+            ("surface_weight", self.surface_weight),
+            ("curvature_weight", self.curvature_weight),
+            ("torsion_weight", self.torsion_weight),
+            ("position_weight", self.position_weight),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                return refuse(name, value, "a finite number, 0 or above");
+            }
+        }
+        for (name, value, low, high) in [
+            ("barrier_weight", self.barrier_weight, 1.0, 1e14),
+            ("dhat", self.dhat, 1e-5, 0.1),
+            ("separation_floor", self.separation_floor, 1e-8, 0.01),
+            ("voxel", self.voxel, 1e-3, 0.2),
+            ("tolerance", self.tolerance, 1e-12, 1.0),
+        ] {
+            if !(value >= low && value <= high) {
+                return refuse(name, value, &format!("between {low} and {high}"));
+            }
+        }
+        if self.separation_floor >= 0.5 * self.dhat {
+            return refuse("separation_floor", self.separation_floor, &format!("below half of dhat ({})", self.dhat));
+        }
+        if self.surface_weight == 0.0 {
+            return refuse("surface_weight", 0.0, "above 0: nothing else holds the garment together");
+        }
+        if self.max_iterations == 0 {
+            return refuse("max_iterations", 0.0, "at least 1");
+        }
+        if self.threads > 1024 {
+            return refuse("threads", f64::from(self.threads), "at most 1024 (0 takes all cores)");
+        }
+        Ok(())
+    }
+}
