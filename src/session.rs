@@ -142,7 +142,7 @@ impl Session {
             Stage::Prepared => Stage::Inflate,
             Stage::Inflate => Stage::Fit,
             Stage::Fit => Stage::Done,
-            _ => return Err(state("step fits a session that is prepared and has not ended")),
+            _ => return Err(state("step needs prepare first, and reset after the end")),
         };
         if self.control.is_cancelled() {
             self.enter(Stage::Cancelled);
