@@ -1,0 +1,2 @@
+//! The C API, called as a C program calls it.
+mod header;
