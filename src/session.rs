@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use crate::control::{Control, MAX_TERMS, Progress, Stage};
+pub use crate::control::Stage;
+use crate::control::{Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
@@ -184,6 +185,11 @@ impl Session {
         mesh.check("garment")?;
         self.garment = Some((mesh, precision));
         Ok(())
+    }
+
+    /// Vertices of the garment, once it is set.
+    pub fn garment_vertex_count(&self) -> Option<usize> {
+        self.garment.as_ref().map(|g| g.0.positions.len())
     }
 
     /// The skeleton that the garment was designed on, in the source space.

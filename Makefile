@@ -1,0 +1,58 @@
+# make        build/retarget and build/libbespoke.so
+# make demo   makes a sample, dresses two bodies in it and says what came out
+# make test   every test
+# make header writes include/bespoke.h again from the sources
+#
+# As root, `demo` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+
+CC = cc
+CFLAGS = -O2 -g
+C_FLAGS = -std=c99 -pedantic -Wall -Wextra -Werror -Iinclude $(CFLAGS)
+C_SOURCES = $(wildcard examples_c/*.c)
+C_HEADERS = $(wildcard examples_c/*.h) include/bespoke.h
+SHARED = $(if $(filter Darwin,$(shell uname)),dylib,so)
+ORIGIN = $(if $(filter Darwin,$(shell uname)),@loader_path,$$ORIGIN)
+SAMPLE = build/sample
+
+.PHONY: all
+all: build/retarget
+
+build:
+	mkdir -p build
+
+# cargo decides what is new; the copy keeps its date where nothing is.
+build/libbespoke.$(SHARED): FORCE | build
+	cargo build --release --lib
+	cmp -s target/release/libbespoke.$(SHARED) $@ || cp target/release/libbespoke.$(SHARED) $@
+
+build/retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED)
+	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)'
+
+.PHONY: dependencies
+dependencies:
+	sh .ci/dependencies
+
+.PHONY: demo
+demo: dependencies
+	$(MAKE) build/retarget
+	cargo run --release --example closet -- $(SAMPLE)
+	sh examples_c/demo.sh build/retarget $(SAMPLE)
+
+# The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
+# so that nothing is built twice.
+.PHONY: test
+test: dependencies
+	$(MAKE) build/retarget
+	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+
+.PHONY: header
+header:
+	BESPOKE_UPDATE_HEADER=1 cargo test --release --test capi header::committed
+
+.PHONY: clean
+clean:
+	rm -rf build
+	cargo clean
+
+.PHONY: FORCE
+FORCE:

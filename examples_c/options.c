@@ -1,0 +1,148 @@
+#include "options.h"
+
+#include <string.h>
+
+const char *const options_usage =
+    "usage: retarget --garment g.obj --source-skeleton s.obj --avatar a.obj --target-skeleton t.obj [options] -o out.obj\n"
+    "\n"
+    "Fits a garment that was modelled on one body to another body, with no triangle through another.\n"
+    "\n"
+    "  --garment FILE          the garment, around the source skeleton\n"
+    "  --source-skeleton FILE  skeleton of the body it was modelled on: joints as v, bones as l lines\n"
+    "  --avatar FILE           the body to dress\n"
+    "  --target-skeleton FILE  its skeleton: the same joints in the same order, the same bones in any order\n"
+    "  -o, --output FILE       the garment on the avatar, in the avatar's space and unit\n"
+    "\n"
+    "  --source-avatar FILE    the body the garment was modelled on; the fit then aims at the looseness it had there\n"
+    "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
+    "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
+    "  --fit-weight W          how tight (2); 0 switches the term off\n"
+    "  --surface-weight W      how strongly the design keeps its shape (1)\n"
+    "  --curve-weight W        the same for its boundary curves: curvature and torsion (1)\n"
+    "  --position-weight W     how strongly cuffs, hems and collars keep their place along their bones (10)\n"
+    "  --barrier-weight W      stiffness of contacts (1e8)\n"
+    "  --dhat D                distance at which contacts begin (0.002; the skeleton is 2 long)\n"
+    "  --voxel D               resolution of the distance field (0.01; the skeleton is 2 long)\n"
+    "  --threads N             0: all cores (0)\n"
+    "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
+    "  --report FILE           a JSON file with times, iterations, energies, distances and counts\n"
+    "  --quiet                 no progress\n"
+    "  --help, --version\n"
+    "\n"
+    "OBJ files are read with 32-bit coordinates. The output is the garment's file with moved vertices: order, faces,\n"
+    "UVs, groups and materials stay. Vertex normals are computed afresh; corners that shared one still share one, and\n"
+    "the faces count them in the order of their first use. Polygons are fans when it comes to contacts.\n"
+    "\n"
+    "Exit: 0 with a verified result, 1 without one, 2 for a wrong command line, 128 + n when stopped by signal n\n"
+    "(130 for Ctrl-C). Files appear whole or not at all.\n";
+
+bool options_parse(Options *options, int count, char **words, Message *message) {
+    memset(options, 0, sizeof *options);
+    const struct {
+        const char *name;
+        const char **place;
+        bool is_needed;
+    } paths[] = {
+        {"--garment", &options->garment, true},
+        {"--source-skeleton", &options->source_skeleton, true},
+        {"--avatar", &options->avatar, true},
+        {"--target-skeleton", &options->target_skeleton, true},
+        {"--output", &options->output, true},
+        {"--source-avatar", &options->source_avatar, false},
+        {"--skin-weights", &options->skin_weights, false},
+        {"--no-fit", &options->no_fit, false},
+        {"--output-avatar", &options->output_avatar, false},
+        {"--report", &options->report, false},
+    };
+    const struct {
+        const char *name;
+        double *place;
+    } numbers[] = {
+        {"--fit-weight", &options->fit_weight},
+        {"--surface-weight", &options->surface_weight},
+        {"--curve-weight", &options->curve_weight},
+        {"--position-weight", &options->position_weight},
+        {"--barrier-weight", &options->barrier_weight},
+        {"--dhat", &options->dhat},
+        {"--voxel", &options->voxel},
+        {"--threads", &options->threads},
+    };
+    const struct {
+        const char *name;
+        bool *place;
+    } flags[] = {
+        {"--quiet", &options->quiet},
+        {"--help", &options->help},
+        {"-h", &options->help},
+        {"--version", &options->version},
+    };
+    const size_t path_count = sizeof paths / sizeof *paths;
+    const size_t number_count = sizeof numbers / sizeof *numbers;
+    const size_t flag_count = sizeof flags / sizeof *flags;
+    for (size_t k = 0; k < number_count; k++) {
+        *numbers[k].place = -1.0;
+    }
+    for (int i = 1; i < count; i++) {
+        const char *name = strcmp(words[i], "-o") == 0 ? "--output" : words[i];
+        bool is_flag = false;
+        for (size_t k = 0; k < flag_count; k++) {
+            if (strcmp(name, flags[k].name) == 0) {
+                *flags[k].place = true;
+                is_flag = true;
+            }
+        }
+        if (is_flag) {
+            continue;
+        }
+        /* --name value or --name=value */
+        const char *equals = strchr(name, '=');
+        const size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
+        const char **path = NULL;
+        double *number = NULL;
+        for (size_t k = 0; k < path_count; k++) {
+            if (strlen(paths[k].name) == length && strncmp(name, paths[k].name, length) == 0) {
+                path = paths[k].place;
+            }
+        }
+        for (size_t k = 0; k < number_count; k++) {
+            if (strlen(numbers[k].name) == length && strncmp(name, numbers[k].name, length) == 0) {
+                number = numbers[k].place;
+            }
+        }
+        if (path == NULL && number == NULL) {
+            return fail(message, "there is no option '%s'; see retarget --help", words[i]);
+        }
+        const char *value = equals != NULL ? equals + 1 : i + 1 < count ? words[++i] : NULL;
+        if (value == NULL || *value == '\0') {
+            return fail(message, "option %.*s needs a value", (int)length, name);
+        }
+        if (path != NULL) {
+            *path = value;
+        } else {
+            const Word word = {value, value + strlen(value)};
+            if (!word_number(word, number) || *number < 0.0) {
+                return fail(message, "option %.*s has '%s', which is not a number from 0", (int)length, name, value);
+            }
+        }
+    }
+    if (options->help || options->version) {
+        return true;
+    }
+    for (size_t k = 0; k < path_count; k++) {
+        if (paths[k].is_needed && *paths[k].place == NULL) {
+            return fail(message, "%s is missing; see retarget --help", paths[k].name);
+        }
+    }
+    const char *outputs[] = {options->output, options->output_avatar, options->report};
+    for (size_t a = 0; a < 3; a++) {
+        for (size_t b = 0; b < a; b++) {
+            if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {
+                return fail(message, "%s is named for two different outputs", outputs[a]);
+            }
+        }
+    }
+    if (options->threads != -1.0 && (options->threads > 1024.0 || options->threads != (double)(uint32_t)options->threads)) {
+        return fail(message, "option --threads must be a whole number up to 1024");
+    }
+    return true;
+}

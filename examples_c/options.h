@@ -1,0 +1,40 @@
+/* The command line of retarget. */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stdint.h>
+
+#include "text.h"
+
+typedef struct Options {
+    const char *garment;
+    const char *source_skeleton;
+    const char *avatar;
+    const char *target_skeleton;
+    const char *output;
+    /* The rest may be null. */
+    const char *source_avatar;
+    const char *skin_weights;
+    const char *no_fit;
+    const char *output_avatar;
+    const char *report;
+    /* Negative: not given. */
+    double fit_weight;
+    double surface_weight;
+    double curve_weight;
+    double position_weight;
+    double barrier_weight;
+    double dhat;
+    double voxel;
+    double threads;
+    bool quiet;
+    bool help;
+    bool version;
+} Options;
+
+bool options_parse(Options *options, int count, char **words, Message *message);
+
+/* What --help prints. */
+extern const char *const options_usage;
+
+#endif

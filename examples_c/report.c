@@ -1,0 +1,80 @@
+#define _XOPEN_SOURCE 700
+
+#include "report.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <sys/resource.h>
+
+/* JSON has no infinity and no NaN. */
+static void write_number(FILE *file, const char *name, double value, const char *end) {
+    if (isfinite(value)) {
+        fprintf(file, "\"%s\": %.17g%s", name, value, end);
+    } else {
+        fprintf(file, "\"%s\": null%s", name, end);
+    }
+}
+
+static void write_work(FILE *file, const char *name, const BespokeWork *work) {
+    fprintf(file, "    \"%s\": { ", name);
+    write_number(file, "seconds", work->seconds, ", ");
+    fprintf(file, "\"iterations\": %" PRIu32 ", \"factorisations\": %" PRIu32 ", \"symbolic_factorisations\": %" PRIu32 " },\n",
+            work->iterations, work->factorisations, work->symbolic_factorisations);
+}
+
+static uint64_t peak_memory(void) {
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) {
+        return 0;
+    }
+#ifdef __APPLE__
+    return (uint64_t)usage.ru_maxrss;
+#else
+    return (uint64_t)usage.ru_maxrss * 1024;
+#endif
+}
+
+bool report_write(const BespokeSession *session, double seconds, FILE *file, Message *message) {
+    BespokeReport report = {.struct_size = sizeof report};
+    if (bespoke_session_read_report(session, &report) != BESPOKE_STATUS_OK) {
+        return fail(message, "the report cannot be read");
+    }
+    fprintf(file, "{\n  \"library_version\": \"%s\",\n  \"threads\": %" PRIu32 ",\n", bespoke_version_text(), report.threads);
+    fputs("  ", file);
+    write_number(file, "seconds", seconds, ",\n  ");
+    fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", peak_memory());
+    write_work(file, "prepare", &report.prepare);
+    write_work(file, "inflate", &report.inflate);
+    write_work(file, "fit", &report.fit);
+    fputs("    \"verify\": { ", file);
+    write_number(file, "seconds", report.verify_seconds, " },\n");
+    fputs("    \"distance_field\": { ", file);
+    write_number(file, "seconds", report.field_seconds, " }\n  },\n  \"energies\": {\n");
+    for (uint32_t k = 0; k < report.energy_count; k++) {
+        BespokeEnergy energy;
+        if (bespoke_session_read_energy(session, k, &energy) != BESPOKE_STATUS_OK) {
+            return fail(message, "the report cannot be read");
+        }
+        fprintf(file, "    \"%s\": { ", energy.name);
+        write_number(file, "value", energy.value, ", ");
+        write_number(file, "weight", energy.weight, ", ");
+        write_number(file, "weighted", energy.weight * energy.value, k + 1 < report.energy_count ? " },\n" : " }\n");
+    }
+    fputs("  },\n  ", file);
+    write_number(file, "t", report.t, ",\n  ");
+    write_number(file, "gradient_norm", report.gradient_norm, ",\n");
+    fputs("  \"min_distance\": { ", file);
+    write_number(file, "garment_garment", report.garment_distance, ", ");
+    write_number(file, "garment_avatar", report.avatar_distance, " },\n");
+    fprintf(file, "  \"active_contacts\": %" PRIu64 ",\n", report.active_contacts);
+    fprintf(file, "  \"verified\": %s,\n", report.is_verified != 0 ? "true" : "false");
+    fprintf(file, "  \"intersections\": { \"garment_garment\": %" PRIu64 ", \"garment_avatar\": %" PRIu64 " },\n",
+            report.garment_intersections, report.avatar_intersections);
+    fprintf(file, "  \"garment\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.garment_vertices,
+            report.garment_triangles);
+    fprintf(file, "  \"avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.avatar_vertices,
+            report.avatar_triangles);
+    fprintf(file, "  \"subdivided_avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " }\n}\n",
+            report.subdivided_avatar_vertices, report.subdivided_avatar_triangles);
+    return true;
+}

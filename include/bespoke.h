@@ -1,0 +1,987 @@
+/* Bespoke: fits a garment that was modelled on one body to another body, with no triangle through another.
+
+   This file is generated from the library's sources, and it is the manual. The whole way of a caller:
+
+     bespoke_session_create -> set_garment, set_source_skeleton, set_target_avatar, set_target_skeleton
+       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, set_options, ...)
+       -> prepare -> step, step, step ... (or run) -> read_garment_vertices -> destroy
+
+   What holds for all functions:
+
+   Status.  A call that can fail returns a status. Unless it is BESPOKE_STATUS_BUSY, a failed call with a session
+     leaves a sentence for bespoke_session_last_message that says what, where and which element. A call that failed
+     because of its arguments or of the state changed nothing. Each function lists its errors without their prefix.
+   Pointers.  They are null, which is refused where not said otherwise, or point to what is said; structs with a
+     struct_size to as many bytes as that says. A handle is what the library gave out and has not destroyed.
+     Apart from handles, nothing is kept after a call, and nothing of the library's is to be freed by the caller.
+   Threads.  "any, one at a time": from any thread, but a second call with the same session while the first runs
+     returns BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent.
+     The library works in threads of its own and touches none of the host's settings (signals, locale, rounding).
+   Enums.  They cross as uint32_t and are checked. Structs that are all zeros, but for their struct_size, mean the
+     defaults. */
+
+
+#ifndef BESPOKE_H
+#define BESPOKE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/*
+ Number of the binary interface that this header describes. It changes when a program built with another header
+ would no longer work; additions at the end of a struct with a `struct_size` do not change it.
+ */
+#define BESPOKE_ABI_VERSION 1
+
+/*
+ The value of a weight that switches its term off; 0 means the default.
+ */
+#define BESPOKE_WEIGHT_OFF -1.0
+
+/*
+ Length of the list of energy terms in BespokeProgress.
+ */
+#define BESPOKE_MAX_TERMS 12
+
+/*
+ Bytes of the name in BespokeEnergy, its zero byte included.
+ */
+#define BESPOKE_ENERGY_NAME_SIZE 32
+
+/*
+ The outcome of a call.
+ */
+enum BespokeStatus
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   It did what it says.
+   */
+  BESPOKE_STATUS_OK = 0,
+  /*
+   An argument is null, out of range or of the wrong size.
+   */
+  BESPOKE_STATUS_INVALID_ARGUMENT = 1,
+  /*
+   The call does not fit the state of the session.
+   */
+  BESPOKE_STATUS_INVALID_STATE = 2,
+  /*
+   A mesh cannot be used: no vertices, an index out of range, a coordinate that is not finite.
+   */
+  BESPOKE_STATUS_INVALID_MESH = 3,
+  /*
+   A skeleton cannot be used, or the two skeletons do not share a topology.
+   */
+  BESPOKE_STATUS_INVALID_SKELETON = 4,
+  /*
+   Skin or fit weights have the wrong shape or hold bad values.
+   */
+  BESPOKE_STATUS_INVALID_WEIGHTS = 5,
+  /*
+   The garment intersects itself at the start.
+   */
+  BESPOKE_STATUS_SELF_INTERSECTION = 6,
+  /*
+   The garment does not enclose its skeleton.
+   */
+  BESPOKE_STATUS_NOT_ENCLOSED = 7,
+  /*
+   The avatar could not be inflated to its full size without an intersection.
+   */
+  BESPOKE_STATUS_INFLATION_STALLED = 8,
+  /*
+   The exact verifier found an intersection in the result.
+   */
+  BESPOKE_STATUS_NOT_VERIFIED = 9,
+  /*
+   Somebody asked to stop.
+   */
+  BESPOKE_STATUS_CANCELLED = 10,
+  /*
+   Another thread is inside a call with the same session. Nothing was done, and the message did not change.
+   */
+  BESPOKE_STATUS_BUSY = 11,
+  /*
+   A defect of this library. The session refuses all further work and can only be destroyed; others go on.
+   */
+  BESPOKE_STATUS_INTERNAL = 12,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeStatus BespokeStatus;
+#else
+typedef uint32_t BespokeStatus;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ How one number of an array is stored. 0 is none of them, so that a forgotten field is noticed.
+ */
+enum BespokeComponent
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   float
+   */
+  BESPOKE_COMPONENT_F32 = 1,
+  /*
+   double
+   */
+  BESPOKE_COMPONENT_F64 = 2,
+  /*
+   uint16_t
+   */
+  BESPOKE_COMPONENT_U16 = 3,
+  /*
+   uint32_t
+   */
+  BESPOKE_COMPONENT_U32 = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeComponent BespokeComponent;
+#else
+typedef uint32_t BespokeComponent;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ Where a session is on its way.
+ */
+enum BespokeStage
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Takes inputs; nothing is computed yet.
+   */
+  BESPOKE_STAGE_SETUP = 0,
+  /*
+   Step 1 is done: the avatar is shrunk onto the source skeleton.
+   */
+  BESPOKE_STAGE_PREPARED = 1,
+  /*
+   Step 2: the avatar grows to its full size inside the garment.
+   */
+  BESPOKE_STAGE_INFLATE = 2,
+  /*
+   Step 3: the garment settles onto the avatar.
+   */
+  BESPOKE_STAGE_FIT = 3,
+  /*
+   The exact verifier looks at the result.
+   */
+  BESPOKE_STAGE_VERIFY = 4,
+  /*
+   The result is final and verified.
+   */
+  BESPOKE_STAGE_DONE = 5,
+  /*
+   A call failed for good. What the garment looked like last can be read.
+   */
+  BESPOKE_STAGE_FAILED = 6,
+  /*
+   Somebody asked to stop. What the garment looked like last can be read.
+   */
+  BESPOKE_STAGE_CANCELLED = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeStage BespokeStage;
+#else
+typedef uint32_t BespokeStage;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ A direction along one axis of the caller's coordinates.
+ */
+enum BespokeAxis
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   +x
+   */
+  BESPOKE_AXIS_POSITIVE_X = 1,
+  /*
+   -x
+   */
+  BESPOKE_AXIS_NEGATIVE_X = 2,
+  /*
+   +y
+   */
+  BESPOKE_AXIS_POSITIVE_Y = 3,
+  /*
+   -y
+   */
+  BESPOKE_AXIS_NEGATIVE_Y = 4,
+  /*
+   +z
+   */
+  BESPOKE_AXIS_POSITIVE_Z = 5,
+  /*
+   -z
+   */
+  BESPOKE_AXIS_NEGATIVE_Z = 6,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeAxis BespokeAxis;
+#else
+typedef uint32_t BespokeAxis;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ How the corners of a front face follow each other for somebody who looks at its front.
+ */
+enum BespokeWinding
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Against the hands of a clock.
+   */
+  BESPOKE_WINDING_COUNTER_CLOCKWISE = 0,
+  /*
+   With the hands of a clock.
+   */
+  BESPOKE_WINDING_CLOCKWISE = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeWinding BespokeWinding;
+#else
+typedef uint32_t BespokeWinding;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ Form of the surface term (Eq. 2 of the paper).
+ */
+enum BespokeSurfaceForm
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Free for every similarity: scaling the garment as a whole costs nothing.
+   */
+  BESPOKE_SURFACE_FORM_SIMILARITY = 0,
+  /*
+   As printed in the paper.
+   */
+  BESPOKE_SURFACE_FORM_PRINTED = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeSurfaceForm BespokeSurfaceForm;
+#else
+typedef uint32_t BespokeSurfaceForm;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
+ */
+typedef struct BespokeControl BespokeControl;
+
+/*
+ One garment on its way to one avatar. Opaque.
+ */
+typedef struct BespokeSession BespokeSession;
+
+/*
+ An array of the caller that is read during a call and never kept. Alignment does not matter.
+
+ An element is what the parameter is said to hold: a point (x, y, z), a triangle (three vertices, from 0), a bone
+ (two joints, from 0), a number.
+ */
+typedef struct BespokeView {
+  /*
+   The first element. May be null where `count` is 0.
+   */
+  const void *data;
+  /*
+   Elements.
+   */
+  size_t count;
+  /*
+   Bytes from one element to the next; 0: they are packed.
+   */
+  size_t stride;
+  /*
+   One of BespokeComponent.
+   */
+  uint32_t component;
+} BespokeView;
+
+/*
+ A coordinate system. Zero in a field means its default; handedness follows from the axes.
+ */
+typedef struct BespokeSpace {
+  /*
+   sizeof(BespokeSpace).
+   */
+  uint32_t struct_size;
+  /*
+   The axis to the right, one of BespokeAxis. Default: +x.
+   */
+  uint32_t right;
+  /*
+   The axis upwards. Default: +y.
+   */
+  uint32_t up;
+  /*
+   The axis forwards, into the picture. Default: -z.
+   */
+  uint32_t forward;
+  /*
+   Length of the unit in metres. Default: 1.
+   */
+  double metres_per_unit;
+  /*
+   One of BespokeWinding.
+   */
+  uint32_t winding;
+  /*
+   0.
+   */
+  uint32_t reserved;
+} BespokeSpace;
+
+/*
+ What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
+ side of the skeleton's bounding box is 2.
+ */
+typedef struct BespokeOptions {
+  /*
+   sizeof(BespokeOptions).
+   */
+  uint32_t struct_size;
+  /*
+   Threads of this session. Default: as many as the machine has cores.
+   */
+  uint32_t threads;
+  /*
+   Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
+   */
+  double fit_weight;
+  /*
+   Weight of the surface term, which keeps the design's shape. Default 1.
+   */
+  double surface_weight;
+  /*
+   Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+   */
+  double curvature_weight;
+  /*
+   Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+   */
+  double torsion_weight;
+  /*
+   Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
+   */
+  double position_weight;
+  /*
+   Weight of the contact barrier, on squared distances. Default 1e8.
+   */
+  double barrier_weight;
+  /*
+   Distance at which the barrier begins. Default 0.002.
+   */
+  double dhat;
+  /*
+   Edge of a voxel of the distance field. Default 0.01.
+   */
+  double voxel;
+  /*
+   Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+   */
+  double separation_floor;
+  /*
+   The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+   */
+  double tolerance;
+  /*
+   Largest number of Newton iterations of each stage. Default 500.
+   */
+  uint32_t max_iterations;
+  /*
+   One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
+   */
+  uint32_t surface_form;
+} BespokeOptions;
+
+/*
+ Pairs of triangles that touch or cross each other.
+ */
+typedef struct BespokeIntersections {
+  /*
+   Of the garment with itself.
+   */
+  uint64_t garment_garment;
+  /*
+   Of the garment with the avatar.
+   */
+  uint64_t garment_avatar;
+} BespokeIntersections;
+
+/*
+ A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's bounding
+ box is 2.
+ */
+typedef struct BespokeProgress {
+  /*
+   sizeof(BespokeProgress).
+   */
+  uint32_t struct_size;
+  /*
+   One of BespokeStage.
+   */
+  uint32_t stage;
+  /*
+   Iterations of this stage so far.
+   */
+  uint32_t iteration;
+  /*
+   How many of `energies` are in use.
+   */
+  uint32_t energy_count;
+  /*
+   Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+   */
+  double t;
+  /*
+   The objective: the sum of `energies`.
+   */
+  double energy;
+  /*
+   Euclidean norm of the objective's gradient.
+   */
+  double gradient_norm;
+  /*
+   Smallest distance of a contact pair; infinite where no pair is near.
+   */
+  double min_distance;
+  /*
+   Contact pairs closer than dhat.
+   */
+  uint64_t active_contacts;
+  /*
+   Seconds in step 1 so far.
+   */
+  double prepare_seconds;
+  /*
+   Seconds in step 2 so far.
+   */
+  double inflate_seconds;
+  /*
+   Seconds in step 3 so far.
+   */
+  double fit_seconds;
+  /*
+   Seconds in the verifier so far.
+   */
+  double verify_seconds;
+  /*
+   Each term with its weight, in the order of bespoke_session_read_energy.
+   */
+  double energies[BESPOKE_MAX_TERMS];
+} BespokeProgress;
+
+/*
+ An array of the caller that points are written to. Bytes between them stay as they are.
+ */
+typedef struct BespokeBuffer {
+  /*
+   The first point. May be null where `capacity` is 0.
+   */
+  void *data;
+  /*
+   Points that fit.
+   */
+  size_t capacity;
+  /*
+   Bytes from one point to the next; 0: they are packed.
+   */
+  size_t stride;
+  /*
+   BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
+   */
+  uint32_t component;
+} BespokeBuffer;
+
+/*
+ The work of one stage.
+ */
+typedef struct BespokeWork {
+  /*
+   Wall-clock seconds.
+   */
+  double seconds;
+  /*
+   Newton iterations.
+   */
+  uint32_t iterations;
+  /*
+   Numeric factorisations.
+   */
+  uint32_t factorisations;
+  /*
+   Symbolic factorisations.
+   */
+  uint32_t symbolic_factorisations;
+  /*
+   0.
+   */
+  uint32_t reserved;
+} BespokeWork;
+
+/*
+ What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
+ bounding box is 2.
+ */
+typedef struct BespokeReport {
+  /*
+   sizeof(BespokeReport).
+   */
+  uint32_t struct_size;
+  /*
+   Threads that the session works with.
+   */
+  uint32_t threads;
+  /*
+   Step 1.
+   */
+  struct BespokeWork prepare;
+  /*
+   Step 2.
+   */
+  struct BespokeWork inflate;
+  /*
+   Step 3.
+   */
+  struct BespokeWork fit;
+  /*
+   Wall-clock seconds of the exact verifier.
+   */
+  double verify_seconds;
+  /*
+   Seconds until the distance field was built, beside step 2.
+   */
+  double field_seconds;
+  /*
+   Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+   */
+  double t;
+  /*
+   Euclidean norm of the objective's gradient.
+   */
+  double gradient_norm;
+  /*
+   Smallest distance of the garment to itself; infinite where no pair is near.
+   */
+  double garment_distance;
+  /*
+   Smallest distance of the garment to the avatar; infinite where no pair is near.
+   */
+  double avatar_distance;
+  /*
+   Contact pairs closer than dhat.
+   */
+  uint64_t active_contacts;
+  /*
+   Intersecting pairs within the garment that the verifier found.
+   */
+  uint64_t garment_intersections;
+  /*
+   Intersecting pairs of garment and avatar that the verifier found.
+   */
+  uint64_t avatar_intersections;
+  /*
+   Vertices of the garment.
+   */
+  uint64_t garment_vertices;
+  /*
+   Triangles of the garment.
+   */
+  uint64_t garment_triangles;
+  /*
+   Vertices of the target avatar.
+   */
+  uint64_t avatar_vertices;
+  /*
+   Triangles of the target avatar.
+   */
+  uint64_t avatar_triangles;
+  /*
+   Vertices of the target avatar once its triangles over several bones are split.
+   */
+  uint64_t subdivided_avatar_vertices;
+  /*
+   Triangles of the target avatar once those over several bones are split.
+   */
+  uint64_t subdivided_avatar_triangles;
+  /*
+   1 where the verifier has looked at the result, else 0.
+   */
+  uint32_t is_verified;
+  /*
+   Number of energy terms; see bespoke_session_read_energy.
+   */
+  uint32_t energy_count;
+} BespokeReport;
+
+/*
+ One term of the objective.
+ */
+typedef struct BespokeEnergy {
+  /*
+   Name, such as "surface"; ends with a zero byte.
+   */
+  char name[BESPOKE_ENERGY_NAME_SIZE];
+  /*
+   Value without its weight.
+   */
+  double value;
+  /*
+   Weight; the term adds weight * value to the objective.
+   */
+  double weight;
+} BespokeEnergy;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/*
+ The name of a status, such as "BESPOKE_STATUS_BUSY"; "BESPOKE_STATUS_UNKNOWN" for any other number.
+
+ Ownership: the text is part of the library, never freed. Threads: any, at any time.
+ */
+const char *bespoke_status_name(uint32_t status);
+
+/*
+ The binary interface of the library that is loaded. Compare with BESPOKE_ABI_VERSION before anything else.
+
+ Threads: any, at any time.
+ */
+uint32_t bespoke_abi_version(void);
+
+/*
+ The version of the library that is loaded, such as "0.1.0".
+
+ Ownership: the text is part of the library, never freed. Threads: any, at any time.
+ */
+const char *bespoke_version_text(void);
+
+/*
+ Makes an empty session and stores its handle in `*session`; stores null where it fails.
+
+ Ownership: the caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT, INTERNAL. Threads: any,
+ at any time.
+ */
+BespokeStatus bespoke_session_create(struct BespokeSession **session);
+
+/*
+ Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable.
+
+ Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
+ other call with this session may begin from here on.
+ */
+BespokeStatus bespoke_session_destroy(struct BespokeSession *session);
+
+/*
+ Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+
+ State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_reset(struct BespokeSession *session);
+
+/*
+ Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
+
+ `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
+ null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
+ State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
+ Threads: any, at any time, also while another call runs.
+ */
+BespokeStatus bespoke_session_last_message(const struct BespokeSession *session,
+                                           char *buffer,
+                                           size_t capacity,
+                                           size_t *needed);
+
+/*
+ The garment as it was modelled, around the source skeleton.
+
+ `positions`: points, F32 or F64; the result is verified in this precision. `triangles`: three vertices each, U16
+ or U32. It may be open and in pieces. Ownership: copied during the call. State: SETUP; a second call replaces the
+ first. Errors: INVALID_ARGUMENT, INVALID_MESH (no vertices, no triangles, an index out of range, a coordinate that
+ is not finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_garment(struct BespokeSession *session,
+                                          const struct BespokeView *positions,
+                                          const struct BespokeView *triangles);
+
+/*
+ The skeleton around which the garment was modelled, in the space of the garment.
+
+ `joints`: points, F32 or F64. `bones`: two joints each, U16 or U32; order and direction are free. Ownership: copied
+ during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_SKELETON, INVALID_STATE, BUSY, INTERNAL. Threads:
+ any, one at a time.
+ */
+BespokeStatus bespoke_session_set_source_skeleton(struct BespokeSession *session,
+                                                  const struct BespokeView *joints,
+                                                  const struct BespokeView *bones);
+
+/*
+ The body to dress. It may be open, non-manifold, in pieces, and may intersect itself.
+
+ `positions`: points, F32 or F64. `triangles`: three vertices each, U16 or U32. Ownership: copied during the call.
+ State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_target_avatar(struct BespokeSession *session,
+                                                const struct BespokeView *positions,
+                                                const struct BespokeView *triangles);
+
+/*
+ The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds to
+ joint i of the source skeleton, and the same pairs of joints are bones.
+
+ `joints`, `bones`: as for the source skeleton. Ownership: copied during the call. State: SETUP. Errors:
+ INVALID_ARGUMENT, INVALID_SKELETON (another topology may be found only by bespoke_session_prepare), INVALID_STATE,
+ BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_target_skeleton(struct BespokeSession *session,
+                                                  const struct BespokeView *joints,
+                                                  const struct BespokeView *bones);
+
+/*
+ Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at the
+ looseness of the design.
+
+ `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
+ INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_source_avatar(struct BespokeSession *session,
+                                                const struct BespokeView *positions,
+                                                const struct BespokeView *triangles);
+
+/*
+ Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest bone
+ decides to which part of the body a vertex belongs.
+
+ `rows`: one element for each joint, F32 or F64, each of them `vertices` numbers; its stride leads from row to row.
+ Weights are finite and not negative; those of a vertex need not sum to 1. Ownership: copied during the call. State:
+ SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by bespoke_session_prepare),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_target_skin_weights(struct BespokeSession *session,
+                                                      const struct BespokeView *rows,
+                                                      size_t vertices);
+
+/*
+ Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each vertex.
+
+ `joints`: one element for each vertex, U16 or U32, each of them `influences` joints (from 0). `weights`: the same
+ with F32 or F64. A joint with weight 0 is not looked at. `joint_count`: joints of the target skeleton. All else as
+ for bespoke_session_set_target_skin_weights, which this replaces.
+ */
+BespokeStatus bespoke_session_set_target_skin_influences(struct BespokeSession *session,
+                                                         const struct BespokeView *joints,
+                                                         const struct BespokeView *weights,
+                                                         size_t influences,
+                                                         size_t joint_count);
+
+/*
+ Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
+ 0: not at all.
+
+ `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
+ call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
+ bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_fit_weights(struct BespokeSession *session, const struct BespokeView *weights);
+
+/*
+ Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
+ this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
+
+ `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with
+ the garment set. Errors: INVALID_ARGUMENT (a vertex out of range as well), INVALID_STATE, BUSY, INTERNAL. Threads:
+ any, one at a time.
+ */
+BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session, const struct BespokeView *vertices);
+
+/*
+ Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+
+ State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, const struct BespokeSpace *space);
+
+/*
+ Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+
+ State, errors, threads: as for bespoke_session_set_source_space.
+ */
+BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
+
+/*
+ Replaces all options by these.
+
+ State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_options(struct BespokeSession *session, const struct BespokeOptions *options);
+
+/*
+ Fills a struct of options with the defaults written out. The caller sets `struct_size` first.
+
+ Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
+ */
+BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
+
+/*
+ Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
+ PREPARED; where it fails, the session still takes inputs.
+
+ State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
+ INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED, BUSY,
+ INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
+
+/*
+ Goes on for a while: to the end of the budget or of the whole way, whichever is first.
+
+ `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
+ at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
+ afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
+ verified; until then what can be read is a preview.
+ State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
+ INFLATION_STALLED, NOT_VERIFIED, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_step(struct BespokeSession *session,
+                                   uint32_t max_iterations,
+                                   uint32_t max_milliseconds,
+                                   uint32_t *stage);
+
+/*
+ All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
+
+ State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_run(struct BespokeSession *session);
+
+/*
+ Counts the intersections of the vertices as they would be read now, with exact predicates.
+
+ `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
+ none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
+ INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
+                                     uint32_t component,
+                                     struct BespokeIntersections *intersections);
+
+/*
+ Asks a session to stop. The call that runs returns CANCELLED after its present iteration, or the next one does. The
+ request stays until bespoke_session_reset.
+
+ Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
+ it.
+ */
+BespokeStatus bespoke_session_cancel(const struct BespokeSession *session);
+
+/*
+ Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
+ first.
+
+ Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any time,
+ also while another call runs.
+ */
+BespokeStatus bespoke_session_read_progress(const struct BespokeSession *session, struct BespokeProgress *progress);
+
+/*
+ Makes a control of a session and stores its handle in `*control`; stores null where it fails.
+
+ Ownership: the caller destroys it with bespoke_control_destroy, before or after the session. Errors:
+ INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs.
+ */
+BespokeStatus bespoke_session_create_control(const struct BespokeSession *session, struct BespokeControl **control);
+
+/*
+ The same as bespoke_session_cancel. Without effect once the session is destroyed.
+
+ Errors: INVALID_ARGUMENT (null). Threads: any, at any time; a signal handler may call it.
+ */
+BespokeStatus bespoke_control_cancel(const struct BespokeControl *control);
+
+/*
+ The same as bespoke_session_read_progress. The last moment stays once the session is destroyed.
+
+ Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
+ */
+BespokeStatus bespoke_control_read_progress(const struct BespokeControl *control, struct BespokeProgress *progress);
+
+/*
+ Frees a control. The session goes on. A null control is fine.
+
+ Threads: any; no other call with this control may run or begin.
+ */
+void bespoke_control_destroy(struct BespokeControl *control);
+
+/*
+ Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
+
+ `points`: where to, F32 or F64; only the precision in which the garment was set is the one that DONE has verified.
+ With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the garment, also where they do
+ not fit. State: PREPARED or later; verified with DONE, a preview otherwise. Errors: INVALID_ARGUMENT (a capacity that
+ is too small as well; nothing is written then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession *session,
+                                                    const struct BespokeBuffer *points,
+                                                    size_t *count);
+
+/*
+ Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+
+ `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
+ */
+BespokeStatus bespoke_session_read_avatar_vertices(const struct BespokeSession *session,
+                                                   const struct BespokeBuffer *points,
+                                                   size_t *count);
+
+/*
+ Fills a struct with what the session has done so far. The caller sets `struct_size` first.
+
+ State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, struct BespokeReport *report);
+
+/*
+ Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
+
+ State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
+                                          uint32_t index,
+                                          struct BespokeEnergy *energy);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* BESPOKE_H */

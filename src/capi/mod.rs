@@ -1,0 +1,24 @@
+//! The only `extern "C"`: guards, handles, views of the caller's memory; no mathematics.
+//!
+//! `include/bespoke.h` is generated from the files of this folder, in the order of the modules below, and is the
+//! manual of the C API: the comments on exported items are written for the readers of that header.
+#![allow(clippy::missing_safety_doc, reason = "the header's preface says once what every pointer must be")]
+
+pub mod status;
+pub mod version;
+
+pub mod view;
+
+pub mod session;
+
+pub mod inputs;
+
+pub mod options;
+
+pub mod running;
+
+pub mod control;
+
+pub mod results;
+
+mod sized;

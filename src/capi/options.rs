@@ -1,0 +1,157 @@
+//! Options and spaces as C structs in which zero means the default.
+
+use std::mem::size_of;
+
+use crate::capi::session::{BespokeSession, call};
+use crate::capi::sized::{self, Sized32};
+use crate::capi::status::BespokeStatus;
+use crate::error::{Error, ErrorKind, Result};
+use crate::options::{Options, SurfaceForm};
+
+/// The value of a weight that switches its term off; 0 means the default.
+pub const BESPOKE_WEIGHT_OFF: f64 = -1.0;
+
+/// Form of the surface term (Eq. 2 of the paper).
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeSurfaceForm {
+    /// Free for every similarity: scaling the garment as a whole costs nothing.
+    Similarity = 0,
+    /// As printed in the paper.
+    Printed = 1,
+}
+
+/// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
+/// side of the skeleton's bounding box is 2.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BespokeOptions {
+    /// sizeof(BespokeOptions).
+    pub struct_size: u32,
+    /// Threads of this session. Default: as many as the machine has cores.
+    pub threads: u32,
+    /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
+    pub fit_weight: f64,
+    /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
+    /// the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
+    pub designed_clearance: f64,
+    /// Weight of the surface term, which keeps the design's shape. Default 1.
+    pub surface_weight: f64,
+    /// Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    pub curvature_weight: f64,
+    /// Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    pub torsion_weight: f64,
+    /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
+    pub position_weight: f64,
+    /// Weight of the contact barrier, on squared distances. Default 1e8.
+    pub barrier_weight: f64,
+    /// Distance at which the barrier begins. Default 0.002.
+    pub dhat: f64,
+    /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+    pub inflation_dhat: f64,
+    /// While the avatar grows: weight of the contact barrier. Default 1e6.
+    pub inflation_barrier_weight: f64,
+    /// Edge of a voxel of the distance field. Default 0.01.
+    pub voxel: f64,
+    /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+    pub separation_floor: f64,
+    /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+    pub tolerance: f64,
+    /// Largest number of Newton iterations of each stage. Default 500.
+    pub max_iterations: u32,
+    /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
+    pub surface_form: u32,
+}
+
+// SAFETY: repr(C) of u32 pairs and f64 without padding.
+unsafe impl Sized32 for BespokeOptions {}
+
+/// `given`, or `default` where it is zero.
+fn or_default(given: f64, default: f64) -> f64 {
+    if given == 0.0 { default } else { given }
+}
+
+/// A weight, or 0 where it is switched off.
+fn weight(given: f64, default: f64) -> f64 {
+    if given == BESPOKE_WEIGHT_OFF { 0.0 } else { or_default(given, default) }
+}
+
+impl BespokeOptions {
+    fn to_options(self) -> Result<Options> {
+        let default = Options::default();
+        let surface_form = match self.surface_form {
+            0 => SurfaceForm::Similarity,
+            1 => SurfaceForm::Printed,
+            other => {
+                let message = format!("option surface_form is {other}; it must be one of BespokeSurfaceForm");
+                return Err(Error::new(ErrorKind::InvalidArgument, message));
+            }
+        };
+        Ok(Options {
+            threads: self.threads,
+            fit_weight: weight(self.fit_weight, default.fit_weight),
+            designed_clearance: weight(self.designed_clearance, default.designed_clearance),
+            surface_weight: weight(self.surface_weight, default.surface_weight),
+            curvature_weight: weight(self.curvature_weight, default.curvature_weight),
+            torsion_weight: weight(self.torsion_weight, default.torsion_weight),
+            position_weight: weight(self.position_weight, default.position_weight),
+            barrier_weight: or_default(self.barrier_weight, default.barrier_weight),
+            dhat: or_default(self.dhat, default.dhat),
+            inflation_dhat: or_default(self.inflation_dhat, default.inflation_dhat),
+            inflation_barrier_weight: or_default(self.inflation_barrier_weight, default.inflation_barrier_weight),
+            voxel: or_default(self.voxel, default.voxel),
+            separation_floor: or_default(self.separation_floor, default.separation_floor),
+            tolerance: or_default(self.tolerance, default.tolerance),
+            max_iterations: if self.max_iterations == 0 { default.max_iterations } else { self.max_iterations },
+            surface_form,
+        })
+    }
+}
+
+/// Replaces all options by these.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_set_options(
+    session: *mut BespokeSession,
+    options: *const BespokeOptions,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| session.set_options(sized::read(options, "options")?.to_options()?)) }
+}
+
+/// Fills a struct of options with the defaults written out. The caller sets `struct_size` first.
+///
+/// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_options_read_defaults(options: *mut BespokeOptions) -> BespokeStatus {
+    let default = Options::default();
+    let filled = BespokeOptions {
+        struct_size: size_of::<BespokeOptions>() as u32,
+        threads: default.threads,
+        fit_weight: default.fit_weight,
+        designed_clearance: default.designed_clearance,
+        surface_weight: default.surface_weight,
+        curvature_weight: default.curvature_weight,
+        torsion_weight: default.torsion_weight,
+        position_weight: default.position_weight,
+        barrier_weight: default.barrier_weight,
+        dhat: default.dhat,
+        inflation_dhat: default.inflation_dhat,
+        inflation_barrier_weight: default.inflation_barrier_weight,
+        voxel: default.voxel,
+        separation_floor: default.separation_floor,
+        tolerance: default.tolerance,
+        max_iterations: default.max_iterations,
+        surface_form: match default.surface_form {
+            SurfaceForm::Similarity => BespokeSurfaceForm::Similarity,
+            SurfaceForm::Printed => BespokeSurfaceForm::Printed,
+        } as u32,
+    };
+    // SAFETY: passed on from the caller.
+    match unsafe { sized::write(filled, options, "options") } {
+        Ok(()) => BespokeStatus::Ok,
+        Err(error) => error.kind.into(),
+    }
+}

@@ -1,0 +1,232 @@
+//! What a session hands out: vertices, and the report of its work.
+
+use std::ffi::c_char;
+use std::mem::size_of;
+
+use glam::DVec3;
+
+use crate::capi::session::{BespokeSession, call};
+use crate::capi::sized::{self, Sized32};
+use crate::capi::status::BespokeStatus;
+use crate::capi::view::{self, BespokeBuffer, invalid};
+use crate::error::Result;
+use crate::input::buffer;
+use crate::session::StageReport;
+
+/// # Safety
+/// `points` is null or points to a buffer that tells the truth, `count` is null or points to a number.
+unsafe fn write_points(
+    positions: Vec<DVec3>,
+    points: *const BespokeBuffer,
+    count: *mut usize,
+    what: &str,
+) -> Result<()> {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        if !count.is_null() {
+            count.write(positions.len());
+        }
+        let out = view::points_out(points, what)?;
+        if out.capacity == 0 && out.data.is_null() {
+            return Ok(());
+        }
+        buffer::write_positions(&out, &positions, what)
+    }
+}
+
+/// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
+///
+/// `points`: where to, F32 or F64; only the precision in which the garment was set is the one that DONE has verified.
+/// With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the garment, also where they do
+/// not fit. State: PREPARED or later; verified with DONE, a preview otherwise. Errors: INVALID_ARGUMENT (a capacity that
+/// is too small as well; nothing is written then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
+    session: *const BespokeSession,
+    points: *const BespokeBuffer,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| write_points(session.garment_positions()?, points, count, "garment vertices")) }
+}
+
+/// Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+///
+/// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_avatar_vertices(
+    session: *const BespokeSession,
+    points: *const BespokeBuffer,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| write_points(session.avatar_positions()?, points, count, "avatar vertices")) }
+}
+
+/// The work of one stage.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BespokeWork {
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Numeric factorisations.
+    pub factorisations: u32,
+    /// Symbolic factorisations.
+    pub symbolic_factorisations: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+impl From<StageReport> for BespokeWork {
+    fn from(stage: StageReport) -> Self {
+        Self {
+            seconds: stage.seconds,
+            iterations: stage.iterations,
+            factorisations: stage.factorisations,
+            symbolic_factorisations: stage.analyses,
+            reserved: 0,
+        }
+    }
+}
+
+/// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// bounding box is 2.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BespokeReport {
+    /// sizeof(BespokeReport).
+    pub struct_size: u32,
+    /// Threads that the session works with.
+    pub threads: u32,
+    /// Step 1.
+    pub prepare: BespokeWork,
+    /// Step 2.
+    pub inflate: BespokeWork,
+    /// Step 3.
+    pub fit: BespokeWork,
+    /// Wall-clock seconds of the exact verifier.
+    pub verify_seconds: f64,
+    /// Seconds until the distance field was built, beside step 2.
+    pub field_seconds: f64,
+    /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+    pub t: f64,
+    /// Euclidean norm of the objective's gradient.
+    pub gradient_norm: f64,
+    /// Smallest distance of the garment to itself; infinite where no pair is near.
+    pub garment_distance: f64,
+    /// Smallest distance of the garment to the avatar; infinite where no pair is near.
+    pub avatar_distance: f64,
+    /// Contact pairs closer than dhat.
+    pub active_contacts: u64,
+    /// Intersecting pairs within the garment that the verifier found.
+    pub garment_intersections: u64,
+    /// Intersecting pairs of garment and avatar that the verifier found.
+    pub avatar_intersections: u64,
+    /// Vertices of the garment.
+    pub garment_vertices: u64,
+    /// Triangles of the garment.
+    pub garment_triangles: u64,
+    /// Vertices of the target avatar.
+    pub avatar_vertices: u64,
+    /// Triangles of the target avatar.
+    pub avatar_triangles: u64,
+    /// Vertices of the target avatar once its triangles over several bones are split.
+    pub subdivided_avatar_vertices: u64,
+    /// Triangles of the target avatar once those over several bones are split.
+    pub subdivided_avatar_triangles: u64,
+    /// 1 where the verifier has looked at the result, else 0.
+    pub is_verified: u32,
+    /// Number of energy terms; see bespoke_session_read_energy.
+    pub energy_count: u32,
+}
+
+// SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
+unsafe impl Sized32 for BespokeReport {}
+
+/// Fills a struct with what the session has done so far. The caller sets `struct_size` first.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_report(
+    session: *const BespokeSession,
+    report: *mut BespokeReport,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            let own = session.report();
+            let intersections = own.verification.unwrap_or_default();
+            let filled = BespokeReport {
+                struct_size: size_of::<BespokeReport>() as u32,
+                threads: own.threads as u32,
+                prepare: own.prepare.into(),
+                inflate: own.inflate.into(),
+                fit: own.fit.into(),
+                verify_seconds: own.verify_seconds,
+                field_seconds: own.field_seconds,
+                t: own.t,
+                gradient_norm: own.gradient_norm,
+                garment_distance: own.min_distance_self,
+                avatar_distance: own.min_distance_avatar,
+                active_contacts: own.active_contacts as u64,
+                garment_intersections: intersections.garment_garment,
+                avatar_intersections: intersections.garment_avatar,
+                garment_vertices: own.garment_size[0] as u64,
+                garment_triangles: own.garment_size[1] as u64,
+                avatar_vertices: own.avatar_size[0] as u64,
+                avatar_triangles: own.avatar_size[1] as u64,
+                subdivided_avatar_vertices: own.projected_size[0] as u64,
+                subdivided_avatar_triangles: own.projected_size[1] as u64,
+                is_verified: u32::from(own.verification.is_some()),
+                energy_count: own.terms.len() as u32,
+            };
+            sized::write(filled, report, "report")
+        })
+    }
+}
+
+/// Bytes of the name in BespokeEnergy, its zero byte included.
+pub const BESPOKE_ENERGY_NAME_SIZE: usize = 32;
+
+/// One term of the objective.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BespokeEnergy {
+    /// Name, such as "surface"; ends with a zero byte.
+    pub name: [c_char; BESPOKE_ENERGY_NAME_SIZE],
+    /// Value without its weight.
+    pub value: f64,
+    /// Weight; the term adds weight * value to the objective.
+    pub weight: f64,
+}
+
+/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_energy(
+    session: *const BespokeSession,
+    index: u32,
+    energy: *mut BespokeEnergy,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            if energy.is_null() {
+                return invalid("energy: the pointer is null".into());
+            }
+            let terms = session.report().terms;
+            let Some(term) = terms.get(index as usize) else {
+                return invalid(format!("energy: there is no term {index}, the objective has {}", terms.len()));
+            };
+            let mut name = [0; BESPOKE_ENERGY_NAME_SIZE];
+            for (to, from) in name[..BESPOKE_ENERGY_NAME_SIZE - 1].iter_mut().zip(term.name.bytes()) {
+                *to = from as c_char;
+            }
+            energy.write(BespokeEnergy { name, value: term.value, weight: term.weight });
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,134 @@
+//! The way from the inputs to a verified result.
+
+use crate::capi::session::{BespokeSession, call};
+use crate::capi::status::BespokeStatus;
+use crate::capi::view::{self, invalid};
+use crate::error::{Error, ErrorKind};
+use crate::session::{Budget, Stage};
+
+/// Where a session is on its way.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeStage {
+    /// Takes inputs; nothing is computed yet.
+    Setup = 0,
+    /// Step 1 is done: the avatar is shrunk onto the source skeleton.
+    Prepared = 1,
+    /// Step 2: the avatar grows to its full size inside the garment.
+    Inflate = 2,
+    /// Step 3: the garment settles onto the avatar.
+    Fit = 3,
+    /// The exact verifier looks at the result.
+    Verify = 4,
+    /// The result is final and verified.
+    Done = 5,
+    /// A call failed for good. What the garment looked like last can be read.
+    Failed = 6,
+    /// Somebody asked to stop. What the garment looked like last can be read.
+    Cancelled = 7,
+}
+
+impl From<Stage> for BespokeStage {
+    fn from(stage: Stage) -> Self {
+        match stage {
+            Stage::Setup => Self::Setup,
+            Stage::Prepared => Self::Prepared,
+            Stage::Inflate => Self::Inflate,
+            Stage::Fit => Self::Fit,
+            Stage::Verify => Self::Verify,
+            Stage::Done => Self::Done,
+            Stage::Failed => Self::Failed,
+            Stage::Cancelled => Self::Cancelled,
+        }
+    }
+}
+
+/// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
+/// PREPARED; where it fails, the session still takes inputs.
+///
+/// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
+/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED, BUSY,
+/// INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| session.prepare()) }
+}
+
+/// Goes on for a while: to the end of the budget or of the whole way, whichever is first.
+///
+/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
+/// at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
+/// afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
+/// verified; until then what can be read is a preview.
+/// State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
+/// INFLATION_STALLED, NOT_VERIFIED, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_step(
+    session: *mut BespokeSession,
+    max_iterations: u32,
+    max_milliseconds: u32,
+    stage: *mut u32,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            let outcome = session.step(Budget { iterations: max_iterations, milliseconds: max_milliseconds });
+            if !stage.is_null() {
+                stage.write(BespokeStage::from(session.stage()) as u32);
+            }
+            outcome.map(drop)
+        })
+    }
+}
+
+/// All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
+///
+/// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_run(session: *mut BespokeSession) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| match session.run()? {
+            Stage::Done => Ok(()),
+            stage => Err(Error::new(ErrorKind::Internal, format!("the run ended in stage {stage:?}"))),
+        })
+    }
+}
+
+/// Pairs of triangles that touch or cross each other.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BespokeIntersections {
+    /// Of the garment with itself.
+    pub garment_garment: u64,
+    /// Of the garment with the avatar.
+    pub garment_avatar: u64,
+}
+
+/// Counts the intersections of the vertices as they would be read now, with exact predicates.
+///
+/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
+/// none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
+/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_verify(
+    session: *const BespokeSession,
+    component: u32,
+    intersections: *mut BespokeIntersections,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            if intersections.is_null() {
+                return invalid("intersections: the pointer is null".into());
+            }
+            let counts = session.verify(view::precision(component, "intersections")?)?;
+            intersections.write(BespokeIntersections {
+                garment_garment: counts.garment_garment,
+                garment_avatar: counts.garment_avatar,
+            });
+            Ok(())
+        })
+    }
+}

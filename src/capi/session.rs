@@ -1,0 +1,161 @@
+//! The session handle: one call at a time, no panic gets out, and the message of the last failure.
+
+use std::any::Any;
+use std::ffi::c_char;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+
+use crate::capi::status::BespokeStatus;
+use crate::control::Control;
+use crate::error::{Error, ErrorKind, Result};
+use crate::session::Session;
+
+/// One garment on its way to one avatar. Opaque.
+pub struct BespokeSession {
+    /// Tried, never waited for: a second caller is told BUSY. A panic poisons it, and with it this session only.
+    session: Mutex<Session>,
+    /// Sentence of the last failure. Apart from the session, so that it can be read while a call runs.
+    message: Mutex<String>,
+    /// Reached without the session's lock.
+    pub(super) control: Arc<Control>,
+}
+
+impl BespokeSession {
+    fn message(&self) -> MutexGuard<'_, String> {
+        // The text is whole at any time: a poisoned lock only says that some other thread panicked.
+        self.message.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What a panic said.
+fn panic_text(payload: &(dyn Any + Send)) -> &str {
+    payload
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no further text")
+}
+
+/// Runs `work` alone in the session behind `handle`. Its failure becomes a status and the session's message.
+///
+/// # Safety
+/// `handle` is null or came from `bespoke_session_create` and was not destroyed.
+pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session) -> Result<()>) -> BespokeStatus {
+    // SAFETY: null or alive, as the caller vouches; it is only shared, its locks keep the parts apart.
+    let Some(handle) = (unsafe { handle.as_ref() }) else {
+        return BespokeStatus::InvalidArgument;
+    };
+    // The lock is taken inside, so that a panic poisons it.
+    let outcome = catch_unwind(AssertUnwindSafe(|| match handle.session.try_lock() {
+        Ok(mut session) => Some(work(&mut session)),
+        Err(TryLockError::WouldBlock) => None,
+        Err(TryLockError::Poisoned(_)) => Some(Err(Error::new(
+            ErrorKind::Internal,
+            "an earlier call failed inside the library, so this session can only be destroyed",
+        ))),
+    }));
+    let error = match outcome {
+        Ok(Some(Ok(()))) => return BespokeStatus::Ok,
+        Ok(None) => return BespokeStatus::Busy,
+        Ok(Some(Err(error))) => error,
+        Err(panic) => Error::new(
+            ErrorKind::Internal,
+            format!("a defect of the library, please report it: {}", panic_text(panic.as_ref())),
+        ),
+    };
+    let status = error.kind.into();
+    *handle.message() = error.message;
+    status
+}
+
+/// Makes an empty session and stores its handle in `*session`; stores null where it fails.
+///
+/// Ownership: the caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT, INTERNAL. Threads: any,
+/// at any time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSession) -> BespokeStatus {
+    if session.is_null() {
+        return BespokeStatus::InvalidArgument;
+    }
+    let made = catch_unwind(|| {
+        let session = Session::new();
+        let control = session.control();
+        Box::into_raw(Box::new(BespokeSession { session: Mutex::new(session), message: Mutex::default(), control }))
+    });
+    // SAFETY: not null, and the caller vouches for room for one pointer.
+    unsafe { session.write(*made.as_ref().unwrap_or(&std::ptr::null_mut())) };
+    if made.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
+}
+
+/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable.
+///
+/// Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
+/// other call with this session may begin from here on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -> BespokeStatus {
+    // SAFETY: null or alive, as the caller vouches.
+    match unsafe { session.as_ref() } {
+        None => return BespokeStatus::Ok,
+        Some(handle) => {
+            if let Err(TryLockError::WouldBlock) = handle.session.try_lock() {
+                return BespokeStatus::Busy;
+            }
+        }
+    }
+    // SAFETY: it came from `Box::into_raw`, and the caller vouches that no other call uses it from now on.
+    let freed = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(session) })));
+    if freed.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
+}
+
+/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+///
+/// State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_reset(session: *mut BespokeSession) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            session.reset();
+            Ok(())
+        })
+    }
+}
+
+/// Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
+///
+/// `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
+/// null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
+/// State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
+/// Threads: any, at any time, also while another call runs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_last_message(
+    session: *const BespokeSession,
+    buffer: *mut c_char,
+    capacity: usize,
+    needed: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: null or alive, as the caller vouches.
+    let Some(handle) = (unsafe { session.as_ref() }) else {
+        return BespokeStatus::InvalidArgument;
+    };
+    if buffer.is_null() && capacity > 0 {
+        return BespokeStatus::InvalidArgument;
+    }
+    let message = handle.message();
+    if !needed.is_null() {
+        // SAFETY: not null, and the caller vouches for room for one number.
+        unsafe { needed.write(message.len() + 1) };
+    }
+    if capacity > 0 {
+        let mut length = message.len().min(capacity - 1);
+        while !message.is_char_boundary(length) {
+            length -= 1;
+        }
+        // SAFETY: `length < capacity`, and the caller vouches for `capacity` bytes.
+        unsafe {
+            std::ptr::copy_nonoverlapping(message.as_ptr().cast::<c_char>(), buffer, length);
+            buffer.add(length).write(0);
+        }
+    }
+    BespokeStatus::Ok
+}

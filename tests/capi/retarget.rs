@@ -1,0 +1,386 @@
+//! The program `retarget`: bad input leads to one sentence, exit 1 or 2, and no file; good input to the same file with
+//! moved vertices.
+//!
+//! BESPOKE_RETARGET names the program; without it, it is compiled here from examples_c.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+
+use crate::caller::Sample;
+
+fn program() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        if let Some(path) = std::env::var_os("BESPOKE_RETARGET") {
+            return path.into();
+        }
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let library = std::env::current_exe().expect("a test program").parent().expect("a folder").to_owned();
+        let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("retarget");
+        let sources = fs::read_dir(root.join("examples_c")).expect("examples_c exists");
+        let sources =
+            sources.map(|entry| entry.expect("an entry").path()).filter(|p| p.extension() == Some("c".as_ref()));
+        let output = Command::new("cc")
+            .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"])
+            .arg(root.join("include"))
+            .args(sources)
+            .arg("-o")
+            .arg(&program)
+            .arg(format!("-L{}", library.display()))
+            .args(["-lbespoke", "-lm"])
+            .arg(format!("-Wl,-rpath,{}", library.display()))
+            .output()
+            .expect("a C compiler");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        program
+    })
+}
+
+/// The program, told nothing about where libraries lie: it has to find its own.
+fn retarget() -> Command {
+    let mut command = Command::new(program());
+    command.env_remove("LD_LIBRARY_PATH").env_remove("DYLD_LIBRARY_PATH");
+    command
+}
+
+/// A folder with good input files for one test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("retarget-{name}"));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("a folder for the test");
+        let (this, sample) = (Self(folder), Sample::new());
+        this.write("g.obj", &obj(&sample.garment.0, &sample.garment.1, &[]));
+        this.write("a.obj", &obj(&sample.avatar.0, &sample.avatar.1, &[]));
+        this.write("s.obj", &obj(&sample.source_joints, &[], &sample.bones));
+        this.write("t.obj", &obj(&sample.target_joints, &[], &sample.bones));
+        this
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).expect("the folder can be written");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).expect("the file is there")
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).expect("the folder is there");
+        let mut names: Vec<_> =
+            entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self) -> Command {
+        let mut command = retarget();
+        command.current_dir(&self.0).args(["--garment", "g.obj", "--source-skeleton", "s.obj"]);
+        command.args(["--avatar", "a.obj", "--target-skeleton", "t.obj", "-o", "out.obj"]);
+        command
+    }
+
+    fn run(&self, further: &[&str]) -> Output {
+        self.command().args(further).output().expect("retarget can be run")
+    }
+
+    /// It ends with this exit code and one sentence with these words, and leaves no file behind.
+    #[track_caller]
+    fn refuses(&self, further: &[&str], code: i32, words: &[&str]) {
+        let before = self.names();
+        let output = self.run(further);
+        let sentence = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{sentence}");
+        assert!(sentence.starts_with("retarget: ") && sentence.matches('\n').count() == 1, "no sentence: {sentence}");
+        for word in words {
+            assert!(sentence.contains(word), "\"{sentence}\" does not hold \"{word}\"");
+        }
+        assert_eq!(self.names(), before, "files were left behind");
+    }
+
+    #[track_caller]
+    fn accepts(&self, further: &[&str]) {
+        let output = self.run(further);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+fn obj(vertices: &[[f32; 3]], triangles: &[[u32; 3]], bones: &[[u32; 2]]) -> String {
+    let lines = |key: &str, rows: Vec<Vec<String>>| -> String {
+        rows.iter().map(|row| format!("{key} {}\n", row.join(" "))).collect()
+    };
+    let next = |v: &u32| (v + 1).to_string();
+    lines("v", vertices.iter().map(|p| p.iter().map(f32::to_string).collect()).collect())
+        + &lines("f", triangles.iter().map(|t| t.iter().map(next).collect()).collect())
+        + &lines("l", bones.iter().map(|b| b.iter().map(next).collect()).collect())
+}
+
+#[test]
+fn wrong_command_lines_are_refused() {
+    let folder = Folder::new("command-line");
+    folder.refuses(&["--nonsense"], 2, &["--nonsense"]);
+    folder.refuses(&["--fit-weight"], 2, &["--fit-weight", "value"]);
+    folder.refuses(&["--fit-weight", "tight"], 2, &["--fit-weight", "tight"]);
+    folder.refuses(&["--dhat=-1"], 2, &["--dhat", "-1"]);
+    folder.refuses(&["--threads", "1.5"], 2, &["--threads"]);
+    folder.refuses(&["--report", "out.obj"], 2, &["out.obj"]);
+    folder.refuses(&["--dhat", "0"], 1, &["dhat"]);
+    folder.refuses(&["--voxel", "1e300"], 1, &["voxel"]);
+    let output = retarget().args(["--garment", "g.obj"]).output().expect("retarget can be run");
+    assert_eq!(output.status.code(), Some(2));
+    let help = retarget().arg("--help").output().expect("retarget can be run");
+    assert!(help.status.success() && String::from_utf8_lossy(&help.stdout).contains("--source-skeleton"));
+}
+
+#[test]
+fn files_that_cannot_be_opened_are_named() {
+    let folder = Folder::new("files");
+    fs::create_dir(folder.path("folder.obj")).expect("a folder");
+    for option in [
+        "--garment",
+        "--source-skeleton",
+        "--avatar",
+        "--target-skeleton",
+        "--source-avatar",
+        "--skin-weights",
+        "--no-fit",
+    ] {
+        folder.refuses(&[option, "missing.obj"], 1, &["missing.obj"]);
+        folder.refuses(&[option, "folder.obj"], 1, &["folder.obj", "directory"]);
+    }
+    folder.refuses(&["-o", "folder.obj"], 1, &["folder.obj", "directory"]);
+    folder.refuses(&["-o", "no/such/folder/out.obj"], 1, &["no/such/folder/out.obj"]);
+    folder.refuses(&["--report", "folder.obj"], 1, &["folder.obj", "directory"]);
+    folder.write("binary.obj", "v 1 2 3\0");
+    folder.refuses(&["--garment", "binary.obj"], 1, &["binary.obj", "text"]);
+    folder.write("empty.obj", "");
+    folder.refuses(&["--garment", "empty.obj"], 1, &["empty.obj"]);
+}
+
+#[test]
+fn broken_lines_are_named_by_their_number() {
+    let folder = Folder::new("lines");
+    for (line, words) in [
+        ("v 1 2", ["three coordinates", "line 4"]),
+        ("v 1 2 x", ["'x'", "line 4"]),
+        ("v 1 2 nan", ["'nan'", "line 4"]),
+        ("v 1 2 1e39", ["'1e39'", "line 4"]),
+        ("v 1 2 1e999", ["'1e999'", "line 4"]),
+        ("f 1 2", ["three corners", "line 4"]),
+        ("f 1 2 0", ["'0'", "line 4"]),
+        ("f 1 2 4", ["'4'", "line 4"]),
+        ("f 1 2 -4", ["'-4'", "line 4"]),
+        ("f 1 2 3.5", ["'3.5'", "line 4"]),
+        ("f 1 2 a/b", ["'a/b'", "line 4"]),
+        ("f 1 2 99999999999999999999", ["'99999999999999999999'", "line 4"]),
+        ("f 1 2 3//-1", ["'3//-1'", "line 4"]),
+        ("l 1", ["two vertices", "line 4"]),
+    ] {
+        folder.write("bad.obj", &format!("v 0 0 0\r\nv 1 0 0\nv 0 1 0 # three\n{line}\nf 1 2 3\n"));
+        folder.refuses(&["--garment", "bad.obj"], 1, &[&["bad.obj"], &words[..]].concat());
+    }
+    // A line that goes on in the next one counts as two.
+    folder.write("bad.obj", "v 0 0 0\nv 1 \\\n 0 0\nv 0 1 0\nf 1 2 zwei\n");
+    folder.refuses(&["--garment", "bad.obj"], 1, &["line 5", "'zwei'"]);
+}
+
+#[test]
+fn bad_tables_are_named_by_their_line() {
+    let folder = Folder::new("tables");
+    let count = Sample::new().avatar.0.len();
+    let row = vec!["0.5"; count].join(" ");
+    folder.write("skin.txt", &format!("{row}\n{row} 1\n{row}\n"));
+    folder.refuses(&["--skin-weights", "skin.txt"], 1, &["skin.txt", "line 2"]);
+    folder.write("skin.txt", &format!("{row}\n{row}\n{}\n", row.replacen("0.5", "much", 1)));
+    folder.refuses(&["--skin-weights", "skin.txt"], 1, &["skin.txt", "line 3", "much"]);
+    folder.write("skin.txt", "0.5 0.5\n0.5 0.5\n0.5 0.5\n");
+    folder.refuses(&["--skin-weights", "skin.txt"], 1, &["skin.txt", "2 columns", &count.to_string()]);
+    folder.write("skin.txt", &format!("{row}\n{row}\n"));
+    folder.refuses(&["--skin-weights", "skin.txt"], 1, &["skin weights"]);
+    folder.write("no-fit.txt", "1 2\n3 four\n");
+    folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "line 2", "four"]);
+    folder.write("no-fit.txt", "1 2\n-3\n");
+    folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "line 2", "-3"]);
+    folder.write("no-fit.txt", "1 100000\n");
+    folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "100000"]);
+}
+
+#[test]
+fn meshes_that_do_not_go_together_are_refused() {
+    let folder = Folder::new("meshes");
+    let sample = Sample::new();
+    folder.write("points.obj", &obj(&sample.garment.0, &[], &[]));
+    folder.refuses(&["--garment", "points.obj"], 1, &["points.obj", "garment"]);
+    folder.write("other.obj", &obj(&sample.target_joints, &[], &[[0, 1], [0, 2]]));
+    folder.refuses(&["--target-skeleton", "other.obj"], 1, &["target skeleton"]);
+}
+
+/// Whatever else a file holds stays; vertex normals are new, and written as the faces use them.
+#[test]
+fn all_but_positions_and_normals_is_kept() {
+    let folder = Folder::new("kept");
+    let sample = Sample::new();
+    let (positions, triangles) = &sample.garment;
+    let mut text = String::from("# a comment\r\nmtllib cloth.mtl\r\no coat\r\n");
+    for (k, [x, y, z]) in positions.iter().enumerate() {
+        let tail = ["", " 1.0", " 0.5 0.25 0.75", "   # named"][k % 4];
+        text += &format!("v  {x} {y} {z}{tail}\r\n");
+        text += &format!("vn 0 {k} 1\r\nvt 0.{k} 0.5\r\n");
+    }
+    text += "g front\r\nusemtl red\r\ns 1\r\n";
+    let count = positions.len() as i64;
+    for (k, triangle) in triangles.iter().enumerate() {
+        // All the ways to name the same corner.
+        let corner = |v: u32| match (k % 3, i64::from(v)) {
+            (0, v) => format!("{0}/{0}/{0}", v + 1),
+            (1, v) => format!("{0}/{0}/{0}", v - count),
+            (_, v) => format!("{}/{}", v + 1, v + 1),
+        };
+        text += &format!("f {}\r\n", triangle.map(corner).join(" "));
+    }
+    text += "l 1 2\r\nusemtl blue\r\n";
+    folder.write("g.obj", &text);
+    folder.accepts(&[]);
+
+    let kept = |text: &str| -> Vec<String> {
+        text.lines()
+            .filter(|line| !line.starts_with("vn "))
+            .map(|line| match line.strip_prefix("v ") {
+                Some(rest) => {
+                    let words: Vec<_> = rest.split_whitespace().skip(3).collect();
+                    format!("v {}", words.join(" "))
+                }
+                None if line.starts_with("f ") => {
+                    let corner = |word: &str| word.split('/').take(2).collect::<Vec<_>>().join("/");
+                    format!("f {}", line[2..].split_whitespace().map(corner).collect::<Vec<_>>().join(" "))
+                }
+                None => line.to_owned(),
+            })
+            .collect()
+    };
+    let out = folder.read("out.obj");
+    assert_eq!(kept(&out), kept(&text));
+    assert!(out.lines().count() == out.matches("\r\n").count(), "line breaks stay what they were");
+
+    // One normal for each vertex, of length 1, away from the axis of the tube.
+    let vertices: Vec<Vec<f32>> = numbers(&out, "v ");
+    let normals: Vec<Vec<f32>> = numbers(&out, "vn ");
+    assert_eq!(normals.len(), positions.len());
+    for line in out.lines().filter(|line| line.starts_with("f ")) {
+        for corner in line[2..].split_whitespace() {
+            let fields: Vec<i64> = corner.split('/').map(|f| f.parse().expect("an index")).collect();
+            if let [v, _, n] = fields[..] {
+                let vertex = &vertices[if v > 0 { v - 1 } else { v + count } as usize];
+                let normal = &normals[n as usize - 1];
+                assert!((normal.iter().map(|c| c * c).sum::<f32>() - 1.0).abs() < 1e-5);
+                assert!(vertex[0] * normal[0] + vertex[2] * normal[2] > 0.0, "a normal points inwards");
+            }
+        }
+    }
+}
+
+/// The numbers of all lines that begin with `key`, read as 32-bit floats.
+fn numbers(text: &str, key: &str) -> Vec<Vec<f32>> {
+    text.lines()
+        .filter_map(|line| line.strip_prefix(key))
+        .map(|rest| rest.split_whitespace().map_while(|word| word.parse().ok()).collect())
+        .collect()
+}
+
+/// Polygons are fans for the library and stay polygons in the file.
+#[test]
+fn polygons_stay_polygons() {
+    let folder = Folder::new("polygons");
+    let sample = Sample::new();
+    let mut text = obj(&sample.garment.0, &[], &[]);
+    for pair in sample.garment.1.chunks_exact(2) {
+        let ([a, b, d], [_, _, c]) = (pair[0], pair[1]);
+        text += &format!("f {} {} {} {}\n", a + 1, b + 1, d + 1, c + 1);
+    }
+    folder.write("g.obj", &text);
+    folder.accepts(&["--report", "report.json"]);
+    let faces = |text: &str| text.lines().filter(|l| l.starts_with('f')).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(faces(&folder.read("out.obj")), faces(&text));
+    let report = folder.read("report.json");
+    let size = format!(
+        "\"garment\": {{ \"vertices\": {}, \"triangles\": {} }}",
+        sample.garment.0.len(),
+        sample.garment.1.len()
+    );
+    assert!(report.contains(&size), "{report}");
+}
+
+#[test]
+fn a_good_run_writes_all_its_files() {
+    let folder = Folder::new("good");
+    folder.write("no-fit.txt", "# the hem\n0 1\n2\n");
+    let rows = vec![vec!["1"; Sample::new().avatar.0.len()].join(" "); 3].join("\n");
+    folder.write("skin.txt", &rows);
+    let before = folder.names();
+    folder.accepts(&[
+        "--no-fit",
+        "no-fit.txt",
+        "--skin-weights",
+        "skin.txt",
+        "--report=report.json",
+        "--output-avatar",
+        "body.obj",
+        "--threads",
+        "1",
+    ]);
+    let mut expected = [&before[..], &["body.obj", "out.obj", "report.json"].map(String::from)].concat();
+    expected.sort();
+    assert_eq!(folder.names(), expected);
+    // Every 32-bit float survives being written and read.
+    assert_eq!(numbers(&folder.read("body.obj"), "v "), numbers(&folder.read("a.obj"), "v "));
+    let report = folder.read("report.json");
+    for key in
+        ["library_version", "threads", "peak_memory_bytes", "\"fit\"", "energies", "min_distance", "\"verified\": true"]
+    {
+        assert!(report.contains(key), "{report}");
+    }
+    // A second run replaces what is there.
+    folder.accepts(&["--quiet"]);
+    assert_eq!(folder.names(), expected);
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let folder = Folder::new("bytes");
+    folder.accepts(&["-o", "one.obj"]);
+    folder.accepts(&["-o", "two.obj", "--threads", "1"]);
+    assert_eq!(folder.read("one.obj"), folder.read("two.obj"));
+}
+
+/// The garment comes through a pipe, so that the signal arrives while the program surely runs.
+#[test]
+fn ctrl_c_stops_without_a_file() {
+    let folder = Folder::new("signal");
+    let garment = folder.read("g.obj");
+    fs::remove_file(folder.path("g.obj")).expect("the file is there");
+    let made = Command::new("mkfifo").arg(folder.path("g.obj")).status().expect("mkfifo");
+    assert!(made.success());
+    let before = folder.names();
+    let program = folder.command().stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("retarget can be run");
+    // Waits until the program reads.
+    let mut pipe = fs::OpenOptions::new().write(true).open(folder.path("g.obj")).expect("the pipe opens");
+    let sent = Command::new("kill").args(["-INT", &program.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    pipe.write_all(garment.as_bytes()).expect("the program reads on");
+    drop(pipe);
+    let output = program.wait_with_output().expect("the program ends");
+    let sentence = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{sentence}");
+    assert!(sentence.contains("Ctrl-C") && sentence.matches('\n').count() == 1, "{sentence}");
+    assert_eq!(folder.names(), before, "files were left behind");
+}
