@@ -377,6 +377,11 @@ typedef struct BespokeOptions {
    */
   double fit_weight;
   /*
+   Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
+   the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
+   */
+  double designed_clearance;
+  /*
    Weight of the surface term, which keeps the design's shape. Default 1.
    */
   double surface_weight;
@@ -400,6 +405,14 @@ typedef struct BespokeOptions {
    Distance at which the barrier begins. Default 0.002.
    */
   double dhat;
+  /*
+   While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+   */
+  double inflation_dhat;
+  /*
+   While the avatar grows: weight of the contact barrier. Default 1e6.
+   */
+  double inflation_barrier_weight;
   /*
    Edge of a voxel of the distance field. Default 0.01.
    */
