@@ -17,7 +17,6 @@ use crate::input::space::Space;
 pub use crate::options::Options;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
 use crate::sdf::{Field, FieldOptions};
-use crate::solver::assembly;
 use crate::solver::newton::{Counters, Model, Newton, State};
 use crate::stage::fit::Settling;
 use crate::stage::inflate::Inflation;
@@ -609,11 +608,11 @@ impl Work {
         report.gradient_norm = self.newton.gradient_norm();
         report.t = self.state.t;
         let terms = self.objective.terms();
-        let values = assembly::values(&terms, at);
+        let values = self.newton.values(&terms, at);
         report.terms = terms
             .iter()
             .zip(values)
-            .map(|(term, value)| TermReport { name: term.energy.name(), value, weight: term.weight })
+            .map(|(term, &value)| TermReport { name: term.energy.name(), value, weight: term.weight })
             .collect();
     }
 }

@@ -91,12 +91,14 @@ impl Bodies {
     /// Positions of the four vertices of a pair.
     #[inline]
     pub fn positions(&self, pair: [u32; 4], at: Configuration<'_>) -> [DVec3; 4] {
-        pair.map(|i| self.position(i, at))
+        let [a, b, c, d] = pair;
+        [self.position(a, at), self.position(b, at), self.position(c, at), self.position(d, at)]
     }
 
     /// Displacements of the four vertices of a pair.
     #[inline]
     pub fn velocities(&self, pair: [u32; 4], step: &Step<'_>) -> [DVec3; 4] {
-        pair.map(|i| self.velocity(i, step))
+        let [a, b, c, d] = pair;
+        [self.velocity(a, step), self.velocity(b, step), self.velocity(c, step), self.velocity(d, step)]
     }
 }

@@ -74,7 +74,7 @@ impl Fit {
     ///
     /// Six samples a face; three where its area is below half a square voxel, for the field has no detail there.
     pub fn new(field: Arc<Field>, triangles: &[[u32; 3]], areas: &[f64], weights: &[f64]) -> Self {
-        let small = 0.5 * field.voxel() * field.voxel();
+        let small = 4.0 * field.voxel() * field.voxel();
         let mut elements = Vec::new();
         let mut samples = Vec::new();
         for (&vertices, &area) in triangles.iter().zip(areas) {

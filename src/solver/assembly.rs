@@ -190,9 +190,9 @@ pub fn values(terms: &[Term<'_>], at: Configuration<'_>) -> Vec<f64> {
     terms.iter().map(|term| if term.weight == 0.0 { 0.0 } else { value(term, at) }).collect()
 }
 
-/// The weighted sum of `terms`.
-pub fn total(terms: &[Term<'_>], at: Configuration<'_>) -> f64 {
-    terms.iter().zip(values(terms, at)).map(|(term, v)| if v == 0.0 { 0.0 } else { term.weight * v }).sum()
+/// The objective with these values of its terms.
+pub fn weighted(terms: &[Term<'_>], values: &[f64]) -> f64 {
+    terms.iter().zip(values).map(|(term, v)| if *v == 0.0 { 0.0 } else { term.weight * v }).sum()
 }
 
 fn value(term: &Term<'_>, at: Configuration<'_>) -> f64 {

@@ -10,9 +10,19 @@ const SUFFICIENT: f64 = 1e-4;
 /// A step is cut at most this often; 2^-40 of a step is no progress.
 const CUTS: usize = 40;
 
+/// A point that decreases the objective enough.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The fraction of the step.
+    pub fraction: f64,
+    /// The objective there.
+    pub objective: f64,
+    /// The value of each term there, unweighted.
+    pub values: Vec<f64>,
+}
+
 /// Finds a fraction of the step from `at` along (`dx`, `dt`), at most `longest`, that decreases the objective enough.
-/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success, which
-/// is the fraction and the objective there.
+/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success.
 #[allow(clippy::too_many_arguments)]
 pub fn backtrack(
     terms: &[Term<'_>],
@@ -23,14 +33,15 @@ pub fn backtrack(
     value: f64,
     longest: f64,
     trial: &mut Vec<DVec3>,
-) -> Option<(f64, f64)> {
+) -> Option<Found> {
     let mut fraction = longest;
     for _ in 0..CUTS {
         trial.clear();
         trial.extend(at.x.iter().zip(dx).map(|(&x, &d)| x + fraction * d));
-        let there = assembly::total(terms, Configuration { x: trial, t: at.t + fraction * dt });
+        let values = assembly::values(terms, Configuration { x: trial, t: at.t + fraction * dt });
+        let there = assembly::weighted(terms, &values);
         if there <= value + SUFFICIENT * fraction * slope {
-            return Some((fraction, there));
+            return Some(Found { fraction, objective: there, values });
         }
         // The minimum of the parabola through value, slope and this trial, kept within a sensible part of the step.
         let curvature = 2.0 * (there - value - slope * fraction);

@@ -98,6 +98,8 @@ pub struct Newton {
     response: Vec<f64>,
     dx: Vec<DVec3>,
     trial: Vec<DVec3>,
+    /// The value of each term at the present state, where it is known.
+    values: Option<Vec<f64>>,
     /// What has been done so far.
     pub counters: Counters,
 }
@@ -120,6 +122,7 @@ impl Newton {
             response: Vec::new(),
             dx: Vec::new(),
             trial: Vec::new(),
+            values: None,
             counters: Counters { analyses: 1, ..Counters::default() },
         })
     }
@@ -230,6 +233,17 @@ impl Newton {
         x + dt * self.system.t_gradient
     }
 
+    /// The value of each term at `at`, the present state, unweighted.
+    pub fn values(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> &[f64] {
+        self.values.get_or_insert_with(|| assembly::values(terms, at))
+    }
+
+    /// To be called where the state or the energies were changed by others since the last step: what is remembered of
+    /// their values is forgotten.
+    pub fn forget_values(&mut self) {
+        self.values = None;
+    }
+
     /// Norm of the gradient with respect to the vertices.
     pub fn gradient_norm(&self) -> f64 {
         self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()
@@ -250,6 +264,7 @@ impl Newton {
             *x += fraction * *d;
         }
         state.t += fraction * kept * dt;
+        self.values = None;
         Ok(fraction * kept)
     }
 
@@ -273,18 +288,20 @@ impl Newton {
         let clock = Instant::now();
         let terms = model.terms();
         let start = state.configuration();
-        let before = assembly::total(&terms, start);
+        let before = self.values.take().unwrap_or_else(|| assembly::values(&terms, start));
+        let before = assembly::weighted(&terms, &before);
         let found = backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial);
         self.counters.line_search += clock.elapsed();
-        Ok(found.map(|(fraction, after)| {
+        Ok(found.map(|found| {
             std::mem::swap(&mut state.x, &mut self.trial);
-            state.t += fraction * dt;
+            state.t += found.fraction * dt;
+            self.values = Some(found.values);
             Accepted {
-                fraction: fraction * kept,
+                fraction: found.fraction * kept,
                 before,
-                after,
+                after: found.objective,
                 decrement: -slope / kept,
-                displacement: fraction * self.dx.iter().fold(0.0_f64, |m, d| m.max(d.length())),
+                displacement: found.fraction * self.dx.iter().fold(0.0_f64, |m, d| m.max(d.length())),
             }
         }))
     }

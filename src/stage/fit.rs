@@ -69,6 +69,7 @@ impl Settling {
                 self.level += 1;
                 self.at_level = 0;
                 self.set_barrier(objective, state, options);
+                newton.forget_values();
             }
             return Ok(false);
         }

@@ -65,7 +65,11 @@ impl Inflation {
             Form::Path { .. } => self.follow(objective, newton, state)?,
             Form::Lagrangian { .. } => self.push(objective, newton, state)?,
         }
-        Ok(state.t >= 1.0 || snap(objective, state))
+        if state.t < 1.0 && !snap(objective, state) {
+            return Ok(false);
+        }
+        newton.forget_values();
+        Ok(true)
     }
 
     /// One advance along the path.
@@ -86,6 +90,7 @@ impl Inflation {
             // A drive as strong as the resistance that stopped the path.
             let multiplier = newton.t_gradient().max(0.0);
             objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));
+            newton.forget_values();
             self.form = Form::Lagrangian { inner: 0 };
         }
         Ok(())
@@ -115,6 +120,7 @@ impl Inflation {
         }
         let multiplier = drive.multiplier() + drive.penalty() * (1.0 - state.t);
         objective.set_inflation(Some(Lagrangian::new(2.0 * drive.penalty(), multiplier)));
+        newton.forget_values();
         Ok(())
     }
 }
