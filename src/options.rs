@@ -31,7 +31,8 @@ pub struct Options {
     pub inflation_dhat: f64,
     /// While the avatar grows: weight of the barrier.
     pub inflation_barrier_weight: f64,
-    /// Distance that no pair of primitives ever falls below.
+    /// Distance that no pair of primitives ever falls below; a garment that is nearer than four times this to itself or the
+    /// skeleton at the start gets a lower one.
     pub separation_floor: f64,
     /// Edge of a voxel of the distance field.
     pub voxel: f64,
@@ -100,8 +101,10 @@ impl Options {
                 return refuse(name, value, &format!("between {low} and {high}"));
             }
         }
-        if self.separation_floor >= 0.5 * self.dhat {
-            return refuse("separation_floor", self.separation_floor, &format!("below half of dhat ({})", self.dhat));
+        let narrowest = self.dhat.min(self.inflation_dhat);
+        if self.separation_floor >= 0.5 * narrowest {
+            let range = format!("below half of dhat and of inflation_dhat, which is {}", 0.5 * narrowest);
+            return refuse("separation_floor", self.separation_floor, &range);
         }
         if self.surface_weight == 0.0 {
             return refuse("surface_weight", 0.0, "above 0: nothing else holds the garment together");

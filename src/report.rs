@@ -63,6 +63,8 @@ pub struct Report {
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
+    /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
+    pub converged: bool,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],
     /// Avatar vertices and triangles.

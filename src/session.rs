@@ -318,7 +318,7 @@ impl Session {
         let field = FieldTask::start(problem.avatar.clone(), self.options.voxel, threads)?;
         let (objective, options, newton, state) = pool.install(|| {
             let state = State { x: problem.rest.clone(), t: 0.0 };
-            let (objective, options) = problem.begin(&self.options);
+            let (objective, options) = problem.begin(&self.options)?;
             let newton = Newton::new(state.x.len(), &objective.terms())?;
             Ok((objective, options, newton, state))
         })?;
@@ -435,7 +435,7 @@ impl Session {
                 format!(
                     "the result, in the precision and space in which it would be read, has {} intersecting pairs of \
                      garment triangles and {} of garment and avatar triangles; it is not handed out as good. Read it in \
-                     64 bits, move the avatar nearer to the origin, or raise separation_floor",
+                     64 bits, or move the avatar nearer to the origin",
                     counted.garment_garment, counted.garment_avatar
                 ),
             ));
@@ -568,9 +568,9 @@ impl Work {
                 (Stage::Inflate, ended)
             }
             Step::Fit(settling) => {
-                let ended = settling.iterations >= options.max_iterations
-                    || settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
-                (Stage::Fit, ended)
+                let converged = settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
+                report.converged = converged;
+                (Stage::Fit, converged || settling.iterations >= options.max_iterations)
             }
         };
         let part = if stage == Stage::Inflate { &mut report.inflate } else { &mut report.fit };

@@ -14,6 +14,10 @@ const THROUGH: f64 = 0.5;
 /// How far a bone reaches beyond a leaf joint, as a share of its length: the foot under the last joint of a leg.
 const LEAF_REACH: f64 = 0.25;
 
+/// A bone shorter than this share of the loop's mean radius, in either skeleton, has no direction worth following: along it
+/// the loop would be many bone lengths away, and be dragged as far.
+const STUB: f64 = 0.1;
+
 /// A loop whose area is below this share of its squared length is a slit, without a normal.
 const SLIT: f64 = 1e-6;
 
@@ -57,9 +61,10 @@ pub fn choose_guides(
         .map(|boundary| {
             let opening = Opening::new(rest, &boundary.vertices)?;
             let crossing: Vec<u32> = (0..source.bones.len() as u32)
+                .filter(|&bone| !opening.is_stub(source.bones[bone as usize], source, target))
                 .filter(|&bone| opening.is_crossed_by(source, source.bones[bone as usize], &degree))
                 .collect();
-            let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source)?] };
+            let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source, target)?] };
             let guide = opening.mean_of(&bones, source, target);
             Some(LoopGuide { bones, guide })
         })
@@ -87,6 +92,15 @@ impl Opening {
         }
         let normal = if area.length() > SLIT * length * length { area.normalize_or_zero() } else { DVec3::ZERO };
         Some(Self { centre, normal, points })
+    }
+
+    /// True for a bone without length, or hardly any.
+    fn is_stub(&self, bone: [u32; 2], source: &Skeleton, target: &Skeleton) -> bool {
+        let radius = self.points.iter().map(|p| p.distance(self.centre)).sum::<f64>() / self.points.len() as f64;
+        [source, target].iter().any(|s| {
+            let [a, b] = bone.map(|joint| s.joints[joint as usize]);
+            a.distance(b) <= STUB * radius
+        })
     }
 
     fn is_through(&self, span: DVec3) -> bool {
@@ -119,12 +133,12 @@ impl Opening {
     }
 
     /// The closest bone among those through the loop, or the closest of all; bones without length do not count.
-    fn closest_bone(&self, skeleton: &Skeleton) -> Option<u32> {
+    fn closest_bone(&self, skeleton: &Skeleton, target: &Skeleton) -> Option<u32> {
         let (mut through, mut any) = ((f64::INFINITY, None), (f64::INFINITY, None));
         for (index, bone) in skeleton.bones.iter().enumerate() {
             let [a, b] = bone.map(|joint| skeleton.joints[joint as usize]);
             let span = b - a;
-            if span.length_squared() == 0.0 {
+            if self.is_stub(*bone, skeleton, target) {
                 continue;
             }
             let along = ((self.centre - a).dot(span) / span.length_squared()).clamp(0.0, 1.0);

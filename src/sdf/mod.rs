@@ -265,7 +265,7 @@ fn layout(low: DVec3, high: DVec3, voxel: f64) -> Result<(DVec3, [usize; 3])> {
         if blocks.x * blocks.y * blocks.z <= MAX_BLOCKS as f64 {
             return Ok((low - rim * voxel, blocks.to_array().map(|b| b as usize)));
         }
-        if rim <= MIN_RIM {
+        if rim <= MIN_RIM || !longest.is_finite() {
             let longest = longest * voxel;
             return Err(Error::new(
                 ErrorKind::InvalidArgument,

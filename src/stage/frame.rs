@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::input::skeleton::Skeleton;
 
 /// The longest side of a skeleton's bounding box in the normalised space.
@@ -22,22 +22,10 @@ impl Frame {
     /// `what` names the skeleton in errors.
     ///
     /// # Errors
-    /// `InvalidSkeleton` where all the joints are at one point.
+    /// `InvalidSkeleton` where all the joints are in one place.
     pub fn of(skeleton: &Skeleton, what: &str) -> Result<Self> {
-        let (low, high) = skeleton
-            .joints
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-        let side = (high - low).max_element();
-        let scale = SIDE / side;
-        if !(side > 0.0 && scale.is_finite()) {
-            return Err(Error::new(
-                ErrorKind::InvalidSkeleton,
-                format!("{what}: all joints are at one point; the skeleton gives the body no size"),
-            ));
-        }
-        let origin = skeleton.joints.iter().sum::<DVec3>() / skeleton.joints.len() as f64;
-        Ok(Self { origin, scale })
+        let scale = SIDE / skeleton.longest_side(what)?;
+        Ok(Self { origin: skeleton.mean_joint(), scale })
     }
 
     /// A caller's point in the normalised space.

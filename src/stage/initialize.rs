@@ -4,13 +4,14 @@
 //! Each vertex goes to the nearest point of the bone it belongs to. A triangle whose corners lie on different bones is
 //! split: the edge whose ends are farthest apart in the skeleton gets a new corner for each joint between them, evenly
 //! spaced on the target avatar and at the joint when shrunk, until every triangle collapses onto a single bone.
-//! Triangles are split one by one, so neighbours need not agree: the avatar only is an obstacle.
+//! Triangles are split one by one, so neighbours need not agree: the avatar only is an obstacle. A piece with one edge on
+//! a single bone and two that lead far away is cut into a strip along the joints that both pass, so that the number of
+//! pieces grows with the square of the number of joints and not faster.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 use crate::input::skin::SkinWeights;
@@ -27,8 +28,9 @@ pub struct ProjectedAvatar {
     pub triangles: Vec<[u32; 3]>,
     /// The caller's vertices at t = 0.
     pub shrunk: Vec<DVec3>,
-    /// The segments that the avatar is at t = 0: bone, and its two ends.
-    pub segments: Vec<(u32, [DVec3; 2])>,
+    /// The bone that each triangle of the subdivided mesh collapses onto; `None` where bones form a cycle that the triangle
+    /// spans, so that it keeps an area.
+    pub bones: Vec<Option<u32>>,
 }
 
 #[derive(Clone, Copy)]
@@ -41,14 +43,12 @@ struct Corner {
 /// Projects `avatar` (normalised) with its skeleton `target` onto `source`, whose bones `target` shares in order and
 /// direction. Skin weights, where given, decide the joint that a vertex belongs to.
 ///
-/// # Errors
-/// `InvalidSkeleton` where bones form a cycle that no split can resolve.
 pub fn project(
     avatar: &TriangleMesh,
     target: &Skeleton,
     source: &Skeleton,
     skin: Option<&SkinWeights>,
-) -> Result<ProjectedAvatar> {
+) -> ProjectedAvatar {
     let graph = BoneGraph::new(source);
     let corners: Vec<Corner> = avatar
         .positions
@@ -56,7 +56,8 @@ pub fn project(
         .enumerate()
         .map(|(v, &end)| {
             let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)));
-            Corner { location: Location::Bone { bone, parameter }, start: source.point_at(bone, parameter), end }
+            let start = source.point_at(bone, on_source(parameter, bone, target, source));
+            Corner { location: Location::Bone { bone, parameter }, start, end }
         })
         .collect();
 
@@ -64,34 +65,26 @@ pub fn project(
     let mut merged = HashMap::new();
     let mut pending = Vec::new();
     let mut paths: [Vec<u32>; 3] = Default::default();
-    for (index, triangle) in avatar.triangles.iter().enumerate() {
+    for triangle in &avatar.triangles {
         pending.push(triangle.map(|v| corners[v as usize]));
-        // Each split strictly shortens the longest path, so a triangle never needs more pieces than this.
-        let mut budget = 64 * (source.bones.len() + 1);
         while let Some(piece) = pending.pop() {
             for (edge, path) in paths.iter_mut().enumerate() {
                 graph.joints_between(piece[edge].location, piece[(edge + 1) % 3].location, path);
             }
             let longest = (0..3).rev().max_by_key(|&e| paths[e].len()).unwrap_or(0);
             if paths[longest].is_empty() {
-                out.push(&piece, &mut merged);
+                out.push(&piece, graph.common_bone(&piece.map(|c| c.location)), &mut merged);
                 continue;
             }
-            budget -= 1;
-            if budget == 0 {
-                return Err(Error::new(
-                    ErrorKind::InvalidSkeleton,
-                    format!(
-                        "target avatar: triangle {index} spans bones that form a cycle; it cannot be shrunk onto the \
-                         skeleton. Remove a bone from the cycle"
-                    ),
-                ));
+            match (0..3)
+                .find(|&e| paths[e].is_empty() && !paths[(e + 1) % 3].is_empty() && !paths[(e + 2) % 3].is_empty())
+            {
+                Some(base) => strip(&piece, base, &paths, source, &mut pending),
+                None => fan(&piece, longest, &paths[longest], source, &mut pending),
             }
-            split(&piece, longest, &paths[longest], source, &mut pending);
         }
     }
-    out.segments = segments(&corners, source);
-    Ok(out)
+    out
 }
 
 /// The bone that a point belongs to, and its parameter there: the closest among the bones at `joint`, or among all.
@@ -110,27 +103,75 @@ fn attach(graph: &BoneGraph, skeleton: &Skeleton, p: DVec3, joint: Option<u32>) 
     (best.1, best.2)
 }
 
-/// Replaces edge `edge` of `piece` by a chain over `joints` and fans the pieces to the opposite corner.
-fn split(piece: &[Corner; 3], edge: usize, joints: &[u32], source: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
-    let [a, b, opposite] = [piece[edge], piece[(edge + 1) % 3], piece[(edge + 2) % 3]];
+/// The parameter on the source skeleton. It is that on the target; but beyond the end of a bone that is many times longer
+/// or shorter on one of them, the way beyond is scaled with the body and not with that bone.
+fn on_source(parameter: f64, bone: u32, target: &Skeleton, source: &Skeleton) -> f64 {
+    let inside = parameter.clamp(0.0, 1.0);
+    let length = |s: &Skeleton| {
+        let [a, b] = s.bones[bone as usize].map(|j| s.joints[j as usize]);
+        a.distance(b)
+    };
+    let (on_source, on_target) = (length(source), length(target));
+    if inside == parameter || on_source == 0.0 {
+        return parameter;
+    }
+    let scale = (on_source / on_target).clamp(1.0 / ODD_BONE, ODD_BONE);
+    inside + (parameter - inside) * (on_target / on_source) * scale
+}
+
+/// A bone whose lengths in the two skeletons differ by more than this factor says nothing about what lies beyond its end.
+const ODD_BONE: f64 = 4.0;
+
+/// The corner at `joint`, the `k`-th of `count` equal parts along the edge from `a` to `b`.
+fn at_joint(a: &Corner, b: &Corner, joint: u32, k: usize, count: usize, source: &Skeleton) -> Corner {
     // Both triangles at an edge must find the same points on it, to the bit, whichever way they walk along it.
     let turned = a.end.to_array() > b.end.to_array();
-    let count = joints.len() + 1;
-    let point = |k: usize| {
-        let (from, to, k) = if turned { (b.end, a.end, count - k) } else { (a.end, b.end, k) };
-        from.lerp(to, k as f64 / count as f64)
-    };
+    let (from, to, k) = if turned { (b.end, a.end, count - k) } else { (a.end, b.end, k) };
+    Corner {
+        location: Location::Joint(joint),
+        start: source.joints[joint as usize],
+        end: from.lerp(to, k as f64 / count as f64),
+    }
+}
+
+/// Replaces edge `edge` of `piece` by a chain over `joints` and fans the pieces to the opposite corner.
+fn fan(piece: &[Corner; 3], edge: usize, joints: &[u32], source: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
+    let [a, b, opposite] = [piece[edge], piece[(edge + 1) % 3], piece[(edge + 2) % 3]];
     let mut last = a;
     for (k, &joint) in joints.iter().enumerate() {
-        let next = Corner { location: Location::Joint(joint), start: source.joints[joint as usize], end: point(k + 1) };
+        let next = at_joint(&a, &b, joint, k + 1, joints.len() + 1, source);
         pending.push([last, next, opposite]);
         last = next;
     }
     pending.push([last, b, opposite]);
 }
 
+/// Cuts `piece`, whose edge `base` passes no joint while the two others do, along the joints that both pass on the way from
+/// the corner opposite to `base`.
+fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], source: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
+    let [b, c, apex] = [piece[base], piece[(base + 1) % 3], piece[(base + 2) % 3]];
+    // From the apex to b, as the edge runs; from the apex to c, against it.
+    let (to_b, to_c) = (&paths[(base + 2) % 3], &paths[(base + 1) % 3]);
+    let shared = to_b.iter().zip(to_c.iter().rev()).take_while(|(j, k)| j == k).count();
+    if shared == 0 {
+        return fan(piece, (base + 2) % 3, to_b, source, pending);
+    }
+    let (mut left, mut right) = (apex, apex);
+    for k in 0..shared {
+        let next_left = at_joint(&apex, &b, to_b[k], k + 1, to_b.len() + 1, source);
+        let next_right = at_joint(&apex, &c, to_b[k], k + 1, to_c.len() + 1, source);
+        pending.push([left, next_left, next_right]);
+        if k > 0 {
+            pending.push([left, next_right, right]);
+        }
+        (left, right) = (next_left, next_right);
+    }
+    pending.push([left, b, c]);
+    pending.push([left, c, right]);
+}
+
 impl ProjectedAvatar {
-    fn push(&mut self, piece: &[Corner; 3], merged: &mut HashMap<[u64; 6], u32>) {
+    fn push(&mut self, piece: &[Corner; 3], bone: Option<u32>, merged: &mut HashMap<[u64; 6], u32>) {
         let corners = piece.map(|c| {
             let key = [c.start.x, c.start.y, c.start.z, c.end.x, c.end.y, c.end.z].map(f64::to_bits);
             *merged.entry(key).or_insert_with(|| {
@@ -140,27 +181,6 @@ impl ProjectedAvatar {
             })
         });
         self.triangles.push(corners);
+        self.bones.push(bone);
     }
-}
-
-/// The stretch of each bone that the shrunk avatar covers. New corners lie at joints between old ones, so they never
-/// reach beyond these stretches and the joints.
-fn segments(corners: &[Corner], source: &Skeleton) -> Vec<(u32, [DVec3; 2])> {
-    let mut reach: HashMap<u32, (f64, f64)> = HashMap::new();
-    for corner in corners {
-        if let Location::Bone { bone, parameter } = corner.location {
-            let (low, high) = reach.entry(bone).or_insert((parameter, parameter));
-            *low = low.min(parameter);
-            *high = high.max(parameter);
-        }
-    }
-    let mut segments: Vec<_> = reach
-        .into_iter()
-        .map(|(bone, (low, high))| {
-            let ends = [low.min(0.0), high.max(1.0)].map(|s| source.point_at(bone, s));
-            (bone, ends)
-        })
-        .collect();
-    segments.sort_by_key(|s| s.0);
-    segments
 }

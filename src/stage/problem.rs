@@ -26,6 +26,9 @@ use crate::verify::intersections;
 /// The separation floor is at most this fraction of the smallest distance at the start.
 const FLOOR_SHARE: f64 = 0.25;
 
+/// A distance below this is lost in the rounding of coordinates of order 1.
+const NO_DISTANCE: f64 = 1e-12;
+
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
     /// The garment, around the source skeleton.
@@ -70,7 +73,7 @@ impl Problem {
     /// Normalises, projects the avatar, and sets up the shape terms.
     ///
     /// # Errors
-    /// `InvalidSkeleton` for a skeleton without size or with a cycle, `NotEnclosed` where the shrunk avatar pokes
+    /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the shrunk avatar pokes
     /// through the garment, `SelfIntersection` where the garment passes through itself.
     pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
@@ -83,11 +86,12 @@ impl Problem {
         let source = skeleton(&source_frame, inputs.source_skeleton);
         let target = skeleton(&target_frame, inputs.target_skeleton);
         let rest: Vec<DVec3> = normalised(&source_frame, &inputs.garment.positions);
-        let avatar = TriangleMesh {
+        let mut avatar = TriangleMesh {
             positions: normalised(&target_frame, &inputs.avatar.positions),
             triangles: inputs.avatar.triangles.clone(),
         };
-        let projected = project(&avatar, &target, &source, inputs.skin)?;
+        gather_unused(&mut avatar);
+        let projected = project(&avatar, &target, &source, inputs.skin);
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         check_itself(&garment)?;
         check_enclosure(&garment, &projected, &source)?;
@@ -135,19 +139,31 @@ impl Problem {
 
     /// The objective of Step 2, the avatar moving with t, settled at its beginning; and the options with the separation
     /// floor that this problem allows, which is lower where the garment is nearer to itself or the skeleton than that.
-    pub fn begin(&self, options: &Options) -> (Objective, Options) {
+    ///
+    /// # Errors
+    /// `SelfIntersection` where the distance at the start is lost in rounding.
+    pub fn begin(&self, options: &Options) -> Result<(Objective, Options)> {
         let at = Configuration { x: &self.rest, t: 0.0 };
         let mut objective = self.inflation_objective(options);
         objective.settle(at);
         let near = objective.activity(at);
         let nearest = near.min_distance_self.min(near.min_distance_avatar);
         if nearest > FLOOR_SHARE.recip() * options.separation_floor {
-            return (objective, options.clone());
+            return Ok((objective, options.clone()));
+        }
+        if nearest < NO_DISTANCE {
+            return Err(Error::new(
+                ErrorKind::SelfIntersection,
+                format!(
+                    "garment: at the start it is within {nearest:e} of itself or of the skeleton, in units in which the \
+                     skeleton is 2 long; that is as good as touching. Move the parts at least {NO_DISTANCE:e} apart"
+                ),
+            ));
         }
         let options = Options { separation_floor: FLOOR_SHARE * nearest, ..options.clone() };
         objective = self.inflation_objective(&options);
         objective.settle(at);
-        (objective, options)
+        Ok((objective, options))
     }
 
     fn inflation_objective(&self, options: &Options) -> Objective {
@@ -164,7 +180,8 @@ impl Problem {
     /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
     /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the step, `x`, and
     /// then kept, for a measure that follows the garment would pay for shrinking it. Where the source body is known, each
-    /// point aims at the clearance that it had there; distances of both bodies are in units of their skeletons.
+    /// point aims at the clearance that it had there, without regard to the side; both bodies are measured in units of
+    /// their skeletons.
     ///
     /// # Errors
     /// `InvalidArgument` for a clearance that is not finite.
@@ -191,6 +208,17 @@ impl Problem {
     }
 }
 
+/// Moves vertices that no triangle uses to one that is used: they are no part of the body, wherever they are.
+fn gather_unused(mesh: &mut TriangleMesh) {
+    let mut used = vec![false; mesh.positions.len()];
+    mesh.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let Some(&first) = mesh.triangles.iter().flatten().next() else { return };
+    let place = mesh.positions[first as usize];
+    for (p, _) in mesh.positions.iter_mut().zip(used).filter(|(_, used)| !used) {
+        *p = place;
+    }
+}
+
 /// The barrier keeps apart what is apart; it cannot part what has met.
 fn check_itself(garment: &TriangleMesh) -> Result<()> {
     let found = intersections(garment, None, 4)?;
@@ -209,27 +237,29 @@ fn check_itself(garment: &TriangleMesh) -> Result<()> {
     ))
 }
 
-/// The shrunk avatar is a set of segments on the bones; none may touch the garment, or Step 2 cannot begin.
+/// Where the shrunk avatar meets the garment, Step 2 cannot begin.
 fn check_enclosure(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skeleton) -> Result<()> {
-    let mut segments = TriangleMesh::default();
-    for (_, ends) in &projected.segments {
-        let first = segments.positions.len() as u32;
-        segments.positions.extend(ends);
-        segments.triangles.push([first, first + 1, first + 1]);
-    }
-    let found = intersections(garment, Some(&segments), 8)?;
-    let Some(&[_, segment]) = found.pairs.first() else { return Ok(()) };
-    let (bone, _) = projected.segments[segment as usize];
-    let [a, b] = source.bones[bone as usize];
-    let named: Vec<String> = found.pairs.iter().map(|p| p[0].to_string()).collect();
+    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
+    let found = intersections(garment, Some(&shrunk), usize::MAX)?;
+    let Some(&[_, piece]) = found.pairs.first() else { return Ok(()) };
+    let place = match projected.bones[piece as usize] {
+        Some(bone) => {
+            let [a, b] = source.bones[bone as usize];
+            format!("at the bone between joints {a} and {b}")
+        }
+        None => "between bones that form a cycle".to_string(),
+    };
+    let mut triangles: Vec<u32> = found.pairs.iter().map(|p| p[0]).collect();
+    triangles.dedup();
+    let count = triangles.len();
+    let named: Vec<String> = triangles.iter().take(8).map(u32::to_string).collect();
     Err(Error::new(
         ErrorKind::NotEnclosed,
         format!(
-            "garment: the avatar, shrunk onto the source skeleton, pokes through garment triangles {} at the bone \
-             between joints {a} and {b} ({} triangles in all); move the garment or the skeleton so that the garment is \
-             around its bones",
+            "garment: the avatar, shrunk onto the source skeleton, pokes through it {place}: through garment triangles \
+             {}{} ({count} in all); move the garment or the skeleton so that the garment is around its bones",
             named.join(", "),
-            found.count
+            if count > named.len() { ", ..." } else { "" },
         ),
     ))
 }

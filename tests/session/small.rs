@@ -114,7 +114,7 @@ fn no_iterate_of_the_inflation_intersects() {
         fit_weights: None,
     };
     let problem = Problem::new(&inputs, &options).unwrap();
-    let (mut objective, kept) = problem.begin(&options);
+    let (mut objective, kept) = problem.begin(&options).unwrap();
     assert_eq!(kept, options);
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms()).unwrap();
@@ -194,6 +194,38 @@ fn layers_nearer_than_the_floor_stay_apart() {
     session.set_garment(garment, Precision::F64).unwrap();
     assert_eq!(session.run().unwrap(), Stage::Done);
     assert!(session.verify(Precision::F64).unwrap().is_clean());
+}
+
+/// Vertices that no triangle uses are no part of the body, wherever they are.
+#[test]
+fn stray_vertices_of_the_avatar_do_no_harm() {
+    let mut session = session(1.0, DVec3::ZERO);
+    let mut body = thick_arm();
+    body.positions.extend([DVec3::new(1e7, 0.0, 0.0), DVec3::new(0.0, 0.0, 1e6)]);
+    session.set_target_avatar(body, Precision::F64).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+}
+
+/// The middle bone holds no vertex of the body, only triangles that pass it: a sheet across it is found all the same.
+#[test]
+fn a_bone_that_only_triangles_pass_must_be_enclosed_too() {
+    let skeleton = Skeleton {
+        joints: [-1.0, -0.3, 0.3, 1.0].map(|z| DVec3::new(0.0, 0.0, z)).to_vec(),
+        bones: vec![[0, 1], [1, 2], [2, 3]],
+    };
+    let body = tube(-1.0, 1.0, |_, _| 0.1, 1, 6, true);
+    let sheet = TriangleMesh {
+        positions: vec![DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, -1.0, 0.01), DVec3::new(0.0, 1.5, -0.01)],
+        triangles: vec![[0, 1, 2]],
+    };
+    let mut session = Session::new();
+    session.set_garment(sheet, Precision::F64).unwrap();
+    session.set_source_skeleton(skeleton.clone()).unwrap();
+    session.set_target_avatar(body, Precision::F64).unwrap();
+    session.set_target_skeleton(skeleton).unwrap();
+    let error = session.prepare().unwrap_err();
+    assert_eq!(error.kind, ErrorKind::NotEnclosed);
+    assert!(error.message.contains("between joints 1 and 2"), "{error}");
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn every_triangle_collapses_onto_one_bone_and_keeps_its_own_shape_at_the_end() {
         let source = skeleton(&mut random);
         let target = Skeleton { bones: source.bones.clone(), ..skeleton(&mut random) };
         let avatar = soup(&mut random, 120);
-        let projected = project(&avatar, &target, &source, None).unwrap();
+        let projected = project(&avatar, &target, &source, None);
         collapses(&projected, &source);
         let whole: f64 = avatar.triangles.iter().map(|t| area(t.map(|v| avatar.positions[v as usize]))).sum();
         let pieces: f64 = projected.triangles.iter().map(|t| area(t.map(|v| projected.end[v as usize]))).sum();
@@ -63,7 +63,7 @@ fn a_vertex_goes_to_the_nearest_point_of_the_skeleton() {
     let body = skeleton(&mut random);
     let graph = BoneGraph::new(&body);
     let avatar = soup(&mut random, 60);
-    let projected = project(&avatar, &body, &body, None).unwrap();
+    let projected = project(&avatar, &body, &body, None);
     for (&p, &q) in avatar.positions.iter().zip(&projected.shrunk) {
         let mut nearest = f64::INFINITY;
         for bone in &body.bones {
@@ -88,7 +88,7 @@ fn skin_weights_decide_the_bone() {
     // All to joint 4, the hand, which only bone 3 has.
     weights[4 * count..5 * count].fill(1.0);
     let skin = SkinWeights::from_dense(&weights, 7, count, "skin").unwrap();
-    let projected = project(&avatar, &body, &body, Some(&skin)).unwrap();
+    let projected = project(&avatar, &body, &body, Some(&skin));
     let ends = body.bones[3].map(|j| body.joints[j as usize]);
     assert!(projected.shrunk.iter().all(|&p| distance_to_line(p, ends) < 1e-9));
     assert_eq!(projected.triangles.len(), avatar.triangles.len(), "no triangle spans two bones");
@@ -107,7 +107,7 @@ fn neighbours_that_are_split_alike_share_their_new_points() {
         DVec3::new(2.4, 0.4, -0.7),
     ];
     let avatar = TriangleMesh { positions, triangles: vec![[0, 1, 2], [1, 0, 3]] };
-    let projected = project(&avatar, &body, &body, None).unwrap();
+    let projected = project(&avatar, &body, &body, None);
     collapses(&projected, &body);
     for (i, a) in projected.start.iter().zip(&projected.end).enumerate() {
         for b in projected.start.iter().zip(&projected.end).skip(i + 1) {
@@ -120,4 +120,22 @@ fn neighbours_that_are_split_alike_share_their_new_points() {
         p.distance(avatar.positions[0].lerp(avatar.positions[1], t)) < 1e-12 && t > 1e-9 && t < 1.0 - 1e-9
     };
     assert_eq!(projected.end.iter().filter(|p| on_edge(p)).count(), 2);
+}
+
+/// A chain of many bones: the pieces must not multiply, and still tile the triangle.
+#[test]
+fn a_triangle_over_a_long_chain_is_cut_into_few_pieces() {
+    let count = 40;
+    let joints = (0..=count).map(|k| DVec3::new(f64::from(k), 0.1 * f64::from(k % 3), 0.0)).collect();
+    let chain = Skeleton { joints, bones: (0..count).map(|k| [k, k + 1]).collect() };
+    let positions =
+        vec![DVec3::new(0.4, 1.0, 0.0), DVec3::new(f64::from(count) - 0.5, 1.0, 0.2), DVec3::new(12.5, 1.0, 0.7)];
+    let avatar = TriangleMesh { positions: positions.clone(), triangles: vec![[0, 1, 2]] };
+    let projected = project(&avatar, &chain, &chain, None);
+    collapses(&projected, &chain);
+    assert!(projected.triangles.len() < 40 * 40, "{} pieces", projected.triangles.len());
+    assert!(projected.bones.iter().all(Option::is_some));
+    let whole = area([positions[0], positions[1], positions[2]]);
+    let pieces: f64 = projected.triangles.iter().map(|t| area(t.map(|v| projected.end[v as usize]))).sum();
+    assert!((whole - pieces).abs() < 1e-9 * whole, "{whole} {pieces}");
 }
