@@ -17,7 +17,9 @@ fn points(mesh: &bespoke::input::mesh::TriangleMesh) -> Vec<[f32; 3]> {
 #[test]
 fn refuses_what_it_cannot_use() {
     let triangle = [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 5.0, 0.0]];
-    let cases: [(&str, &[[f32; 3]], &[[u32; 3]], [f32; 2]); 6] = [
+    // What it is, points, triangles, bands.
+    type Case<'a> = (&'a str, &'a [[f32; 3]], &'a [[u32; 3]], [f32; 2]);
+    let cases: [Case<'_>; 6] = [
         ("no triangles", &triangle, &[], [3.0, 3.0]),
         ("index out of range", &triangle, &[[0, 1, 3]], [3.0, 3.0]),
         ("outside the lattice", &[[0.0; 3], [1e9, 0.0, 0.0], [0.0; 3]], &[[0, 1, 2]], [3.0, 3.0]),

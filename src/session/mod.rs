@@ -1,9 +1,10 @@
-//! One garment on its way to one avatar: a state machine, and the only file that knows the order of the stages.
+//! One garment on its way to one avatar: the state machine that a caller sees.
+
+mod field_task;
+mod work;
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use glam::DVec3;
 
@@ -16,13 +17,12 @@ use crate::input::skin::SkinWeights;
 use crate::input::space::Space;
 pub use crate::options::Options;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
-use crate::sdf::{Field, FieldOptions};
-use crate::solver::newton::{Counters, Model, Newton, State};
-use crate::stage::fit::Settling;
+use crate::solver::newton::{Model, Newton, State};
 use crate::stage::inflate::Inflation;
-use crate::stage::objective::Objective;
 use crate::stage::problem::{Inputs, Problem};
 use crate::verify::intersections;
+use field_task::FieldTask;
+use work::{Step, Work};
 
 /// Floating-point format of a caller's positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,75 +70,6 @@ pub struct Session {
     work: Option<Work>,
     stage: Stage,
     report: Report,
-}
-
-/// What exists between `prepare` and `reset`.
-struct Work {
-    pool: Arc<rayon::ThreadPool>,
-    /// The caller's, with the separation floor that the problem allows.
-    options: Options,
-    problem: Problem,
-    state: State,
-    objective: Objective,
-    newton: Newton,
-    step: Step,
-    field: FieldTask,
-}
-
-/// The step of the paper that is under way.
-enum Step {
-    Inflate(Inflation),
-    Fit(Settling),
-}
-
-/// The distance field, built beside the inflation. Dropping it stops the build.
-struct FieldTask {
-    handle: Option<JoinHandle<Result<(Field, f64)>>>,
-    stop: Arc<AtomicBool>,
-}
-
-impl FieldTask {
-    fn start(avatar: Arc<TriangleMesh>, voxel: f64, threads: usize) -> Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let flag = stop.clone();
-        let build = move || {
-            let clock = Instant::now();
-            let field = Field::build(&avatar, FieldOptions { voxel, threads: threads as u32 }, &flag)?;
-            Ok((field, clock.elapsed().as_secs_f64()))
-        };
-        let handle = std::thread::Builder::new()
-            .name("bespoke-field".into())
-            .spawn(build)
-            .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread for the distance field: {e}")))?;
-        Ok(Self { handle: Some(handle), stop })
-    }
-
-    /// Waits for the field, or for a cancel.
-    fn wait(&mut self, control: &Control) -> Result<(Field, f64)> {
-        let Some(handle) = self.handle.take() else {
-            return Err(Error::new(ErrorKind::Internal, "the distance field was taken twice"));
-        };
-        while !handle.is_finished() {
-            if control.is_cancelled() {
-                self.stop.store(true, std::sync::atomic::Ordering::Relaxed);
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(1));
-        }
-        handle
-            .join()
-            .unwrap_or_else(|_| Err(Error::new(ErrorKind::Internal, "the thread of the distance field panicked")))
-    }
-}
-
-impl Drop for FieldTask {
-    fn drop(&mut self) {
-        self.stop.store(true, std::sync::atomic::Ordering::Relaxed);
-        if let Some(handle) = self.handle.take() {
-            // Its result is of no use any more, an error neither.
-            drop(handle.join());
-        }
-    }
 }
 
 fn mesh_to_ours(space: &Space, mesh: &TriangleMesh) -> TriangleMesh {
@@ -555,68 +486,6 @@ impl Session {
     }
 }
 
-impl Work {
-    /// One iteration, and the passage to the next stage where one has ended. [`Stage::Verify`] when all are.
-    fn iterate(&mut self, control: &Control, report: &mut Report) -> Result<Stage> {
-        let options = &self.options;
-        let clock = Instant::now();
-        let before = self.newton.counters;
-        let (stage, ended) = match &mut self.step {
-            Step::Inflate(inflation) => {
-                check_limit(inflation.iterations, options, "inflation", self.state.t)?;
-                let ended = inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state)?;
-                (Stage::Inflate, ended)
-            }
-            Step::Fit(settling) => {
-                let converged = settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
-                report.converged = converged;
-                (Stage::Fit, converged || settling.iterations >= options.max_iterations)
-            }
-        };
-        let part = if stage == Stage::Inflate { &mut report.inflate } else { &mut report.fit };
-        part.add(&before, &self.newton.counters, clock.elapsed());
-        self.describe(report);
-        match (stage, ended) {
-            (_, false) => Ok(stage),
-            (Stage::Inflate, true) => {
-                self.begin_fit(control, report)?;
-                Ok(Stage::Fit)
-            }
-            (_, true) => Ok(Stage::Verify),
-        }
-    }
-
-    fn begin_fit(&mut self, control: &Control, report: &mut Report) -> Result<()> {
-        let options = &self.options;
-        let clock = Instant::now();
-        let (field, seconds) = self.field.wait(control)?;
-        report.field_seconds = seconds;
-        self.objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options)?;
-        self.newton = Newton::new(self.state.x.len(), &self.objective.terms())?;
-        self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
-        report.fit.seconds += clock.elapsed().as_secs_f64();
-        report.fit.analyses += 1;
-        Ok(())
-    }
-
-    fn describe(&mut self, report: &mut Report) {
-        let at = self.state.configuration();
-        let contact = self.objective.activity(at);
-        report.active_contacts = contact.count;
-        report.min_distance_self = contact.min_distance_self;
-        report.min_distance_avatar = contact.min_distance_avatar;
-        report.gradient_norm = self.newton.gradient_norm();
-        report.t = self.state.t;
-        let terms = self.objective.terms();
-        let values = self.newton.values(&terms, at);
-        report.terms = terms
-            .iter()
-            .zip(values)
-            .map(|(term, &value)| TermReport { name: term.energy.name(), value, weight: term.weight })
-            .collect();
-    }
-}
-
 fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) -> Result<()> {
     let (have, want) = ((skin.joint_count(), skin.vertex_count()), (skeleton.joints.len(), avatar.positions.len()));
     if have == want {
@@ -630,27 +499,4 @@ fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) ->
             have.0, have.1, want.0, want.1
         ),
     ))
-}
-
-fn check_limit(iterations: u32, options: &Options, what: &str, t: f64) -> Result<()> {
-    if iterations < options.max_iterations {
-        return Ok(());
-    }
-    Err(Error::new(
-        ErrorKind::InflationStalled,
-        format!("the {what} did not end in {iterations} iterations: t is {t:.4}; raise max_iterations"),
-    ))
-}
-
-impl StageReport {
-    fn add(&mut self, before: &Counters, after: &Counters, elapsed: Duration) {
-        self.seconds += elapsed.as_secs_f64();
-        self.iterations += 1;
-        self.factorisations += after.factorisations - before.factorisations;
-        self.analyses += after.analyses - before.analyses;
-        let parts = |c: &Counters| [c.assembly, c.linear, c.admission, c.line_search];
-        for ((slot, a), b) in self.kernels.iter_mut().zip(parts(after)).zip(parts(before)) {
-            *slot += (a - b).as_secs_f64();
-        }
-    }
 }
