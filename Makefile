@@ -1,6 +1,7 @@
 # make        build/retarget and build/libbespoke.so
 # make demo   makes a sample, dresses two bodies in it and says what came out
 # make test   every test
+# make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make header writes include/bespoke.h again from the sources
 #
 # As root, `demo` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
@@ -44,6 +45,10 @@ demo: dependencies
 test: dependencies
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+
+.PHONY: pairs
+pairs: build/retarget
+	sh examples_c/pairs.sh build/retarget "$${BESPOKE_ASSETS:-../shared/assets}" build/pairs --threads 2
 
 .PHONY: header
 header:
