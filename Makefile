@@ -11,6 +11,9 @@ CFLAGS = -O2 -g
 C_FLAGS = -std=c99 -pedantic -Wall -Wextra -Werror -Iinclude $(CFLAGS)
 C_SOURCES = $(wildcard examples_c/*.c)
 C_HEADERS = $(wildcard examples_c/*.h) include/bespoke.h
+# Where cargo puts what it builds.
+CARGO_TARGET_DIR ?= target
+BUILT = $(CARGO_TARGET_DIR)/release/libbespoke.$(SHARED)
 SHARED = $(if $(filter Darwin,$(shell uname)),dylib,so)
 ORIGIN = $(if $(filter Darwin,$(shell uname)),@loader_path,$$ORIGIN)
 SAMPLE = build/sample
@@ -21,10 +24,10 @@ all: build/retarget
 build:
 	mkdir -p build
 
-# cargo decides what is new; the copy keeps its date where nothing is.
+# cargo decides what is new; the copy keeps its date where nothing is. A library in use is replaced, not overwritten.
 build/libbespoke.$(SHARED): FORCE | build
 	cargo build --release --lib
-	cmp -s target/release/libbespoke.$(SHARED) $@ || cp target/release/libbespoke.$(SHARED) $@
+	cmp -s $(BUILT) $@ || { cp $(BUILT) $@.new && mv $@.new $@; }
 
 build/retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED)
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)'

@@ -17,6 +17,7 @@ const char *const options_usage =
     "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
     "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
     "  --fit-weight W          how tight (2); 0 switches the term off\n"
+    "  --designed-clearance X  with --source-avatar: how much of the looseness it had there to aim at (1); 0 is tight\n"
     "  --surface-weight W      how strongly the design keeps its shape (1)\n"
     "  --curve-weight W        the same for its boundary curves: curvature and torsion (1)\n"
     "  --position-weight W     how strongly cuffs, hems and collars keep their place along their bones (10)\n"
@@ -26,7 +27,7 @@ const char *const options_usage =
     "  --threads N             0: all cores (0)\n"
     "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
     "  --report FILE           a JSON file with times, iterations, energies, distances and counts\n"
-    "  --quiet                 no progress\n"
+    "  --quiet                 no progress on standard output\n"
     "  --help, --version\n"
     "\n"
     "OBJ files are read with 32-bit coordinates. The output is the garment's file with moved vertices: order, faces,\n"
@@ -57,15 +58,17 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
     const struct {
         const char *name;
         double *place;
+        bool is_positive;
     } numbers[] = {
-        {"--fit-weight", &options->fit_weight},
-        {"--surface-weight", &options->surface_weight},
-        {"--curve-weight", &options->curve_weight},
-        {"--position-weight", &options->position_weight},
-        {"--barrier-weight", &options->barrier_weight},
-        {"--dhat", &options->dhat},
-        {"--voxel", &options->voxel},
-        {"--threads", &options->threads},
+        {"--fit-weight", &options->fit_weight, false},
+        {"--designed-clearance", &options->designed_clearance, false},
+        {"--surface-weight", &options->surface_weight, false},
+        {"--curve-weight", &options->curve_weight, false},
+        {"--position-weight", &options->position_weight, false},
+        {"--barrier-weight", &options->barrier_weight, true},
+        {"--dhat", &options->dhat, true},
+        {"--voxel", &options->voxel, true},
+        {"--threads", &options->threads, false},
     };
     const struct {
         const char *name;
@@ -99,6 +102,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         const size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
         const char **path = NULL;
         double *number = NULL;
+        bool is_positive = false;
         for (size_t k = 0; k < path_count; k++) {
             if (strlen(paths[k].name) == length && strncmp(name, paths[k].name, length) == 0) {
                 path = paths[k].place;
@@ -107,6 +111,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         for (size_t k = 0; k < number_count; k++) {
             if (strlen(numbers[k].name) == length && strncmp(name, numbers[k].name, length) == 0) {
                 number = numbers[k].place;
+                is_positive = numbers[k].is_positive;
             }
         }
         if (path == NULL && number == NULL) {
@@ -120,8 +125,9 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
             *path = value;
         } else {
             const Word word = {value, value + strlen(value)};
-            if (!word_number(word, number) || *number < 0.0) {
-                return fail(message, "option %.*s has '%s', which is not a number from 0", (int)length, name, value);
+            if (!word_number(word, number) || *number < 0.0 || (is_positive && *number == 0.0)) {
+                return fail(message, "option %.*s has '%s', which is not a number %s", (int)length, name, value,
+                            is_positive ? "above 0" : "from 0");
             }
         }
     }

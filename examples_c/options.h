@@ -20,6 +20,7 @@ typedef struct Options {
     const char *report;
     /* Negative: not given. */
     double fit_weight;
+    double designed_clearance;
     double surface_weight;
     double curve_weight;
     double position_weight;

@@ -15,6 +15,10 @@ bool output_open(Output *output, const char *path, Message *message) {
     if (exists && S_ISDIR(status.st_mode)) {
         return fail(message, "%s: is a directory, a file is written here", path);
     }
+    /* The rename would not care, but who locked a file wants it to stay. */
+    if (exists && access(path, W_OK) != 0) {
+        return fail(message, "%s: cannot be written: %s", path, strerror(errno));
+    }
     /* Behind a symbolic link: the file is replaced, not the link. */
     char *place = exists ? realpath(path, NULL) : NULL;
     const char *chosen = place != NULL ? place : path;

@@ -140,9 +140,9 @@ static double weight(double given) {
     return given < 0.0 ? 0.0 : given == 0.0 ? BESPOKE_WEIGHT_OFF : given;
 }
 
-/* A length or stiffness: 0 is no sensible value, and the library says so of a negative one. */
+/* A length or stiffness, which is never 0: what was not given is the default. */
 static double magnitude(double given) {
-    return given == 0.0 ? -1.0 : given < 0.0 ? 0.0 : given;
+    return given < 0.0 ? 0.0 : given;
 }
 
 static bool set_options(Run *run) {
@@ -151,6 +151,7 @@ static bool set_options(Run *run) {
         .struct_size = sizeof options,
         .threads = given->threads > 0.0 ? (uint32_t)given->threads : 0,
         .fit_weight = weight(given->fit_weight),
+        .designed_clearance = weight(given->designed_clearance),
         .surface_weight = weight(given->surface_weight),
         .curvature_weight = weight(given->curve_weight),
         .torsion_weight = weight(given->curve_weight),
@@ -183,7 +184,8 @@ static bool set_inputs(Run *run) {
 
 /* On a terminal one line that is written over and over, elsewhere one line for each stage once it has ended. */
 static void show_progress(Run *run) {
-    static const char *const names[] = {"setup", "prepare", "inflate", "fit", "verify", "done"};
+    /* What goes on in the session, or goes on next. */
+    static const char *const names[] = {"prepare", "inflate", "inflate", "fit", "verify", "done"};
     BespokeProgress progress = {.struct_size = sizeof progress};
     if (run->options->quiet || bespoke_session_read_progress(run->session, &progress) != BESPOKE_STATUS_OK ||
         progress.stage > BESPOKE_STAGE_DONE) {
@@ -220,6 +222,7 @@ static void end_progress_line(Run *run) {
 }
 
 static bool work(Run *run) {
+    show_progress(run);
     if (!succeeded(run, bespoke_session_prepare(run->session), NULL)) {
         return false;
     }
@@ -314,6 +317,10 @@ int main(int count, char **words) {
     }
     watch_signal(SIGINT);
     watch_signal(SIGTERM);
+    watch_signal(SIGHUP);
+    /* A reader that went away and a limit on file sizes are errors of writing, with a sentence. */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     const bool good = dress(&run);
     for (size_t k = 0; k < 3; k++) {
         output_discard(&run.outputs[k]);

@@ -75,7 +75,11 @@ void text_free(Text *text) {
 }
 
 Line line_start(const Text *text) {
-    const Line line = {text->data, text->data, text->data, 0};
+    /* Some editors put a byte order mark in front, which would spoil the first word. */
+    static const char mark[] = "\xEF\xBB\xBF";
+    const size_t skipped = text->size >= 3 && memcmp(text->data, mark, 3) == 0 ? 3 : 0;
+    const char *begin = text->data + skipped;
+    const Line line = {begin, begin, begin, 0};
     return line;
 }
 
@@ -97,11 +101,17 @@ bool line_next(Line *line, const Text *text) {
     }
     line->number += breaks;
     const char *from = line->begin;
+    const char *first = from;
+    while (first < stop && (*first == ' ' || *first == '\t')) {
+        first++;
+    }
+    /* A comment may end with the backslash of a path, and is over at the end of its line nevertheless. */
+    const bool is_comment = first < stop && *first == '#';
     for (;;) {
         const char *feed = memchr(from, '\n', (size_t)(stop - from));
         line->end = break_begin(line->begin, feed != NULL ? feed : stop);
         line->next = feed != NULL ? feed + 1 : stop;
-        if (feed == NULL || line->end == line->begin || line->end[-1] != '\\' || line->next == stop) {
+        if (feed == NULL || is_comment || line->end == line->begin || line->end[-1] != '\\' || line->next == stop) {
             return true;
         }
         from = line->next;

@@ -28,7 +28,7 @@ bool text_read(Text *text, const char *path, Message *message);
 void text_free(Text *text);
 
 /* One line: from `begin` up to `end`, where its line break starts; `next` is the line after it. A backslash at the
-   end of a line joins the next one to it. */
+   end of a line joins the next one to it, but not at the end of a comment. */
 typedef struct Line {
     const char *begin;
     const char *end;
@@ -36,7 +36,7 @@ typedef struct Line {
     size_t number; /* of its first line, from 1 */
 } Line;
 
-/* The cursor before the first line; line_next moves it on and is false after the last one. */
+/* The cursor before the first line, behind a byte order mark; line_next moves it on and is false after the last one. */
 Line line_start(const Text *text);
 bool line_next(Line *line, const Text *text);
 
