@@ -24,6 +24,8 @@ const char *const options_usage =
     "  --barrier-weight W      stiffness of contacts (1e8)\n"
     "  --dhat D                distance at which contacts begin (0.002; the skeleton is 2 long)\n"
     "  --voxel D               resolution of the distance field (0.01; the skeleton is 2 long)\n"
+    "  --tolerance X           the fit ends where what a step still promises is below this part of the objective (1e-3)\n"
+    "  --printed-surface       the surface term as printed in the paper, which makes scaling cost something\n"
     "  --threads N             0: all cores (0)\n"
     "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
     "  --report FILE           a JSON file with times, iterations, energies, distances and counts\n"
@@ -68,12 +70,14 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         {"--barrier-weight", &options->barrier_weight, true},
         {"--dhat", &options->dhat, true},
         {"--voxel", &options->voxel, true},
+        {"--tolerance", &options->tolerance, true},
         {"--threads", &options->threads, false},
     };
     const struct {
         const char *name;
         bool *place;
     } flags[] = {
+        {"--printed-surface", &options->printed_surface},
         {"--quiet", &options->quiet},
         {"--help", &options->help},
         {"-h", &options->help},

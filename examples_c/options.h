@@ -27,7 +27,9 @@ typedef struct Options {
     double barrier_weight;
     double dhat;
     double voxel;
+    double tolerance;
     double threads;
+    bool printed_surface;
     bool quiet;
     bool help;
     bool version;

@@ -67,6 +67,9 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
     write_number(file, "garment_garment", report.garment_distance, ", ");
     write_number(file, "garment_avatar", report.avatar_distance, " },\n");
     fprintf(file, "  \"active_contacts\": %" PRIu64 ",\n", report.active_contacts);
+    fputs("  ", file);
+    write_number(file, "separation_floor", report.separation_floor, ",\n");
+    fprintf(file, "  \"converged\": %s,\n", report.is_converged != 0 ? "true" : "false");
     fprintf(file, "  \"verified\": %s,\n", report.is_verified != 0 ? "true" : "false");
     fprintf(file, "  \"intersections\": { \"garment_garment\": %" PRIu64 ", \"garment_avatar\": %" PRIu64 " },\n",
             report.garment_intersections, report.avatar_intersections);

@@ -159,6 +159,8 @@ static bool set_options(Run *run) {
         .barrier_weight = magnitude(given->barrier_weight),
         .dhat = magnitude(given->dhat),
         .voxel = magnitude(given->voxel),
+        .tolerance = magnitude(given->tolerance),
+        .surface_form = given->printed_surface ? BESPOKE_SURFACE_FORM_PRINTED : BESPOKE_SURFACE_FORM_SIMILARITY,
     };
     return succeeded(run, bespoke_session_set_options(run->session, &options), NULL);
 }

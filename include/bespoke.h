@@ -646,13 +646,25 @@ typedef struct BespokeReport {
    */
   uint64_t subdivided_avatar_triangles;
   /*
+   Distance that nothing falls below: the option, or less where the input is nearer than that.
+   */
+  double separation_floor;
+  /*
    1 where the verifier has looked at the result, else 0.
    */
   uint32_t is_verified;
   /*
+   1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
+   */
+  uint32_t is_converged;
+  /*
    Number of energy terms; see bespoke_session_read_energy.
    */
   uint32_t energy_count;
+  /*
+   Always 0.
+   */
+  uint32_t reserved;
 } BespokeReport;
 
 /*

@@ -63,6 +63,8 @@ pub struct Report {
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
+    /// The separation floor in force, lower than the option's where the input is nearer than that.
+    pub separation_floor: f64,
     /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
     /// Garment vertices and triangles.

@@ -136,10 +136,16 @@ pub struct BespokeReport {
     pub subdivided_avatar_vertices: u64,
     /// Triangles of the target avatar once those over several bones are split.
     pub subdivided_avatar_triangles: u64,
+    /// Distance that nothing falls below: the option, or less where the input is nearer than that.
+    pub separation_floor: f64,
     /// 1 where the verifier has looked at the result, else 0.
     pub is_verified: u32,
+    /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
+    pub is_converged: u32,
     /// Number of energy terms; see bespoke_session_read_energy.
     pub energy_count: u32,
+    /// Always 0.
+    pub reserved: u32,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
@@ -179,8 +185,11 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 avatar_triangles: own.avatar_size[1] as u64,
                 subdivided_avatar_vertices: own.projected_size[0] as u64,
                 subdivided_avatar_triangles: own.projected_size[1] as u64,
+                separation_floor: own.separation_floor,
                 is_verified: u32::from(own.verification.is_some()),
+                is_converged: u32::from(own.converged),
                 energy_count: own.terms.len() as u32,
+                reserved: 0,
             };
             sized::write(filled, report, "report")
         })

@@ -257,6 +257,7 @@ impl Session {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: [problem.avatar.positions.len(), problem.avatar.triangles.len()],
             projected_size: [problem.projected.start.len(), problem.projected.triangles.len()],
+            separation_floor: options.separation_floor,
             threads,
             ..Report::default()
         };
