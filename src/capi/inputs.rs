@@ -95,8 +95,8 @@ pub unsafe extern "C" fn bespoke_session_set_target_avatar(
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
-            let (mesh, precision) = mesh(positions, triangles, "target avatar")?;
-            session.set_target_avatar(mesh, precision)
+            let (mesh, _) = mesh(positions, triangles, "target avatar")?;
+            session.set_target_avatar(mesh)
         })
     }
 }

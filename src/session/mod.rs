@@ -58,7 +58,7 @@ pub struct Budget {
 pub struct Session {
     garment: Option<(TriangleMesh, Precision)>,
     source_skeleton: Option<Skeleton>,
-    avatar: Option<(TriangleMesh, Precision)>,
+    avatar: Option<TriangleMesh>,
     target_skeleton: Option<Skeleton>,
     source_avatar: Option<TriangleMesh>,
     skin: Option<SkinWeights>,
@@ -96,7 +96,7 @@ impl Session {
         Self::default()
     }
 
-    fn setting(&mut self, what: &str) -> Result<()> {
+    fn setting(&self, what: &str) -> Result<()> {
         if self.stage == Stage::Setup {
             return Ok(());
         }
@@ -137,10 +137,10 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
-    pub fn set_target_avatar(&mut self, mesh: TriangleMesh, precision: Precision) -> Result<()> {
+    pub fn set_target_avatar(&mut self, mesh: TriangleMesh) -> Result<()> {
         self.setting("the target avatar")?;
         mesh.check("target avatar")?;
-        self.avatar = Some((mesh, precision));
+        self.avatar = Some(mesh);
         Ok(())
     }
 
@@ -273,7 +273,7 @@ impl Session {
         let Some(source) = &self.source_skeleton else {
             return missing("the source skeleton", "set_source_skeleton");
         };
-        let Some((avatar, _)) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
+        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
         let Some(target) = &self.target_skeleton else {
             return missing("the target skeleton", "set_target_skeleton");
         };
@@ -448,10 +448,10 @@ impl Session {
     pub fn avatar_positions(&self) -> Result<Vec<DVec3>> {
         let work = self.working()?;
         let problem = &work.problem;
-        let Some((own, _)) = self.avatar.as_ref().filter(|_| work.state.t < 1.0) else {
-            return Ok(self.avatar.as_ref().map(|a| a.0.positions.clone()).unwrap_or_default());
-        };
-        debug_assert_eq!(own.positions.len(), problem.projected.shrunk.len());
+        if work.state.t >= 1.0 {
+            // To the bit as it came, not through the normalised space and back.
+            return Ok(self.avatar.as_ref().map(|avatar| avatar.positions.clone()).unwrap_or_default());
+        }
         let between = problem.projected.shrunk.iter().zip(&problem.avatar.positions);
         Ok(between.map(|(&a, &b)| self.restored(work, a.lerp(b, work.state.t))).collect())
     }
@@ -469,7 +469,7 @@ impl Session {
         let work = self.working()?;
         let positions = self.garment_positions()?.into_iter().map(|p| precision.round(p)).collect();
         let garment = TriangleMesh { positions, triangles: work.problem.triangles.clone() };
-        let Some((avatar, _)) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
+        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
         work.pool.install(|| {
             Ok(Verification {
                 garment_garment: intersections(&garment, None, 0)?.count,

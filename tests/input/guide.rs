@@ -1,12 +1,11 @@
 //! The bones that boundary loops follow.
 
-use std::collections::{BTreeMap, HashSet};
-use std::path::{Path, PathBuf};
-
 use bespoke::input::guide::{Guide, LoopGuide, choose_guides};
-use bespoke::input::mesh::{BoundaryLoop, TriangleMesh};
+use bespoke::input::mesh::{BoundaryLoop, Topology};
 use bespoke::input::skeleton::Skeleton;
 use glam::DVec3;
+
+use super::obj::{assets, read_mesh, read_skeleton};
 
 /// A person of height 1.7, z up, arms hanging down beside the body.
 fn person() -> Skeleton {
@@ -150,62 +149,17 @@ fn without_a_loop_or_a_bone_there_is_no_guide() {
     assert!(choose(&[DVec3::Z, DVec3::X], &person(), &person()).is_some());
 }
 
-fn assets() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assets");
-    let path = std::env::var_os("BESPOKE_ASSETS").map_or_else(beside, PathBuf::from);
-    path.join("garments").is_dir().then_some(path)
-}
-
-/// The vertices of an OBJ file, and what stands in its lines that begin with `element`, counted from 0.
-fn read_obj<const N: usize>(path: &Path, element: &str) -> (Vec<DVec3>, Vec<[u32; N]>) {
-    let text = std::fs::read_to_string(path).unwrap();
-    let (mut points, mut elements) = (Vec::new(), Vec::new());
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        let key = words.next().unwrap_or("");
-        if key == "v" {
-            let c: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
-            points.push(DVec3::from_slice(&c));
-        } else if key == element {
-            let index = |word: &str| word.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
-            elements.push(words.map(index).collect::<Vec<_>>().try_into().unwrap());
-        }
-    }
-    (points, elements)
-}
-
-/// The boundary loops of a manifold mesh, each from its smallest vertex, in the order of those.
-fn boundary_loops(mesh: &TriangleMesh) -> Vec<BoundaryLoop> {
-    let edges = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
-    let all: HashSet<(u32, u32)> = mesh.triangles.iter().flat_map(edges).collect();
-    let mut next: BTreeMap<u32, u32> = all.iter().copied().filter(|&(a, b)| !all.contains(&(b, a))).collect();
-    let mut loops = Vec::new();
-    while let Some((first, mut vertex)) = next.pop_first() {
-        let mut vertices = vec![first];
-        while vertex != first {
-            vertices.push(vertex);
-            vertex = next.remove(&vertex).unwrap();
-        }
-        loops.push(BoundaryLoop { vertices });
-    }
-    loops
-}
-
 /// The bones for the loops of a published garment, as pairs of joints, sorted.
 fn bones_of(garment: &str) -> Option<Vec<Vec<[u32; 2]>>> {
-    let Some(folder) = assets().map(|path| path.join("garments").join(garment)) else {
-        println!("skipped: set BESPOKE_ASSETS to the folder that holds garments/{garment}");
-        return None;
-    };
-    let (positions, triangles) = read_obj(&folder.join("garment.obj"), "f");
-    let (joints, bones) = read_obj(&folder.join("skeleton.obj"), "l");
-    let mesh = TriangleMesh { positions, triangles };
-    let skeleton = Skeleton { joints, bones };
+    let folder = assets()?.join("garments").join(garment);
+    let mesh = read_mesh(&folder.join("garment.obj"));
+    let skeleton = read_skeleton(&folder.join("skeleton.obj"));
+    let loops = Topology::new(mesh.positions.len(), &mesh.triangles).loops;
     let name = |bone: &u32| {
         let [a, b] = skeleton.bones[*bone as usize];
         [a.min(b), a.max(b)]
     };
-    let choices = choose_guides(&mesh.positions, &boundary_loops(&mesh), &skeleton, &skeleton);
+    let choices = choose_guides(&mesh.positions, &loops, &skeleton, &skeleton);
     let mut pairs: Vec<Vec<[u32; 2]>> =
         choices.into_iter().map(|choice| choice.unwrap().bones.iter().map(name).collect()).collect();
     pairs.sort();

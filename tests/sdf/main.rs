@@ -1,5 +1,7 @@
 //! The distance field, the search tree below it, and the shim around OpenVDB.
 
+#[path = "../support/obj.rs"]
+mod obj;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -1,7 +1,5 @@
 //! The Goblin: 20 components that cross each other, with open loops. Prints its figures (`--nocapture`).
 
-use std::fs;
-use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -11,42 +9,16 @@ use bespoke::sdf::volume::Volume;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 
+use crate::obj::{assets, read_mesh, read_skeleton};
 use crate::support::Random;
-
-fn vertices(text: &str) -> Vec<DVec3> {
-    let numbers = |line: &str| line.split_whitespace().filter_map(|w| w.parse().ok()).collect::<Vec<f64>>();
-    text.lines().filter_map(|l| l.strip_prefix("v ")).map(|l| DVec3::from_slice(&numbers(l))).collect()
-}
-
-fn triangles(text: &str) -> Vec<[u32; 3]> {
-    let index = |w: &str| w.split('/').next().and_then(|i| i.parse::<u32>().ok()).expect("a face index") - 1;
-    text.lines()
-        .filter_map(|l| l.strip_prefix("f "))
-        .flat_map(|l| {
-            let corners: Vec<u32> = l.split_whitespace().map(index).collect();
-            (2..corners.len()).map(move |i| [corners[0], corners[i - 1], corners[i]]).collect::<Vec<_>>()
-        })
-        .collect()
-}
 
 /// The Goblin, scaled so that the longest side of its skeleton's box is 2; none without the assets.
 fn goblin() -> Option<TriangleMesh> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/assets");
-    let folder = std::env::var_os("BESPOKE_ASSETS").map_or_else(beside, PathBuf::from).join("avatars/Goblin");
-    let (Ok(avatar), Ok(skeleton)) =
-        (fs::read_to_string(folder.join("avatar.obj")), fs::read_to_string(folder.join("skeleton.obj")))
-    else {
-        println!("skipped: no avatar in {}", folder.display());
-        return None;
-    };
-    let joints = vertices(&skeleton);
-    let low = joints.iter().fold(DVec3::INFINITY, |m, &p| m.min(p));
-    let high = joints.iter().fold(DVec3::NEG_INFINITY, |m, &p| m.max(p));
-    let scale = 2.0 / (high - low).max_element();
-    Some(TriangleMesh {
-        positions: vertices(&avatar).iter().map(|&p| p * scale).collect(),
-        triangles: triangles(&avatar),
-    })
+    let folder = assets()?.join("avatars/Goblin");
+    let scale = 2.0 / read_skeleton(&folder.join("skeleton.obj")).longest_side("skeleton").unwrap();
+    let mut mesh = read_mesh(&folder.join("avatar.obj"));
+    mesh.positions.iter_mut().for_each(|p| *p *= scale);
+    Some(mesh)
 }
 
 fn brute_force(mesh: &TriangleMesh, p: DVec3) -> f64 {

@@ -71,7 +71,7 @@ fn session(scale: f64, away: DVec3) -> Session {
     let mut session = Session::new();
     session.set_garment(sleeve(), Precision::F32).unwrap();
     session.set_source_skeleton(arm(1.0, DVec3::ZERO)).unwrap();
-    session.set_target_avatar(moved(&thick_arm(), scale, away), Precision::F32).unwrap();
+    session.set_target_avatar(moved(&thick_arm(), scale, away)).unwrap();
     session.set_target_skeleton(arm(scale, away)).unwrap();
     session
 }
@@ -202,7 +202,7 @@ fn stray_vertices_of_the_avatar_do_no_harm() {
     let mut session = session(1.0, DVec3::ZERO);
     let mut body = thick_arm();
     body.positions.extend([DVec3::new(1e7, 0.0, 0.0), DVec3::new(0.0, 0.0, 1e6)]);
-    session.set_target_avatar(body, Precision::F64).unwrap();
+    session.set_target_avatar(body).unwrap();
     assert_eq!(session.run().unwrap(), Stage::Done);
 }
 
@@ -221,7 +221,7 @@ fn a_bone_that_only_triangles_pass_must_be_enclosed_too() {
     let mut session = Session::new();
     session.set_garment(sheet, Precision::F64).unwrap();
     session.set_source_skeleton(skeleton.clone()).unwrap();
-    session.set_target_avatar(body, Precision::F64).unwrap();
+    session.set_target_avatar(body).unwrap();
     session.set_target_skeleton(skeleton).unwrap();
     let error = session.prepare().unwrap_err();
     assert_eq!(error.kind, ErrorKind::NotEnclosed);
@@ -265,7 +265,7 @@ fn the_source_body_keeps_the_designed_clearance() {
         let mut session = Session::new();
         session.set_garment(sleeve(), Precision::F64).unwrap();
         session.set_source_skeleton(arm(1.0, DVec3::ZERO)).unwrap();
-        session.set_target_avatar(body.clone(), Precision::F64).unwrap();
+        session.set_target_avatar(body.clone()).unwrap();
         session.set_target_skeleton(arm(1.0, DVec3::ZERO)).unwrap();
         session.set_options(Options { fit_weight: 20.0, ..Options::default() }).unwrap();
         if with_source {
