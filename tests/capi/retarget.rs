@@ -134,7 +134,9 @@ fn wrong_command_lines_are_refused() {
     folder.refuses(&["--dhat=-1"], 2, &["--dhat", "-1"]);
     folder.refuses(&["--threads", "1.5"], 2, &["--threads"]);
     folder.refuses(&["--report", "out.obj"], 2, &["out.obj"]);
-    folder.refuses(&["--dhat", "0"], 1, &["dhat"]);
+    folder.refuses(&["--dhat", "0"], 2, &["--dhat", "above 0"]);
+    folder.refuses(&["--dhat", "1"], 1, &["dhat"]);
+    folder.refuses(&["--designed-clearance", "3"], 1, &["designed_clearance"]);
     folder.refuses(&["--voxel", "1e300"], 1, &["voxel"]);
     let output = retarget().args(["--garment", "g.obj"]).output().expect("retarget can be run");
     assert_eq!(output.status.code(), Some(2));
@@ -295,6 +297,34 @@ fn numbers(text: &str, key: &str) -> Vec<Vec<f32>> {
         .filter_map(|line| line.strip_prefix(key))
         .map(|rest| rest.split_whitespace().map_while(|word| word.parse().ok()).collect())
         .collect()
+}
+
+/// What some editors and exporters leave in a file: a byte order mark, a comment that ends with a path's backslash.
+#[test]
+fn marks_and_paths_in_comments_hide_no_line() {
+    let folder = Folder::new("marks");
+    let plain = folder.read("g.obj");
+    folder.accepts(&["-o", "plain.obj"]);
+    for before in ["\u{feff}", "# C:\\models\\\n"] {
+        folder.write("g.obj", &format!("{before}{plain}"));
+        folder.accepts(&[]);
+        assert_eq!(numbers(&folder.read("out.obj"), "v "), numbers(&folder.read("plain.obj"), "v "));
+    }
+}
+
+/// A limit on the size of files would end the program with a signal and leave the file under its other name.
+#[test]
+fn a_file_that_grows_too_large_leaves_nothing() {
+    let folder = Folder::new("limit");
+    let before = folder.names();
+    let mut shell = Command::new("sh");
+    shell.current_dir(&folder.0).args(["-c", "ulimit -f 1; exec \"$@\"", "sh"]).arg(program());
+    shell.args(["--garment", "g.obj", "--source-skeleton", "s.obj", "--avatar", "a.obj", "--target-skeleton", "t.obj"]);
+    let output = shell.args(["--quiet", "-o", "out.obj"]).output().expect("sh can be run");
+    let sentence = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{sentence}");
+    assert!(sentence.contains("out.obj") && sentence.matches('\n').count() == 1, "{sentence}");
+    assert_eq!(folder.names(), before, "files were left behind");
 }
 
 /// Polygons are fans for the library and stay polygons in the file.
