@@ -17,6 +17,8 @@ BUILT = $(CARGO_TARGET_DIR)/release/libbespoke.$(SHARED)
 SHARED = $(if $(filter Darwin,$(shell uname)),dylib,so)
 ORIGIN = $(if $(filter Darwin,$(shell uname)),@loader_path,$$ORIGIN)
 SAMPLE = build/sample
+# Real meshes, where they are at hand: more tests, and the table of `make pairs`.
+ASSETS = $(or $(BESPOKE_ASSETS),../shared/assets)
 
 .PHONY: all
 all: build/retarget
@@ -48,10 +50,11 @@ demo: dependencies
 test: dependencies
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: pairs
 pairs: build/retarget
-	sh examples_c/pairs.sh build/retarget "$${BESPOKE_ASSETS:-../shared/assets}" build/pairs --threads 2
+	sh examples_c/pairs.sh build/retarget "$(ASSETS)" build/pairs --threads 2
 
 .PHONY: header
 header:
