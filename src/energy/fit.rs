@@ -72,7 +72,8 @@ impl Fit {
     /// `weights` (one a vertex, at least 0, interpolated linearly). A face with three zero weights is left
     /// out. All clearances are 0.
     ///
-    /// Six samples a face; three where its area is below half a square voxel, for the field has no detail there.
+    /// Six samples a face; three where its area is below four square voxels, so that samples are about a voxel apart
+    /// and the field has hardly any detail between them.
     pub fn new(field: Arc<Field>, triangles: &[[u32; 3]], areas: &[f64], weights: &[f64]) -> Self {
         let small = 4.0 * field.voxel() * field.voxel();
         let mut elements = Vec::new();

@@ -29,6 +29,8 @@ const SNAP_FROM: f64 = 0.7;
 const INNER_STEPS: u32 = 12;
 /// An inner solve ends where the squared Newton decrement is below this fraction of the objective.
 const INNER_TOLERANCE: f64 = 0.01;
+/// Penalty at which the augmented Lagrangian gives up: thirty doublings.
+const STRONGEST_DRIVE: f64 = 1e9;
 
 /// The state of Step 2.
 pub struct Inflation {
@@ -124,9 +126,6 @@ impl Inflation {
         Ok(())
     }
 }
-
-/// Penalty at which the augmented Lagrangian gives up: thirty doublings.
-const STRONGEST_DRIVE: f64 = 1e9;
 
 /// Jumps to t = 1 with the garment at rest, where nothing is in the way.
 fn snap(objective: &mut Objective, state: &mut State) -> bool {
