@@ -1,5 +1,6 @@
 //! The three steps of the paper: which energies, which weights, when it is done.
 
+pub mod enclosure;
 pub mod fit;
 pub mod frame;
 pub mod inflate;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{Objective, Shape};
@@ -94,7 +95,7 @@ impl Problem {
         let projected = project(&avatar, &target, &source, inputs.skin);
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         check_itself(&garment)?;
-        check_enclosure(&garment, &projected, &source)?;
+        enclosure::check(&garment, &projected, &source)?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let lengths = topology.mean_edge_lengths(&garment.positions);
@@ -233,33 +234,6 @@ fn check_itself(garment: &TriangleMesh) -> Result<()> {
              and merge vertices that lie at one point",
             found.count,
             named.join(", ")
-        ),
-    ))
-}
-
-/// Where the shrunk avatar meets the garment, Step 2 cannot begin.
-fn check_enclosure(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skeleton) -> Result<()> {
-    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
-    let found = intersections(garment, Some(&shrunk), usize::MAX)?;
-    let Some(&[_, piece]) = found.pairs.first() else { return Ok(()) };
-    let place = match projected.bones[piece as usize] {
-        Some(bone) => {
-            let [a, b] = source.bones[bone as usize];
-            format!("at the bone between joints {a} and {b}")
-        }
-        None => "between bones that form a cycle".to_string(),
-    };
-    let mut triangles: Vec<u32> = found.pairs.iter().map(|p| p[0]).collect();
-    triangles.dedup();
-    let count = triangles.len();
-    let named: Vec<String> = triangles.iter().take(8).map(u32::to_string).collect();
-    Err(Error::new(
-        ErrorKind::NotEnclosed,
-        format!(
-            "garment: the avatar, shrunk onto the source skeleton, pokes through it {place}: through garment triangles \
-             {}{} ({count} in all); move the garment or the skeleton so that the garment is around its bones",
-            named.join(", "),
-            if count > named.len() { ", ..." } else { "" },
         ),
     ))
 }

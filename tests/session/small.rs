@@ -172,6 +172,17 @@ fn a_garment_beside_its_skeleton_is_refused_with_the_place() {
 }
 
 #[test]
+fn a_garment_far_beside_its_skeleton_is_refused() {
+    for away in [DVec3::new(1.5, 0.0, 0.0), DVec3::new(0.0, -3.0, 0.5), DVec3::new(0.8, 0.8, 0.0)] {
+        let mut session = session(1.0, DVec3::ZERO);
+        session.set_garment(moved(&sleeve(), 1.0, away), Precision::F64).unwrap();
+        let error = session.prepare().unwrap_err();
+        assert_eq!(error.kind, ErrorKind::NotEnclosed);
+        assert!(error.message.contains("beside the source skeleton"), "{error}");
+    }
+}
+
+#[test]
 fn a_garment_through_itself_is_refused_with_the_triangles() {
     let mut session = session(1.0, DVec3::ZERO);
     let mut garment = sleeve();
