@@ -154,8 +154,8 @@ pub fn check_semidefinite(energy: &dyn Energy, x: &[DVec3], t: f64, random: &mut
     let d = dense(energy, x, t);
     let scale = d.hessian.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
     for (i, row) in d.hessian.iter().enumerate() {
-        for j in 0..i {
-            assert!((row[j] - d.hessian[j][i]).abs() <= 1e-12 * scale, "{}: not symmetric", energy.name());
+        for (j, value) in row.iter().enumerate().take(i) {
+            assert!((value - d.hessian[j][i]).abs() <= 1e-12 * scale, "{}: not symmetric", energy.name());
         }
     }
     for _ in 0..50 {

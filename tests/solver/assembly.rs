@@ -11,9 +11,12 @@ use glam::DVec3;
 
 use super::support::Random;
 
+/// Vertices, their components, the component along t, g and h.
+type Piece = (Vec<u32>, Vec<DVec3>, f64, f64, f64);
+
 /// Rank-one pieces and blocks over random vertices: an energy in form only.
 pub struct Pieces {
-    pub elements: Vec<(Vec<u32>, Vec<DVec3>, f64, f64, f64)>,
+    pub elements: Vec<Piece>,
 }
 
 impl Pieces {
@@ -140,8 +143,8 @@ fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
     }
     close(system.t_gradient, gt);
     close(system.t_hessian, ht);
-    for j in 0..3 * n {
-        for p in pattern.col_ptr()[j] as usize..pattern.col_ptr()[j + 1] as usize {
+    for (j, range) in pattern.col_ptr().windows(2).enumerate() {
+        for p in range[0] as usize..range[1] as usize {
             let i = pattern.row_idx()[p] as usize;
             assert!(i >= j);
             close(system.hessian[p], h[i][j]);

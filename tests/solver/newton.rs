@@ -138,20 +138,17 @@ fn the_border_agrees_with_a_dense_solve() {
     for i in 0..16 {
         let pivot = (i..16).max_by(|&a, &b| rows[a][i].abs().total_cmp(&rows[b][i].abs())).unwrap();
         rows.swap(i, pivot);
-        for k in 0..16 {
-            if k != i {
-                let f = rows[k][i] / rows[i][i];
-                for j in i..17 {
-                    rows[k][j] -= f * rows[i][j];
-                }
-            }
+        let row = rows[i].clone();
+        for (_, other) in rows.iter_mut().enumerate().filter(|(k, _)| *k != i) {
+            let f = other[i] / row[i];
+            other.iter_mut().zip(&row).skip(i).for_each(|(a, b)| *a -= f * b);
         }
     }
     let answer = |i: usize| rows[i][16] / rows[i][i];
     assert!((answer(15) - dt).abs() < 1e-6 * (1.0 + dt.abs()), "{} {dt}", answer(15));
-    for v in 0..5 {
-        for i in 0..3 {
-            assert!((answer(3 * v + i) - dx[v][i]).abs() < 1e-5, "{} {}", answer(3 * v + i), dx[v][i]);
+    for (v, d) in dx.iter().enumerate() {
+        for (i, &x) in d.to_array().iter().enumerate() {
+            assert!((answer(3 * v + i) - x).abs() < 1e-5, "{} {x}", answer(3 * v + i));
         }
     }
 }
