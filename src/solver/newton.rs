@@ -70,7 +70,7 @@ pub struct Counters {
 pub struct Accepted {
     /// The fraction of the direction that was taken.
     pub fraction: f64,
-    /// The objective before and after.
+    /// The objective before the step.
     pub before: f64,
     /// The objective after the step.
     pub after: f64,
@@ -147,7 +147,6 @@ impl Newton {
 
         let clock = Instant::now();
         self.factorise()?;
-        let n = self.system.gradient.len();
         self.response.clear();
         self.response.extend(self.system.gradient.iter().map(|g| -g));
         if border {
@@ -155,7 +154,7 @@ impl Newton {
         }
         self.factor.solve(&mut self.response, if border { 2 } else { 1 });
         self.counters.linear += clock.elapsed();
-        if self.response.iter().take(n).any(|v| !v.is_finite()) {
+        if self.response.iter().any(|v| !v.is_finite()) {
             return Err(Error::new(ErrorKind::Internal, "the linear solve gave a value that is not finite"));
         }
         Ok(())

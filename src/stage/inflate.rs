@@ -108,7 +108,7 @@ impl Inflation {
             return Ok(());
         }
         *inner = 0;
-        let Some(drive) = objective.inflation().copied() else { return Ok(()) };
+        let Some(mut drive) = objective.inflation().copied() else { return Ok(()) };
         if drive.penalty() > STRONGEST_DRIVE {
             return Err(Error::new(
                 ErrorKind::InflationStalled,
@@ -120,8 +120,9 @@ impl Inflation {
                 ),
             ));
         }
-        let multiplier = drive.multiplier() + drive.penalty() * (1.0 - state.t);
-        objective.set_inflation(Some(Lagrangian::new(2.0 * drive.penalty(), multiplier)));
+        drive.set_multiplier(drive.multiplier() + drive.penalty() * (1.0 - state.t));
+        drive.set_penalty(2.0 * drive.penalty());
+        objective.set_inflation(Some(drive));
         newton.forget_values();
         Ok(())
     }

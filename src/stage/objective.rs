@@ -121,6 +121,7 @@ impl Model for Objective {
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
         let step = Step { dx, dt };
         self.find_pairs(at, Some(&step));
-        ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, self.weights.separation_floor, longest)
+        let floor = self.barrier.settings().floor;
+        ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest)
     }
 }

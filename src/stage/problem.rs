@@ -74,8 +74,8 @@ impl Problem {
     /// Normalises, projects the avatar, and sets up the shape terms.
     ///
     /// # Errors
-    /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the shrunk avatar pokes
-    /// through the garment, `SelfIntersection` where the garment passes through itself.
+    /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the garment lies beside the skeleton or the
+    /// shrunk avatar pokes through it, `SelfIntersection` where the garment passes through itself.
     pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
