@@ -883,7 +883,7 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
  PREPARED; where it fails, the session still takes inputs.
 
  State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
- INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED, BUSY,
+ INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, BUSY,
  INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);

@@ -47,7 +47,7 @@ impl From<Stage> for BespokeStage {
 /// PREPARED; where it fails, the session still takes inputs.
 ///
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
-/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED, BUSY,
+/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, BUSY,
 /// INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -> BespokeStatus {
