@@ -1,6 +1,7 @@
 //! What a caller hands in, checked and turned into ours.
 
 pub mod buffer;
+pub mod diagnosis;
 pub mod guide;
 pub mod mesh;
 pub mod skeleton;
