@@ -42,6 +42,8 @@ pub struct Options {
     pub max_iterations: u32,
     /// Which form of the surface term.
     pub surface_form: SurfaceForm,
+    /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
+    pub strict: bool,
 }
 
 impl Default for Options {
@@ -63,6 +65,7 @@ impl Default for Options {
             tolerance: 1e-3,
             max_iterations: 500,
             surface_form: SurfaceForm::Similarity,
+            strict: false,
         }
     }
 }

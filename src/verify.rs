@@ -86,6 +86,18 @@ pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -
     Ok(all)
 }
 
+/// Those of `pairs` of triangles of one mesh that intersect, by the same measure as [`intersections`].
+///
+/// # Errors
+/// As [`intersections`]; no index of a pair may be out of range.
+pub fn intersecting(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Result<Vec<[u32; 2]>> {
+    judgeable(mesh, "mesh")?;
+    let points = Scale::of(mesh.positions.iter()).apply(&mesh.positions);
+    let triangle = |t: u32| &mesh.triangles[t as usize];
+    let hit = |&[s, t]: &[u32; 2]| triangles::touch_in_mesh(&points, triangle(s), triangle(t));
+    Ok(pairs.iter().copied().filter(hit).collect())
+}
+
 /// Refuses what would be judged wrongly or not at all. An empty mesh is fine: it intersects nothing.
 fn judgeable(mesh: &TriangleMesh, what: &str) -> Result<()> {
     let fail = |message: String| Err(Error::new(ErrorKind::InvalidMesh, message));

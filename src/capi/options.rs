@@ -61,6 +61,11 @@ pub struct BespokeOptions {
     pub max_iterations: u32,
     /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
+    /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
+    /// named by bespoke_session_read_diagnostics, and no others ever join them.
+    pub strict: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 // SAFETY: repr(C) of u32 pairs and f64 without padding.
@@ -104,6 +109,14 @@ impl BespokeOptions {
             tolerance: or_default(self.tolerance, default.tolerance),
             max_iterations: if self.max_iterations == 0 { default.max_iterations } else { self.max_iterations },
             surface_form,
+            strict: match self.strict {
+                0 => false,
+                1 => true,
+                other => {
+                    let message = format!("option strict is {other}; it must be 0 or 1");
+                    return Err(Error::new(ErrorKind::InvalidArgument, message));
+                }
+            },
         })
     }
 }
@@ -148,6 +161,8 @@ pub unsafe extern "C" fn bespoke_options_read_defaults(options: *mut BespokeOpti
             SurfaceForm::Similarity => BespokeSurfaceForm::Similarity,
             SurfaceForm::Printed => BespokeSurfaceForm::Printed,
         } as u32,
+        strict: u32::from(default.strict),
+        reserved: 0,
     };
     // SAFETY: passed on from the caller.
     match unsafe { sized::write(filled, options, "options") } {

@@ -8,6 +8,7 @@ use super::bodies::{Bodies, Configuration, Step};
 use super::bvh::{Aabb, Bvh, NodePair};
 use super::distance::Kind;
 use super::surface::Surface;
+use super::tangle::Tangle;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
 const PIECES: usize = 128;
@@ -156,10 +157,11 @@ pub struct BroadPhase {
     garment_work: Vec<NodePair>,
     avatar_work: Vec<NodePair>,
     pieces: Vec<Piece>,
+    tangle: Tangle,
 }
 
 impl BroadPhase {
-    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar.
+    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is tangled.
     pub fn new(bodies: &Bodies) -> Self {
         let (mut garment, mut avatar) = (SweptSurface::default(), SweptSurface::default());
         let n = bodies.garment_count();
@@ -168,12 +170,29 @@ impl BroadPhase {
         garment.tree = Bvh::new(&garment.triangles);
         avatar.bound(&bodies.avatar.surface, |i| at_rest(n + i));
         avatar.tree = Bvh::new(&avatar.triangles);
-        Self { garment, avatar, garment_work: Vec::new(), avatar_work: Vec::new(), pieces: Vec::new() }
+        Self {
+            garment,
+            avatar,
+            garment_work: Vec::new(),
+            avatar_work: Vec::new(),
+            pieces: Vec::new(),
+            tangle: Tangle::default(),
+        }
+    }
+
+    /// The tangle whose free pairs are left out.
+    pub fn tangle(&self) -> &Tangle {
+        &self.tangle
+    }
+
+    /// Replaces the tangle.
+    pub fn set_tangle(&mut self, tangle: Tangle) {
+        self.tangle = tangle;
     }
 
     /// Replaces `out` by all the pairs whose swept boxes, from `at` along the whole of `step`, come within a margin of
     /// each other along every axis: `margin_self` for the garment with itself, `margin_avatar` with the avatar. Pairs
-    /// that share a vertex are left out. `bodies` is what the broad phase was made for.
+    /// that share a vertex or are free in the tangle are left out. `bodies` is what the broad phase was made for.
     ///
     /// The result, its order included, is the same for any number of threads.
     pub fn candidates(
@@ -228,10 +247,15 @@ impl BroadPhase {
         for (run, (kind, class)) in RUNS.into_iter().enumerate() {
             let pieces = if class == Class::Garment { &*self_pieces } else { &*avatar_pieces };
             for piece in pieces {
-                out.pairs.extend_from_slice(match kind {
+                let found = match kind {
                     Kind::PointTriangle => &piece.point_triangle,
                     Kind::EdgeEdge => &piece.edge_edge,
-                });
+                };
+                if class == Class::Avatar || self.tangle.is_empty() {
+                    out.pairs.extend_from_slice(found);
+                } else {
+                    out.pairs.extend(found.iter().filter(|&&pair| !self.tangle.is_free(kind, pair)));
+                }
             }
             out.ends[run] = out.pairs.len();
         }

@@ -11,8 +11,10 @@ pub mod ccd;
 pub mod distance;
 pub mod mollifier;
 pub mod surface;
+pub mod tangle;
 
 pub use bodies::{Avatar, Bodies, Configuration, Garment, Step};
 pub use candidates::{BroadPhase, CandidateSet, Class};
 pub use distance::Kind;
 pub use surface::Surface;
+pub use tangle::Tangle;

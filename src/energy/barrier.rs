@@ -132,6 +132,20 @@ impl Barrier {
         parts.iter().fold(Activity::NONE, Activity::merged)
     }
 
+    /// The candidates that are closer than `distance` (at most d-hat) at `at`, in order.
+    pub fn nearer_than(&self, distance: f64, at: Configuration<'_>) -> Vec<(Kind, Class, [u32; 4])> {
+        let parts: Vec<Vec<_>> = self.map_chunks(|range| {
+            let mut found = Vec::new();
+            self.each_close(at, range, |close| {
+                if close.separation.squared < distance * distance {
+                    found.push((close.kind, close.class, close.pair));
+                }
+            });
+            found
+        });
+        parts.concat()
+    }
+
     fn map_chunks<T: Send>(&self, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
         let count = self.candidates.len();
         (0..count.div_ceil(CHUNK)).into_par_iter().map(|c| of(c * CHUNK..count.min((c + 1) * CHUNK))).collect()

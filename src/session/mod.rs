@@ -11,6 +11,7 @@ use glam::DVec3;
 pub use crate::control::Stage;
 use crate::control::{Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnosis::Finding;
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
@@ -40,6 +41,19 @@ impl Precision {
         match self {
             Self::F32 => p.as_vec3().as_dvec3(),
             Self::F64 => p,
+        }
+    }
+
+    /// The most that a coordinate is moved where the result, on the body `avatar`, is stored in this format.
+    fn error_near(self, avatar: &TriangleMesh) -> f64 {
+        let corners = avatar.triangles.iter().flatten().map(|&v| avatar.positions[v as usize]);
+        let (low, high) = corners.fold((DVec3::MAX, DVec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
+        // A garment may reach beyond the body.
+        let largest = low.abs().max(high.abs()).max_element() + (high - low).max_element();
+        match self {
+            Self::F32 => 0.5 * largest * f64::from(f32::EPSILON),
+            // What is computed in 64 bits is rounded on its way, too.
+            Self::F64 => 4.0 * largest * f64::EPSILON,
         }
     }
 }
@@ -245,19 +259,21 @@ impl Session {
             .thread_name(|k| format!("bespoke-{k}"))
             .build()
             .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")))?;
-        let problem = pool.install(|| self.pose_problem())?;
+        let mut findings = Vec::new();
+        let problem = pool.install(|| self.pose_problem(&mut findings))?;
         let field = FieldTask::start(problem.avatar.clone(), self.options.voxel, threads)?;
-        let (objective, options, newton, state) = pool.install(|| {
+        let options = self.options.clone();
+        let (objective, newton, state) = pool.install(|| {
             let state = State { x: problem.rest.clone(), t: 0.0 };
-            let (objective, options) = problem.begin(&self.options)?;
+            let objective = problem.begin(&options, &mut findings)?;
             let newton = Newton::new(state.x.len(), &objective.terms())?;
-            Ok((objective, options, newton, state))
+            Ok((objective, newton, state))
         })?;
         self.report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: [problem.avatar.positions.len(), problem.avatar.triangles.len()],
             projected_size: [problem.projected.start.len(), problem.projected.triangles.len()],
-            separation_floor: options.separation_floor,
+            separation_floor: objective.floor(),
             threads,
             ..Report::default()
         };
@@ -268,8 +284,8 @@ impl Session {
         Ok(())
     }
 
-    fn pose_problem(&self) -> Result<Problem> {
-        let Some((garment, _)) = &self.garment else { return missing("the garment", "set_garment") };
+    fn pose_problem(&self, findings: &mut Vec<Finding>) -> Result<Problem> {
+        let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
         let Some(source) = &self.source_skeleton else {
             return missing("the source skeleton", "set_source_skeleton");
         };
@@ -302,8 +318,10 @@ impl Session {
                 skin: self.skin.as_ref(),
                 source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
                 fit_weights: self.fit_weights.as_deref(),
+                coordinate_error: self.target_space.metres_per_unit * precision.error_near(avatar),
             },
             &self.options,
+            findings,
         )
     }
 

@@ -51,6 +51,9 @@ impl Work {
                 (Stage::Fit, converged || settling.iterations >= options.max_iterations)
             }
         };
+        if self.objective.review(self.state.configuration())? {
+            self.newton.forget_values();
+        }
         let part = if stage == Stage::Inflate { &mut report.inflate } else { &mut report.fit };
         part.add(&before, &self.newton.counters, clock.elapsed());
         self.describe(report);
@@ -69,7 +72,9 @@ impl Work {
         let clock = Instant::now();
         let (field, seconds) = self.field.wait(control)?;
         report.field_seconds = seconds;
-        self.objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options)?;
+        let mut objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options)?;
+        objective.take_over(&self.objective);
+        self.objective = objective;
         self.newton = Newton::new(self.state.x.len(), &self.objective.terms())?;
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         report.fit.seconds += clock.elapsed().as_secs_f64();
@@ -84,6 +89,7 @@ impl Work {
         report.min_distance_self = contact.min_distance_self;
         report.min_distance_avatar = contact.min_distance_avatar;
         report.gradient_norm = self.newton.gradient_norm();
+        report.separation_floor = self.objective.floor();
         report.t = self.state.t;
         let terms = self.objective.terms();
         let values = self.newton.values(&terms, at);

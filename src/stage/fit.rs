@@ -41,8 +41,9 @@ impl Settling {
     fn set_barrier(&self, objective: &mut Objective, state: &State, options: &Options) {
         let share = f64::from(self.level) / f64::from(LEVELS);
         let between = |from: f64, to: f64| if self.level == LEVELS { to } else { from * (to / from).powf(share) };
+        let gaps = objective.gaps();
         objective.set_contact(
-            between(options.inflation_dhat, options.dhat),
+            between(gaps.inflation_dhat, gaps.dhat),
             between(options.inflation_barrier_weight, options.barrier_weight),
         );
         objective.settle(state.configuration());

@@ -7,3 +7,4 @@ pub mod inflate;
 pub mod initialize;
 pub mod objective;
 pub mod problem;
+pub mod rounding;

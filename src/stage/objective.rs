@@ -2,17 +2,29 @@
 
 use std::sync::Arc;
 
-use crate::contact::{Bodies, BroadPhase, Configuration, Step, ccd};
+use glam::DVec3;
+
+use super::rounding::Gaps;
+use crate::contact::tangle::triangle_pairs_of;
+use crate::contact::{Bodies, BroadPhase, Class, Configuration, Step, Tangle, ccd};
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::inflation::Inflation;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
+use crate::error::Result;
+use crate::input::mesh::TriangleMesh;
 use crate::options::Options;
 use crate::solver::Term;
 use crate::solver::newton::Model;
-use glam::DVec3;
+use crate::verify::intersecting;
+
+/// Where something is nearer than the separation floor, the floor becomes this fraction of its distance.
+const FLOOR_SHARE: f64 = 0.25;
+
+/// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
+pub const NO_DISTANCE: f64 = 1e-12;
 
 /// The shape terms, which both steps share.
 pub struct Shape {
@@ -35,16 +47,17 @@ pub struct Objective {
     bodies: Arc<Bodies>,
     broad_phase: BroadPhase,
     weights: Options,
+    barrier_weight: f64,
+    gaps: Gaps,
 }
 
 impl Objective {
-    /// The objective without (Step 2) or with (Step 3) the fit term. `dhat_avatar` is where the barrier towards the
-    /// avatar begins.
-    pub fn new(shape: Arc<Shape>, fit: Option<Fit>, bodies: Arc<Bodies>, dhat_avatar: f64, weights: &Options) -> Self {
+    /// The objective without (Step 2) or with (Step 3) the fit term; the barrier is that of Step 2.
+    pub fn new(shape: Arc<Shape>, fit: Option<Fit>, bodies: Arc<Bodies>, gaps: Gaps, weights: &Options) -> Self {
         let settings = BarrierSettings {
-            dhat_self: weights.dhat,
-            dhat_avatar,
-            floor: weights.separation_floor,
+            dhat_self: gaps.own_dhat,
+            dhat_avatar: gaps.inflation_dhat,
+            floor: gaps.floor,
             ..BarrierSettings::default()
         };
         let barrier = Barrier::new(bodies.clone(), settings);
@@ -56,6 +69,8 @@ impl Objective {
             barrier,
             bodies,
             weights: weights.clone(),
+            barrier_weight: weights.inflation_barrier_weight,
+            gaps,
         }
     }
 
@@ -64,11 +79,113 @@ impl Objective {
         self.find_pairs(at, None);
     }
 
-    /// Changes where the barrier towards the avatar begins, and the weight of the barrier as a whole. The pairs must be
-    /// found again by [`Self::settle`].
+    /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
+    /// together with what touches within rounding. Lowers the floor below all that is guarded.
+    pub fn begin(&mut self, at: Configuration<'_>, tangled: &[[u32; 2]]) {
+        let mut pairs = tangled.to_vec();
+        loop {
+            self.broad_phase.set_tangle(Tangle::new(&self.bodies.garment.surface, &pairs));
+            self.settle(at);
+            let touching = self.touching(at);
+            if touching.is_empty() {
+                break;
+            }
+            pairs.extend(touching);
+        }
+        self.fit_floor(at, 0.0);
+    }
+
+    /// Goes on from `previous`, an objective of the same garment: with its tangle and its floor.
+    pub fn take_over(&mut self, previous: &Objective) {
+        self.broad_phase.set_tangle(previous.broad_phase.tangle().clone());
+        self.set_floor(previous.floor());
+    }
+
+    /// Triangles of the garment that touch within rounding and are not tangled.
+    fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
+        let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
+        let surface = &self.bodies.garment.surface;
+        near.filter(|&(_, class, _)| class == Class::Garment)
+            .flat_map(|(kind, _, pair)| triangle_pairs_of(surface, kind, pair))
+            .collect()
+    }
+
+    /// What has come apart is guarded from now on, and the floor follows the smallest distance, up to that of the gaps. To be
+    /// called after each accepted step. True where the barrier has changed.
+    ///
+    /// # Errors
+    /// `InvalidMesh` where a vertex is not finite.
+    pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
+        let floor = self.floor();
+        let released = self.release(at)?;
+        if released || floor < self.gaps.floor {
+            self.fit_floor(at, floor);
+        }
+        Ok(released || self.floor() != floor)
+    }
+
+    fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
+        let before = self.broad_phase.tangle();
+        if before.is_empty() {
+            return Ok(false);
+        }
+        let triangles = self.bodies.garment.surface.triangles.clone();
+        let mesh = TriangleMesh { positions: at.x.to_vec(), triangles };
+        let mut pairs = intersecting(&mesh, before.triangle_pairs())?;
+        if pairs.len() == before.triangle_pairs().len() {
+            return Ok(false);
+        }
+        let before = before.clone();
+        loop {
+            let tangle = Tangle::new(&self.bodies.garment.surface, &pairs);
+            let count = tangle.triangle_pairs().len();
+            self.broad_phase.set_tangle(tangle);
+            self.settle(at);
+            // What is apart by no more than rounding stays let off, and nothing is let off anew.
+            pairs.extend(self.touching(at).into_iter().filter(|&[s, t]| before.contains(s, t)));
+            let all = Tangle::new(&self.bodies.garment.surface, &pairs).triangle_pairs().len();
+            if all == count {
+                return Ok(count < before.triangle_pairs().len());
+            }
+        }
+    }
+
+    /// Sets the floor to that of the gaps, or below the smallest distance that is guarded at `at`; but not below `lowest`,
+    /// which is known to be below all of them, unless it is not.
+    fn fit_floor(&mut self, at: Configuration<'_>, lowest: f64) {
+        let near = self.barrier.activity(at);
+        let nearest = near.min_distance_self.min(near.min_distance_avatar);
+        let floor = (FLOOR_SHARE * nearest).min(self.gaps.floor);
+        self.set_floor(if nearest > lowest { floor.max(lowest) } else { floor });
+    }
+
+    /// The gaps that contact keeps.
+    pub fn gaps(&self) -> Gaps {
+        self.gaps
+    }
+
+    /// The distance that no guarded pair falls below.
+    pub fn floor(&self) -> f64 {
+        self.barrier.settings().floor
+    }
+
+    fn set_floor(&mut self, floor: f64) {
+        let settings = BarrierSettings { floor, ..*self.barrier.settings() };
+        if settings != *self.barrier.settings() {
+            self.barrier.set_settings(settings);
+        }
+    }
+
+    /// The garment triangles that still pass through each other.
+    pub fn tangle(&self) -> &Tangle {
+        self.broad_phase.tangle()
+    }
+
+    /// Sets where the barrier towards the avatar begins, and the weight of the barrier as a whole. The pairs must be found
+    /// again by [`Self::settle`].
     pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
-        self.weights.barrier_weight = weight;
+        self.barrier_weight = weight;
     }
 
     /// The drive on t, where there is one.
@@ -92,6 +209,20 @@ impl Objective {
         self.barrier.activity(at)
     }
 
+    /// The nearest pair of primitives at `at` among those below d-hat.
+    pub fn nearest(&self, at: Configuration<'_>) -> Option<[u32; 4]> {
+        let near = self.activity(at);
+        let distance = near.min_distance_self.min(near.min_distance_avatar);
+        // What is found is below the bound, not at it.
+        self.barrier.nearer_than(distance * (1.0 + 1e-9), at).first().map(|&(_, _, pair)| pair)
+    }
+
+    /// The garment's vertices among those of a pair.
+    pub fn garment_vertices(&self, pair: [u32; 4]) -> impl Iterator<Item = u32> {
+        let count = self.bodies.garment_count() as u32;
+        pair.into_iter().filter(move |&v| v < count)
+    }
+
     fn find_pairs(&mut self, at: Configuration<'_>, step: Option<&Step<'_>>) {
         let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();
         self.broad_phase.candidates(&self.bodies, at, step, dhat_self, dhat_avatar, self.barrier.candidates_mut());
@@ -107,7 +238,7 @@ impl Model for Objective {
             Term { energy: &shape.curvature, weight: w.curvature_weight },
             Term { energy: &shape.torsion, weight: w.torsion_weight },
             Term { energy: &shape.position, weight: w.position_weight },
-            Term { energy: &self.barrier, weight: w.barrier_weight },
+            Term { energy: &self.barrier, weight: self.barrier_weight },
         ];
         if let Some(drive) = &self.inflation {
             terms.push(Term { energy: drive, weight: 1.0 });

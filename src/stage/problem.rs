@@ -8,13 +8,15 @@ use rayon::prelude::*;
 use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
-use super::objective::{Objective, Shape};
+use super::objective::{NO_DISTANCE, Objective, Shape};
+use super::rounding::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject};
 use crate::input::guide::choose_guides;
 use crate::input::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::Skeleton;
@@ -24,11 +26,8 @@ use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
 use crate::verify::intersections;
 
-/// The separation floor is at most this fraction of the smallest distance at the start.
-const FLOOR_SHARE: f64 = 0.25;
-
-/// A distance below this is lost in the rounding of coordinates of order 1.
-const NO_DISTANCE: f64 = 1e-12;
+/// Pairs of triangles that are named one by one.
+const MOST_NAMED: usize = 1000;
 
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
@@ -46,6 +45,8 @@ pub struct Inputs<'a> {
     pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each garment vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
+    /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's space.
+    pub coordinate_error: f64,
 }
 
 /// The problem in the normalised space.
@@ -68,15 +69,20 @@ pub struct Problem {
     fit_weights: Vec<f64>,
     /// The body that the garment was designed on.
     source_body: Option<ClosestPoint>,
+    /// Pairs of garment triangles that intersect at the start, the lower index first.
+    tangled: Vec<[u32; 2]>,
+    gaps: Gaps,
 }
 
 impl Problem {
-    /// Normalises, projects the avatar, and sets up the shape terms.
+    /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing goes to `findings`, in the
+    /// indices of `inputs`.
     ///
     /// # Errors
-    /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the garment lies beside the skeleton or the
-    /// shrunk avatar pokes through it, `SelfIntersection` where the garment passes through itself.
-    pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
+    /// `InvalidSkeleton` for a skeleton without size, `InvalidMesh` where the coordinates of the result are too coarse,
+    /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it, and, if the options
+    /// are strict, `SelfIntersection` where the garment passes through itself.
+    pub fn new(inputs: &Inputs<'_>, options: &Options, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
         let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
@@ -94,7 +100,11 @@ impl Problem {
         gather_unused(&mut avatar);
         let projected = project(&avatar, &target, &source, inputs.skin);
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
-        check_itself(&garment)?;
+        let gaps = Gaps::of(options).widened(inputs.coordinate_error * target_frame.scale, &garment)?;
+        if gaps != Gaps::of(options) {
+            findings.push(coarse_coordinates(&gaps));
+        }
+        let tangled = intersections(&garment, None, usize::MAX)?.pairs;
         enclosure::check(&garment, &projected, &source)?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
@@ -135,47 +145,86 @@ impl Problem {
             shape: Arc::new(shape),
             fit_weights,
             source_body,
+            tangled,
+            gaps,
         })
     }
 
-    /// The objective of Step 2, the avatar moving with t, settled at its beginning; and the options with the separation
-    /// floor that this problem allows, which is lower where the garment is nearer to itself or the skeleton than that.
+    /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its separation floor is lower than the
+    /// option's where the garment is nearer to itself or the skeleton than that; its tangle holds the triangles that
+    /// intersect or touch at the start.
     ///
     /// # Errors
-    /// `SelfIntersection` where the distance at the start is lost in rounding.
-    pub fn begin(&self, options: &Options) -> Result<(Objective, Options)> {
+    /// `NotEnclosed` where the distance to the shrunk avatar is lost in rounding; if the options are strict,
+    /// `SelfIntersection` where the garment intersects or touches itself.
+    pub fn begin(&self, options: &Options, findings: &mut Vec<Finding>) -> Result<Objective> {
         let at = Configuration { x: &self.rest, t: 0.0 };
-        let mut objective = self.inflation_objective(options);
-        objective.settle(at);
-        let near = objective.activity(at);
-        let nearest = near.min_distance_self.min(near.min_distance_avatar);
-        if nearest > FLOOR_SHARE.recip() * options.separation_floor {
-            return Ok((objective, options.clone()));
-        }
-        if nearest < NO_DISTANCE {
-            return Err(Error::new(
-                ErrorKind::SelfIntersection,
-                format!(
-                    "garment: at the start it is within {nearest:e} of itself or of the skeleton, in units in which the \
-                     skeleton is 2 long; that is as good as touching. Move the parts at least {NO_DISTANCE:e} apart"
-                ),
-            ));
-        }
-        let options = Options { separation_floor: FLOOR_SHARE * nearest, ..options.clone() };
-        objective = self.inflation_objective(&options);
-        objective.settle(at);
-        Ok((objective, options))
-    }
-
-    fn inflation_objective(&self, options: &Options) -> Objective {
         let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
         let avatar = Avatar {
             surface: ContactSurface::new(self.projected.start.len(), self.projected.triangles.clone()),
             start: self.projected.start.clone(),
             motion,
         };
-        let weights = Options { barrier_weight: options.inflation_barrier_weight, ..options.clone() };
-        Objective::new(self.shape.clone(), None, self.bodies(avatar), options.inflation_dhat, &weights)
+        let mut objective = Objective::new(self.shape.clone(), None, self.bodies(avatar), self.gaps, options);
+        objective.begin(at, &self.tangled);
+        let tangled = objective.tangle().triangle_pairs();
+        if options.strict && !tangled.is_empty() {
+            return Err(intersects_itself(tangled));
+        }
+        self.report_tangle(tangled, findings);
+        let near = objective.activity(at);
+        if near.min_distance_avatar < NO_DISTANCE {
+            return Err(Error::new(
+                ErrorKind::NotEnclosed,
+                format!(
+                    "garment: at the start it is within {:e} of the shrunk avatar, in units in which the skeleton is 2 long; \
+                     that is as good as touching. Move garment or skeleton by at least {NO_DISTANCE:e}",
+                    near.min_distance_avatar
+                ),
+            ));
+        }
+        if objective.floor() < self.gaps.floor {
+            let vertices: Vec<Element> = objective
+                .nearest(at)
+                .into_iter()
+                .flat_map(|pair| objective.garment_vertices(pair))
+                .map(|v| Element::vertex(Subject::Garment, v))
+                .collect();
+            findings.push(Finding {
+                distance: near.min_distance_self.min(near.min_distance_avatar),
+                ..Finding::new(
+                    FindingKind::NearContact,
+                    Severity::Note,
+                    &vertices,
+                    format!(
+                        "garment: at the start it is within {:.1e} of itself and {:.1e} of the shrunk avatar, so that the \
+                         separation floor begins at {:.1e} and rises as they part",
+                        near.min_distance_self,
+                        near.min_distance_avatar,
+                        objective.floor()
+                    ),
+                )
+            });
+        }
+        Ok(objective)
+    }
+
+    fn report_tangle(&self, tangled: &[[u32; 2]], findings: &mut Vec<Finding>) {
+        let count = tangled.len();
+        for (k, &[s, t]) in tangled.iter().take(MOST_NAMED).enumerate() {
+            let how = if self.tangled.binary_search(&[s, t]).is_ok() { "intersect" } else { "touch within rounding" };
+            let more = match (k + 1 == MOST_NAMED, count - MOST_NAMED.min(count)) {
+                (true, rest) if rest > 0 => format!("; {rest} more pairs are not named"),
+                _ => String::new(),
+            };
+            let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
+            findings.push(Finding::new(
+                FindingKind::SelfIntersection,
+                Severity::Warning,
+                &elements,
+                format!("garment: triangles {s} and {t} {how} before anything has moved; they may still do so in the result{more}"),
+            ));
+        }
     }
 
     /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
@@ -200,7 +249,7 @@ impl Problem {
             let aims: Vec<f64> = designed.par_iter().map(|&p| options.designed_clearance * body.distance(p)).collect();
             fit.set_aims(&aims)?;
         }
-        Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), options.dhat, options))
+        Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), self.gaps, options))
     }
 
     fn bodies(&self, avatar: Avatar) -> Arc<Bodies> {
@@ -220,20 +269,33 @@ fn gather_unused(mesh: &mut TriangleMesh) {
     }
 }
 
-/// The barrier keeps apart what is apart; it cannot part what has met.
-fn check_itself(garment: &TriangleMesh) -> Result<()> {
-    let found = intersections(garment, None, 4)?;
-    if found.count == 0 {
-        return Ok(());
-    }
-    let named: Vec<String> = found.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
-    Err(Error::new(
+fn intersects_itself(pairs: &[[u32; 2]]) -> Error {
+    let named: Vec<String> = pairs.iter().take(4).map(|[a, b]| format!("{a} and {b}")).collect();
+    Error::new(
         ErrorKind::SelfIntersection,
         format!(
-            "garment: {} pairs of triangles intersect or touch before anything has moved (triangles {}); move them apart, \
-             and merge vertices that lie at one point",
-            found.count,
-            named.join(", ")
+            "garment: {} pairs of triangles intersect or touch before anything has moved (triangles {}{}); move them apart, or \
+             switch strict off",
+            pairs.len(),
+            named.join(", "),
+            if pairs.len() > named.len() { ", ..." } else { "" },
         ),
-    ))
+    )
+}
+
+fn coarse_coordinates(gaps: &Gaps) -> Finding {
+    Finding {
+        distance: gaps.floor,
+        ..Finding::new(
+            FindingKind::CoarseCoordinates,
+            Severity::Warning,
+            &[],
+            format!(
+                "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
+                 distance of {:.1e} at least, in units in which the skeleton is 2 long; a place nearer to the origin or 64 bits \
+                 allow a closer fit",
+                gaps.floor
+            ),
+        )
+    }
 }

@@ -1,0 +1,175 @@
+//! Garment triangles that pass through each other from the start, and what may be let off the barrier for it.
+//!
+//! Two triangles that are apart can only begin to intersect where a point of one meets the other, or two of their edges
+//! meet. A pair of such primitives is *free* where every pair of triangles that it belongs to is tangled already, and
+//! guarded otherwise. So triangles that are apart have all their primitives guarded and stay apart, while tangled ones may
+//! move through each other, and come apart where nothing else is in the way. A tangle only ever gets smaller.
+
+use std::collections::{HashMap, HashSet};
+
+use super::distance::Kind;
+use super::surface::Surface;
+
+/// The tangled pairs of triangles of one surface, and its free pairs of primitives.
+#[derive(Clone, Debug, Default)]
+pub struct Tangle {
+    /// The lower index first, in ascending order.
+    triangle_pairs: Vec<[u32; 2]>,
+    /// Free pairs in the form that [`canonical`] gives them.
+    free: HashSet<[u32; 4]>,
+    /// For each vertex, whether a free pair has it.
+    concerned: Vec<bool>,
+}
+
+impl Tangle {
+    /// The tangle of the given pairs of `surface`'s triangles, in any order.
+    pub fn new(surface: &Surface, triangle_pairs: &[[u32; 2]]) -> Self {
+        let mut sorted: Vec<[u32; 2]> = triangle_pairs.iter().map(|&[s, t]| [s.min(t), s.max(t)]).collect();
+        sorted.sort_unstable();
+        sorted.dedup();
+        let mut tangle = Self { triangle_pairs: sorted, ..Self::default() };
+        tangle.find_free(surface);
+        tangle
+    }
+
+    /// True without any pair.
+    pub fn is_empty(&self) -> bool {
+        self.triangle_pairs.is_empty()
+    }
+
+    /// The tangled pairs of triangles, the lower index first, in ascending order.
+    pub fn triangle_pairs(&self) -> &[[u32; 2]] {
+        &self.triangle_pairs
+    }
+
+    /// Whether two triangles are tangled.
+    pub fn contains(&self, s: u32, t: u32) -> bool {
+        self.triangle_pairs.binary_search(&[s.min(t), s.max(t)]).is_ok()
+    }
+
+    /// Whether a pair of garment primitives, as the broad phase has it, is let off.
+    #[inline]
+    pub fn is_free(&self, kind: Kind, pair: [u32; 4]) -> bool {
+        pair.iter().all(|&v| self.concerned[v as usize]) && self.free.contains(&canonical(kind, pair))
+    }
+
+    fn find_free(&mut self, surface: &Surface) {
+        self.concerned = vec![false; surface.vertex_count];
+        if self.is_empty() {
+            return;
+        }
+        let around = Around::new(surface, self.triangle_pairs.iter().flatten().copied());
+        let mut free = HashSet::new();
+        for &[s, t] in &self.triangle_pairs {
+            for (kind, pair) in primitive_pairs(surface, s, t) {
+                let key = canonical(kind, pair);
+                if !free.contains(&key) && around.all_triangle_pairs(surface, kind, pair, |s, t| self.contains(s, t)) {
+                    free.insert(key);
+                    pair.iter().for_each(|&v| self.concerned[v as usize] = true);
+                }
+            }
+        }
+        self.free = free;
+    }
+}
+
+/// The pairs of triangles of `surface` that hold the given pair of primitives, the lower index first.
+pub fn triangle_pairs_of(surface: &Surface, kind: Kind, pair: [u32; 4]) -> Vec<[u32; 2]> {
+    let all = 0..surface.triangles.len() as u32;
+    let mut found = Vec::new();
+    Around::new(surface, all).all_triangle_pairs(surface, kind, pair, |s, t| {
+        found.push([s.min(t), s.max(t)]);
+        true
+    });
+    found
+}
+
+/// One form for a pair of primitives, however its vertices are ordered. A point and a triangle have the point first and the
+/// triangle in descending order; of two edges, each has its lower end first and the lower edge leads. The order of the last
+/// two tells the kinds apart.
+#[inline]
+fn canonical(kind: Kind, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
+    match kind {
+        Kind::PointTriangle => {
+            let mut corners = [b, c, d];
+            corners.sort_unstable();
+            [a, corners[2], corners[1], corners[0]]
+        }
+        Kind::EdgeEdge => {
+            let (e, f) = ([a.min(b), a.max(b)], [c.min(d), c.max(d)]);
+            let [[a, b], [c, d]] = if e < f { [e, f] } else { [f, e] };
+            [a, b, c, d]
+        }
+    }
+}
+
+/// The pairs of primitives of two triangles that have no vertex in common.
+fn primitive_pairs(surface: &Surface, s: u32, t: u32) -> Vec<(Kind, [u32; 4])> {
+    let [p, q] = [s, t].map(|t| surface.triangles[t as usize]);
+    let mut pairs = Vec::with_capacity(15);
+    for (points, triangle, index) in [(p, q, t), (q, p, s)] {
+        let [a, b, c] = triangle;
+        if surface.has_face(index) {
+            pairs.extend(points.iter().filter(|v| !triangle.contains(v)).map(|&v| (Kind::PointTriangle, [v, a, b, c])));
+        }
+    }
+    for i in 0..3 {
+        for j in 0..3 {
+            let ([a, b], [c, d]) = ([p[i], p[(i + 1) % 3]], [q[j], q[(j + 1) % 3]]);
+            if a != b && c != d && a != c && a != d && b != c && b != d {
+                pairs.push((Kind::EdgeEdge, [a, b, c, d]));
+            }
+        }
+    }
+    pairs
+}
+
+/// The triangles around the vertices of some triangles.
+struct Around(HashMap<u32, Vec<u32>>);
+
+impl Around {
+    fn new(surface: &Surface, triangles: impl Iterator<Item = u32>) -> Self {
+        let mut around: HashMap<u32, Vec<u32>> = HashMap::new();
+        for t in triangles {
+            for v in surface.triangles[t as usize] {
+                around.entry(v).or_default();
+            }
+        }
+        for (t, corners) in (0..).zip(&surface.triangles) {
+            for (k, v) in corners.iter().enumerate() {
+                // A triangle that repeats a corner is still one.
+                if !corners[..k].contains(v)
+                    && let Some(list) = around.get_mut(v)
+                {
+                    list.push(t);
+                }
+            }
+        }
+        Self(around)
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        self.0.get(&v).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether `test` holds for all the pairs of triangles that hold the pair of primitives.
+    fn all_triangle_pairs(
+        &self,
+        surface: &Surface,
+        kind: Kind,
+        [a, b, c, d]: [u32; 4],
+        mut test: impl FnMut(u32, u32) -> bool,
+    ) -> bool {
+        let corners = |t: u32| &surface.triangles[t as usize];
+        match kind {
+            Kind::PointTriangle => {
+                let faces = self.of(b).iter().filter(|&&t| corners(t).contains(&c) && corners(t).contains(&d));
+                faces.clone().all(|&t| self.of(a).iter().all(|&s| test(s, t)))
+            }
+            Kind::EdgeEdge => {
+                let at = |p: u32, q: u32| self.of(p).iter().filter(move |&&t| corners(t).contains(&q));
+                at(a, b).all(|&s| at(c, d).all(|&t| test(s, t)))
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What may be let off the barrier, against its definition; and that nothing outside a tangle ever gets into one.
+
+use bespoke::contact::ccd::max_step;
+use bespoke::contact::tangle::triangle_pairs_of;
+use bespoke::contact::{
+    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Step, Surface, Tangle,
+};
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::verify::{intersecting, intersections};
+use glam::DVec3;
+
+use crate::scene::{Scene, grid, soup};
+use crate::support::Random;
+
+/// All the pairs of triangles that hold a pair of primitives, by looking at every triangle.
+fn holders(surface: &Surface, kind: Kind, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
+    let with = |vertices: &[u32]| -> Vec<u32> {
+        let count = surface.triangles.len() as u32;
+        (0..count).filter(|&t| vertices.iter().all(|v| surface.triangles[t as usize].contains(v))).collect()
+    };
+    let (first, second) = match kind {
+        Kind::PointTriangle => (with(&[a]), with(&[b, c, d])),
+        Kind::EdgeEdge => (with(&[a, b]), with(&[c, d])),
+    };
+    let mut pairs: Vec<[u32; 2]> =
+        first.iter().flat_map(|&s| second.iter().map(move |&t| [s.min(t), s.max(t)])).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+#[test]
+fn a_pair_is_free_where_all_that_hold_it_are_tangled() {
+    let mut counts = [0, 0];
+    for seed in 1..20 {
+        let mut random = Random::new(seed);
+        let surface = soup(40, 60, &mut random);
+        let count = surface.triangles.len();
+        let mut pick = |n: usize| (random.unit() * n as f64) as u32;
+        // Random pairs would hold hardly any primitive whole: take most of the pairs of a random part.
+        let part: Vec<u32> = (0..18).map(|_| pick(count)).collect();
+        let mut pairs = Vec::new();
+        for &s in &part {
+            for &t in &part {
+                if s != t && pick(10) > 0 {
+                    pairs.push([s, t]);
+                }
+            }
+        }
+        let tangle = Tangle::new(&surface, &pairs);
+        let tangled = |[s, t]: &[u32; 2]| pairs.contains(&[*s, *t]) || pairs.contains(&[*t, *s]);
+
+        let apart = |p: &[u32], q: &[u32]| p.iter().all(|v| !q.contains(v));
+        let mut judge = |kind: Kind, pair: [u32; 4]| {
+            let mut held = triangle_pairs_of(&surface, kind, pair);
+            held.sort_unstable();
+            held.dedup();
+            assert_eq!(held, holders(&surface, kind, pair), "{kind:?} {pair:?}");
+            let expected = held.iter().all(tangled);
+            assert_eq!(tangle.is_free(kind, pair), expected, "seed {seed}, {kind:?} {pair:?}");
+            counts[usize::from(expected)] += 1;
+        };
+        for (t, &[a, b, c]) in surface.triangles.iter().enumerate() {
+            if surface.has_face(t as u32) {
+                let used = |v: &u32| surface.triangles.iter().any(|t| t.contains(v));
+                (0..40).filter(used).filter(|v| apart(&[*v], &[a, b, c])).for_each(|v| {
+                    judge(Kind::PointTriangle, [v, c, a, b]);
+                });
+            }
+        }
+        for (k, &[a, b]) in surface.edges.iter().enumerate() {
+            for &[c, d] in &surface.edges[k + 1..] {
+                if apart(&[a, b], &[c, d]) {
+                    judge(Kind::EdgeEdge, [d, c, a, b]);
+                }
+            }
+        }
+    }
+    // Both answers are there in numbers.
+    assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
+}
+
+#[test]
+fn an_empty_tangle_frees_nothing() {
+    let surface = soup(20, 20, &mut Random::new(5));
+    let tangle = Tangle::new(&surface, &[]);
+    assert!(tangle.is_empty() && !tangle.contains(0, 1));
+    assert!(!tangle.is_free(Kind::EdgeEdge, [0, 1, 2, 3]));
+}
+
+#[test]
+fn free_pairs_are_left_out_and_no_others() {
+    for seed in 30..34 {
+        let scene = Scene::random(seed, 0.1);
+        let at = Configuration { x: &scene.x, t: 0.3 };
+        let mesh = TriangleMesh { positions: scene.x.clone(), triangles: scene.bodies.garment.surface.triangles.clone() };
+        let tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
+        let tangle = Tangle::new(&scene.bodies.garment.surface, &tangled);
+        let (mut all, mut guarded) = (CandidateSet::default(), CandidateSet::default());
+        let mut broad_phase = BroadPhase::new(&scene.bodies);
+        broad_phase.candidates(&scene.bodies, at, None, 0.05, 0.05, &mut all);
+        broad_phase.set_tangle(tangle.clone());
+        broad_phase.candidates(&scene.bodies, at, None, 0.05, 0.05, &mut guarded);
+        let mut left_out = 0;
+        for kind in [Kind::PointTriangle, Kind::EdgeEdge] {
+            let free = |pair: &&[u32; 4]| tangle.is_free(kind, **pair);
+            let expected: Vec<_> = all.of(kind, Class::Garment).iter().filter(|p| !free(p)).copied().collect();
+            assert_eq!(guarded.of(kind, Class::Garment), expected);
+            left_out += all.of(kind, Class::Garment).len() - expected.len();
+            assert_eq!(guarded.of(kind, Class::Avatar), all.of(kind, Class::Avatar));
+        }
+        assert!(left_out > 0, "seed {seed}");
+    }
+}
+
+/// Two wavy sheets, one through the other, and a third that crosses nothing.
+fn sheets(random: &mut Random) -> (Vec<DVec3>, Surface) {
+    let (positions, triangles) = grid(5);
+    let count = positions.len() as u32;
+    let mut all = Vec::new();
+    for (height, wave) in [(0.0, 0.05), (0.03, 0.05), (0.3, 0.02)] {
+        all.extend(positions.iter().map(|p| *p + DVec3::new(0.01 * height, 0.0, height) + wave * random.vector()));
+    }
+    let list = (0..3).flat_map(|k| triangles.iter().map(move |t| t.map(|v| v + k * count))).collect();
+    (all, Surface::new(3 * count as usize, list))
+}
+
+/// Random motions, each as far as the guarded pairs admit: the exact verifier never finds a pair of triangles that was not
+/// tangled before, and some come apart.
+#[test]
+fn a_tangle_only_shrinks() {
+    let mut came_apart = 0;
+    for seed in 1..7 {
+        let mut random = Random::new(100 + seed);
+        let (mut x, surface) = sheets(&mut random);
+        let triangles = surface.triangles.clone();
+        let bodies = Bodies {
+            garment: Garment { surface, rest: x.clone() },
+            avatar: Avatar { surface: Surface::new(0, vec![]), start: vec![], motion: vec![] },
+        };
+        let mut mesh = TriangleMesh { positions: x.clone(), triangles };
+        let mut tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
+        assert!(tangled.len() > 5);
+        let mut broad_phase = BroadPhase::new(&bodies);
+        let mut near = CandidateSet::default();
+        for round in 0..60 {
+            broad_phase.set_tangle(Tangle::new(&bodies.garment.surface, &tangled));
+            // Half of the motions pull the second sheet out of the first.
+            let dx: Vec<DVec3> = (0..x.len())
+                .map(|v| {
+                    let pull = if round % 2 == 0 && (36..72).contains(&v) { 0.02 } else { 0.0 };
+                    DVec3::Z * pull + 0.02 * random.vector()
+                })
+                .collect();
+            let (at, step) = (Configuration { x: &x, t: 0.0 }, Step { dx: &dx, dt: 0.0 });
+            broad_phase.candidates(&bodies, at, Some(&step), 1e-3, 1e-3, &mut near);
+            let fraction = max_step(&bodies, &near, at, &step, 1e-9, 1.0);
+            x.iter_mut().zip(&dx).for_each(|(x, d)| *x += fraction * *d);
+            mesh.positions.clone_from(&x);
+            let now = intersections(&mesh, None, usize::MAX).unwrap().pairs;
+            let new: Vec<_> = now.iter().filter(|p| !tangled.contains(p)).collect();
+            assert!(new.is_empty(), "seed {seed}, round {round}: {new:?}");
+            assert_eq!(now, intersecting(&mesh, &tangled).unwrap());
+            came_apart += tangled.len() - now.len();
+            tangled = now;
+        }
+    }
+    assert!(came_apart >= 10, "{came_apart}");
+}
