@@ -116,6 +116,19 @@ impl Finding {
     }
 }
 
+/// Largest number of findings for one reason.
+const MOST: usize = 64;
+
+/// Adds a finding for each of the first [`MOST`] items, and one more that counts the others: "100 more `others`".
+pub fn describe<T>(findings: &mut Vec<Finding>, items: &[T], finding: impl Fn(&T) -> Finding, others: &str) {
+    let first = findings.len();
+    findings.extend(items.iter().take(MOST).map(finding));
+    if items.len() > MOST {
+        let Finding { kind, severity, .. } = findings[first];
+        findings.push(Finding::new(kind, severity, &[], format!("{} more {others}", items.len() - MOST)));
+    }
+}
+
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.sentence)

@@ -58,6 +58,16 @@ impl TriangleMesh {
     }
 }
 
+/// A triangle whose doubled area is below this share of its longest edge squared has no area: its normal would be the
+/// noise of coordinates that came in 32 bits.
+pub const NO_AREA: f64 = 1e-6;
+
+/// False for a triangle whose corners lie on a line or in a point, up to [`NO_AREA`].
+pub fn has_area([a, b, c]: [DVec3; 3]) -> bool {
+    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    (b - a).cross(c - a).length() > NO_AREA * longest
+}
+
 /// Two triangles over one edge: `t1 = (v1, v2, v3)` and `t2 = (v2, v1, v4)`, as in Eq. 2 of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hinge {

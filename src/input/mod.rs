@@ -7,6 +7,7 @@ pub mod mesh;
 pub mod skeleton;
 pub mod skin;
 pub mod space;
+pub mod weld;
 
 use glam::DVec3;
 

@@ -6,6 +6,7 @@ mod mesh;
 mod skeleton;
 mod skin;
 mod space;
+mod weld;
 
 #[path = "../support/obj.rs"]
 mod obj;

@@ -1,0 +1,228 @@
+//! Split vertices and welded ones: a garment as a modelling tool stores it, and as the one surface that it is.
+
+use super::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
+use super::mesh::{TriangleMesh, has_area};
+
+/// A garment whose vertices in one place are one vertex, and the way back to the caller's indices.
+///
+/// Vertices in the caller's order, triangles in the caller's order and winding: a garment without split vertices and
+/// faulty triangles stays as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Weld {
+    /// The welded garment, without duplicate triangles.
+    pub mesh: TriangleMesh,
+    /// The welded vertex of each of the caller's vertices.
+    pub to_welded: Vec<u32>,
+    /// The caller's vertex that each welded vertex is, the lowest where there are several.
+    pub vertex_of: Vec<u32>,
+    /// The caller's triangle that each triangle of the welded garment is.
+    pub triangle_of: Vec<u32>,
+}
+
+/// A triangle with two corners in one place.
+struct Collapsed {
+    triangle: u32,
+    kept: bool,
+}
+
+impl Weld {
+    /// Welds `garment`, which has passed [`TriangleMesh::check`], and says what was found in it.
+    ///
+    /// Vertices at equal positions (to the last bit, but -0 is 0) become one. Of the triangles with the same three corners
+    /// in any order, such as two sides modelled in one place, the first is kept. A triangle that repeats a corner is kept
+    /// only where it is the first to hold an edge, for contact must see a wire; it takes no part in anything else.
+    pub fn new(garment: &TriangleMesh) -> (Self, Vec<Finding>) {
+        let (to_welded, vertex_of) = weld_vertices(garment);
+        let corners: Vec<[u32; 3]> = garment.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
+        let duplicates = duplicates(&corners);
+        let mut keep: Vec<bool> = corners.iter().map(is_face).collect();
+        duplicates.iter().for_each(|&[copy, _]| keep[copy as usize] = false);
+        let (crowded, collapsed) = edges(&corners, &mut keep);
+
+        let triangle_of: Vec<u32> = (0..corners.len() as u32).filter(|&t| keep[t as usize]).collect();
+        let mesh = TriangleMesh {
+            positions: vertex_of.iter().map(|&v| garment.positions[v as usize]).collect(),
+            triangles: triangle_of.iter().map(|&t| corners[t as usize]).collect(),
+        };
+        let weld = Self { mesh, to_welded, vertex_of, triangle_of };
+        let mut findings = weld.split_vertices();
+        report_duplicates(&mut findings, &duplicates);
+        weld.report_degenerate(&mut findings, garment, &collapsed);
+        weld.report_crowded(&mut findings, &crowded);
+        weld.report_unused(&mut findings);
+        (weld, findings)
+    }
+
+    /// Values of the welded vertices, for each of the caller's: copies of one vertex get the same bits.
+    pub fn spread<T: Copy>(&self, welded: &[T]) -> Vec<T> {
+        self.to_welded.iter().map(|&w| welded[w as usize]).collect()
+    }
+
+    /// Values of the caller's vertices, for each welded one: the mean over the copies, so that no side of a seam
+    /// outweighs the other. Equal copies give the same bits.
+    pub fn gather(&self, values: &[f64]) -> Vec<f64> {
+        let mut means = vec![0.0; self.vertex_of.len()];
+        let mut counts = vec![0.0; self.vertex_of.len()];
+        for (&w, &value) in self.to_welded.iter().zip(values) {
+            let (mean, count): (&mut f64, &mut f64) = (&mut means[w as usize], &mut counts[w as usize]);
+            *count += 1.0;
+            // A running mean: a sum of large weights could overflow.
+            *mean += (value - *mean) / *count;
+        }
+        means
+    }
+
+    fn split_vertices(&self) -> Vec<Finding> {
+        let (all, places) = (self.to_welded.len(), self.vertex_of.len());
+        if all == places {
+            return Vec::new();
+        }
+        let mut copies = vec![0u32; places];
+        self.to_welded.iter().for_each(|&w| copies[w as usize] += 1);
+        let shared = copies.iter().filter(|&&n| n > 1).count();
+        let split = (0..all as u32).filter(|&v| copies[self.to_welded[v as usize] as usize] > 1);
+        let elements: Vec<Element> = split.take(4).map(garment_vertex).collect();
+        let sentence = format!(
+            "garment: {} of the {all} vertices share their place with another, in {shared} places, as along UV and normal \
+             seams; copies move as one, so there are {places} vertices to place. The result is in the caller's order",
+            all - places + shared
+        );
+        vec![Finding::new(FindingKind::SplitVertices, Severity::Note, &elements, sentence)]
+    }
+
+    fn report_degenerate(&self, findings: &mut Vec<Finding>, garment: &TriangleMesh, collapsed: &[Collapsed]) {
+        let finding = |triangle: u32, text: String| {
+            let elements = [Element::triangle(Subject::Garment, triangle)];
+            Finding::new(FindingKind::DegenerateTriangle, Severity::Note, &elements, text)
+        };
+        let fate = |&Collapsed { triangle, kept }: &Collapsed| {
+            let [a, b, c] = garment.triangles[triangle as usize];
+            let treated = if kept { "it counts as a wire, which collides and nothing more" } else { "it is left out" };
+            let corners = format!("garment: triangle {triangle} (vertices {a}, {b}, {c}) has corners in one place");
+            finding(triangle, format!("{corners}; {treated}"))
+        };
+        describe(findings, collapsed, fate, "garment triangles have corners in one place");
+        let flat: Vec<u32> = (0..self.mesh.triangles.len())
+            .filter(|&k| {
+                let corners = self.mesh.triangles[k];
+                is_face(&corners) && !has_area(corners.map(|v| self.mesh.positions[v as usize]))
+            })
+            .map(|k| self.triangle_of[k])
+            .collect();
+        let line = |&t: &u32| {
+            let [a, b, c] = garment.triangles[t as usize];
+            finding(
+                t,
+                format!("garment: triangle {t} (vertices {a}, {b}, {c}) has its corners on a line; it has no area"),
+            )
+        };
+        describe(findings, &flat, line, "garment triangles have their corners on a line");
+    }
+
+    fn report_crowded(&self, findings: &mut Vec<Finding>, crowded: &[([u32; 2], u32)]) {
+        let finding = |&(edge, count): &([u32; 2], u32)| {
+            let [a, b] = edge.map(|w| self.vertex_of[w as usize]);
+            let sentence = format!(
+                "garment: the edge between vertices {a} and {b} has {count} triangles; each of them bends with every \
+                 other, and boundary curves that end there do not hold their shape"
+            );
+            Finding::new(FindingKind::NonManifoldEdge, Severity::Warning, &[a, b].map(garment_vertex), sentence)
+        };
+        describe(findings, crowded, finding, "garment edges have more than two triangles");
+    }
+
+    fn report_unused(&self, findings: &mut Vec<Finding>) {
+        let mut used = vec![false; self.vertex_of.len()];
+        self.mesh.triangles.iter().flatten().for_each(|&w| used[w as usize] = true);
+        let unused: Vec<u32> =
+            (0..self.to_welded.len() as u32).filter(|&v| !used[self.to_welded[v as usize] as usize]).collect();
+        let finding = |&v: &u32| {
+            let sentence =
+                format!("garment: vertex {v} belongs to no triangle with a side; nothing holds it in its place");
+            Finding::new(FindingKind::UnusedVertex, Severity::Note, &[garment_vertex(v)], sentence)
+        };
+        describe(findings, &unused, finding, "garment vertices belong to no triangle");
+    }
+}
+
+fn garment_vertex(v: u32) -> Element {
+    Element::vertex(Subject::Garment, v)
+}
+
+/// The welded vertex of each vertex, and the lowest vertex of each welded one, in the order of those.
+fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
+    // Adding 0 turns -0 into 0.
+    let key = |v: u32| garment.positions[v as usize].to_array().map(|x| (x + 0.0).to_bits());
+    let mut order: Vec<([u64; 3], u32)> = (0..garment.positions.len() as u32).map(|v| (key(v), v)).collect();
+    order.sort_unstable();
+    let mut lowest = vec![0; order.len()];
+    for place in order.chunk_by(|a, b| a.0 == b.0) {
+        place.iter().for_each(|&(_, v)| lowest[v as usize] = place[0].1);
+    }
+    let mut to_welded = Vec::with_capacity(lowest.len());
+    let mut vertex_of = Vec::new();
+    for (v, &low) in lowest.iter().enumerate() {
+        if low as usize == v {
+            to_welded.push(vertex_of.len() as u32);
+            vertex_of.push(low);
+        } else {
+            to_welded.push(to_welded[low as usize]);
+        }
+    }
+    (to_welded, vertex_of)
+}
+
+fn is_face(&[a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
+}
+
+/// Faces with the corners of an earlier one, each with that, in ascending order.
+fn duplicates(corners: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let sorted = |mut t: [u32; 3]| {
+        t.sort_unstable();
+        t
+    };
+    let mut faces: Vec<([u32; 3], u32)> =
+        (0u32..).zip(corners).filter(|(_, t)| is_face(t)).map(|(k, &t)| (sorted(t), k)).collect();
+    faces.sort_unstable();
+    let same = faces.chunk_by(|a, b| a.0 == b.0);
+    let mut copies: Vec<[u32; 2]> = same.flat_map(|c| c[1..].iter().map(|&(_, k)| [k, c[0].1])).collect();
+    copies.sort_unstable();
+    copies
+}
+
+/// Edges with more than two of the kept faces and how many these are; and what becomes of triangles that repeat a corner,
+/// of which those that are the first to hold an edge are added to `keep`.
+fn edges(corners: &[[u32; 3]], keep: &mut [bool]) -> (Vec<([u32; 2], u32)>, Vec<Collapsed>) {
+    let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|[a, b]| [a.min(b), a.max(b)]);
+    let mut edges: Vec<[u32; 2]> =
+        corners.iter().zip(&*keep).filter(|(_, keep)| **keep).flat_map(|(t, _)| sides(t)).collect();
+    edges.sort_unstable();
+    let crowded = edges.chunk_by(|a, b| a == b).filter(|e| e.len() > 2).map(|e| (e[0], e.len() as u32)).collect();
+    edges.dedup();
+
+    // The one edge of a triangle that repeats a corner, none for a point.
+    let wire = |t: &[u32; 3]| sides(t).into_iter().find(|[a, b]| a != b);
+    let mut wires: Vec<([u32; 2], u32)> = (0u32..)
+        .zip(corners)
+        .filter(|(_, t)| !is_face(t))
+        .filter_map(|(k, t)| wire(t).filter(|e| edges.binary_search(e).is_err()).map(|e| (e, k)))
+        .collect();
+    wires.sort_unstable();
+    wires.chunk_by(|a, b| a.0 == b.0).for_each(|same| keep[same[0].1 as usize] = true);
+    let collapsed = (0u32..)
+        .zip(corners)
+        .filter(|(_, t)| !is_face(t))
+        .map(|(k, _)| Collapsed { triangle: k, kept: keep[k as usize] })
+        .collect();
+    (crowded, collapsed)
+}
+
+fn report_duplicates(findings: &mut Vec<Finding>, duplicates: &[[u32; 2]]) {
+    let finding = |&[copy, first]: &[u32; 2]| {
+        let sentence = format!("garment: triangle {copy} has the corners of triangle {first}; the two count as one");
+        let elements = [copy, first].map(|t| Element::triangle(Subject::Garment, t));
+        Finding::new(FindingKind::DuplicateTriangle, Severity::Note, &elements, sentence)
+    };
+    describe(findings, duplicates, finding, "garment triangles have the corners of another");
+}
