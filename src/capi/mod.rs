@@ -21,4 +21,7 @@ pub mod control;
 
 pub mod results;
 
+pub mod diagnostics;
+
 mod sized;
+mod text;

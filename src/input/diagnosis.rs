@@ -117,7 +117,7 @@ impl Finding {
 }
 
 /// Largest number of findings for one reason.
-const MOST: usize = 64;
+const MOST: usize = 1000;
 
 /// Adds a finding for each of the first [`MOST`] items, and one more that counts the others: "100 more `others`".
 pub fn describe<T>(findings: &mut Vec<Finding>, items: &[T], finding: impl Fn(&T) -> Finding, others: &str) {

@@ -1,0 +1,206 @@
+//! What is worth knowing about inputs and result, element by element.
+
+use std::ffi::c_char;
+
+use crate::capi::session::{BespokeSession, call};
+use crate::capi::status::BespokeStatus;
+use crate::capi::text;
+use crate::capi::view::invalid;
+use crate::input::diagnosis::{Element, ElementKind, Finding, FindingKind, Severity, Subject};
+
+/// Bytes of the sentence in BespokeDiagnostic, its zero byte included.
+pub const BESPOKE_SENTENCE_SIZE: usize = 512;
+
+/// Elements that a BespokeDiagnostic can name.
+pub const BESPOKE_MAX_ELEMENTS: usize = 4;
+
+/// What a diagnostic is about.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeDiagnosticKind {
+    /// Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
+    SplitVertices = 1,
+    /// A garment triangle with the corners of another, which counts once. Both are named.
+    DuplicateTriangle = 2,
+    /// A garment triangle without area.
+    DegenerateTriangle = 3,
+    /// A garment edge with more than two triangles. Its vertices are named.
+    NonManifoldEdge = 4,
+    /// A garment vertex that no triangle uses.
+    UnusedVertex = 5,
+    /// A small piece of the garment, such as a button, that is held to the piece beside it.
+    LoosePiece = 6,
+    /// Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
+    /// they have come apart.
+    SelfIntersection = 7,
+    /// Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
+    /// named.
+    NearContact = 8,
+    /// The avatar, shrunk onto the source skeleton, passes through the garment.
+    AvatarPokes = 9,
+    /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
+    CoarseCoordinates = 10,
+    /// Two triangles that intersect in the result and did not at the start.
+    ResultIntersection = 11,
+}
+
+/// How much a diagnostic matters.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeSeverity {
+    /// Good to know.
+    Note = 1,
+    /// The result may be worse for it.
+    Warning = 2,
+    /// There is no result because of it.
+    Error = 3,
+}
+
+/// Which of the inputs an element belongs to.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeSubject {
+    /// The garment.
+    Garment = 1,
+    /// The body to dress.
+    TargetAvatar = 2,
+    /// The body that the garment was designed on.
+    SourceAvatar = 3,
+    /// The skeleton that the garment was designed on.
+    SourceSkeleton = 4,
+    /// The skeleton of the body to dress.
+    TargetSkeleton = 5,
+}
+
+/// What the index of an element counts.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BespokeElementKind {
+    /// Vertices of a mesh.
+    Vertex = 1,
+    /// Triangles of a mesh.
+    Triangle = 2,
+    /// Bones of a skeleton.
+    Bone = 3,
+}
+
+/// A vertex, triangle or bone of an input.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BespokeElement {
+    /// One of BespokeSubject; 0 where there is no element.
+    pub subject: u32,
+    /// One of BespokeElementKind.
+    pub kind: u32,
+    /// The caller's index, from 0.
+    pub index: u32,
+}
+
+/// One thing worth knowing about the inputs or the result.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BespokeDiagnostic {
+    /// One of BespokeDiagnosticKind.
+    pub kind: u32,
+    /// One of BespokeSeverity.
+    pub severity: u32,
+    /// Elements in use.
+    pub element_count: u32,
+    /// The elements that it is about, for a tool to select.
+    pub elements: [BespokeElement; BESPOKE_MAX_ELEMENTS],
+    /// 0.
+    pub reserved: u32,
+    /// A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
+    /// has none.
+    pub distance: f64,
+    /// One sentence, UTF-8; ends with a zero byte.
+    pub sentence: [c_char; BESPOKE_SENTENCE_SIZE],
+}
+
+impl From<&Element> for BespokeElement {
+    fn from(element: &Element) -> Self {
+        let subject = match element.subject {
+            Subject::Garment => BespokeSubject::Garment,
+            Subject::TargetAvatar => BespokeSubject::TargetAvatar,
+            Subject::SourceAvatar => BespokeSubject::SourceAvatar,
+            Subject::SourceSkeleton => BespokeSubject::SourceSkeleton,
+            Subject::TargetSkeleton => BespokeSubject::TargetSkeleton,
+        };
+        let kind = match element.kind {
+            ElementKind::Vertex => BespokeElementKind::Vertex,
+            ElementKind::Triangle => BespokeElementKind::Triangle,
+            ElementKind::Bone => BespokeElementKind::Bone,
+        };
+        Self { subject: subject as u32, kind: kind as u32, index: element.index }
+    }
+}
+
+impl From<&Finding> for BespokeDiagnostic {
+    fn from(finding: &Finding) -> Self {
+        let kind = match finding.kind {
+            FindingKind::SplitVertices => BespokeDiagnosticKind::SplitVertices,
+            FindingKind::DuplicateTriangle => BespokeDiagnosticKind::DuplicateTriangle,
+            FindingKind::DegenerateTriangle => BespokeDiagnosticKind::DegenerateTriangle,
+            FindingKind::NonManifoldEdge => BespokeDiagnosticKind::NonManifoldEdge,
+            FindingKind::UnusedVertex => BespokeDiagnosticKind::UnusedVertex,
+            FindingKind::LoosePiece => BespokeDiagnosticKind::LoosePiece,
+            FindingKind::SelfIntersection => BespokeDiagnosticKind::SelfIntersection,
+            FindingKind::NearContact => BespokeDiagnosticKind::NearContact,
+            FindingKind::AvatarPokes => BespokeDiagnosticKind::AvatarPokes,
+            FindingKind::CoarseCoordinates => BespokeDiagnosticKind::CoarseCoordinates,
+            FindingKind::ResultIntersection => BespokeDiagnosticKind::ResultIntersection,
+        };
+        let severity = match finding.severity {
+            Severity::Note => BespokeSeverity::Note,
+            Severity::Warning => BespokeSeverity::Warning,
+            Severity::Error => BespokeSeverity::Error,
+        };
+        let named = &finding.elements[..finding.elements.len().min(BESPOKE_MAX_ELEMENTS)];
+        let mut elements = [BespokeElement::default(); BESPOKE_MAX_ELEMENTS];
+        elements.iter_mut().zip(named).for_each(|(to, from)| *to = from.into());
+        let mut sentence = [0; BESPOKE_SENTENCE_SIZE];
+        let text = text::cut(&finding.sentence, BESPOKE_SENTENCE_SIZE - 1);
+        sentence.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
+        Self {
+            kind: kind as u32,
+            severity: severity as u32,
+            element_count: named.len() as u32,
+            elements,
+            reserved: 0,
+            distance: finding.distance,
+            sentence,
+        }
+    }
+}
+
+/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
+/// verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+/// are.
+///
+/// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
+/// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
+/// with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_diagnostics(
+    session: *const BespokeSession,
+    diagnostics: *mut BespokeDiagnostic,
+    capacity: usize,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller, who vouches for room for `capacity` diagnostics and for one number.
+    unsafe {
+        call(session, |session| {
+            if diagnostics.is_null() && capacity > 0 {
+                return invalid(format!("diagnostics: the pointer is null, with room for {capacity}"));
+            }
+            let findings = session.findings();
+            if !count.is_null() {
+                count.write(findings.len());
+            }
+            for (k, finding) in findings.iter().take(capacity).enumerate() {
+                diagnostics.add(k).write(finding.into());
+            }
+            Ok(())
+        })
+    }
+}
