@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::{Bodies, BroadPhase, Configuration, Step, ccd};
+use crate::control::Cancel;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
@@ -35,6 +36,7 @@ pub struct Objective {
     bodies: Arc<Bodies>,
     broad_phase: BroadPhase,
     weights: Options,
+    cancel: Cancel,
 }
 
 impl Objective {
@@ -56,7 +58,13 @@ impl Objective {
             barrier,
             bodies,
             weights: weights.clone(),
+            cancel: Cancel::new(),
         }
+    }
+
+    /// From now on looks at `cancel`; once that is set, [`Model::admit`] admits nothing.
+    pub fn watch(&mut self, cancel: Cancel) {
+        self.cancel = cancel;
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
@@ -121,6 +129,9 @@ impl Model for Objective {
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
         let step = Step { dx, dt };
         self.find_pairs(at, Some(&step));
+        if self.cancel.is_requested() {
+            return 0.0;
+        }
         let floor = self.barrier.settings().floor;
         ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest)
     }

@@ -10,6 +10,7 @@ use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{Objective, Shape};
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
+use crate::control::Cancel;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
@@ -77,6 +78,14 @@ impl Problem {
     /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the garment lies beside the skeleton or the
     /// shrunk avatar pokes through it, `SelfIntersection` where the garment passes through itself.
     pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
+        Self::watched(inputs, options, &Cancel::new())
+    }
+
+    /// [`Self::new`], until somebody asks to stop.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and `Cancelled`.
+    pub fn watched(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
         let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
@@ -92,10 +101,14 @@ impl Problem {
             triangles: inputs.avatar.triangles.clone(),
         };
         gather_unused(&mut avatar);
+        cancel.check()?;
         let projected = project(&avatar, &target, &source, inputs.skin);
+        cancel.check()?;
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         check_itself(&garment)?;
+        cancel.check()?;
         enclosure::check(&garment, &projected, &source)?;
+        cancel.check()?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let lengths = topology.mean_edge_lengths(&garment.positions);
