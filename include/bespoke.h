@@ -433,6 +433,15 @@ typedef struct BespokeOptions {
    One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
    */
   uint32_t surface_form;
+  /*
+   1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
+   named by bespoke_session_read_diagnostics, and no others ever join them.
+   */
+  uint32_t strict;
+  /*
+   0.
+   */
+  uint32_t reserved;
 } BespokeOptions;
 
 /*
@@ -443,6 +452,11 @@ typedef struct BespokeIntersections {
    Of the garment with itself.
    */
   uint64_t garment_garment;
+  /*
+   Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
+   some of them.
+   */
+  uint64_t since_start;
   /*
    Of the garment with the avatar.
    */
@@ -646,7 +660,8 @@ typedef struct BespokeReport {
    */
   uint64_t subdivided_avatar_triangles;
   /*
-   Distance that nothing falls below: the option, or less where the input is nearer than that.
+   Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
+   coordinates of the result are coarse.
    */
   double separation_floor;
   /*
@@ -665,6 +680,10 @@ typedef struct BespokeReport {
    Always 0.
    */
   uint32_t reserved;
+  /*
+   Intersecting or touching pairs within the garment at the start, which are let off.
+   */
+  uint64_t garment_intersections_at_start;
 } BespokeReport;
 
 /*
@@ -914,7 +933,7 @@ BespokeStatus bespoke_session_run(struct BespokeSession *session);
  Counts the intersections of the vertices as they would be read now, with exact predicates.
 
  `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
- none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
+ none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
  INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
@@ -971,10 +990,12 @@ void bespoke_control_destroy(struct BespokeControl *control);
 /*
  Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
 
- `points`: where to, F32 or F64; only the precision in which the garment was set is the one that DONE has verified.
- With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the garment, also where they do
- not fit. State: PREPARED or later; verified with DONE, a preview otherwise. Errors: INVALID_ARGUMENT (a capacity that
- is too small as well; nothing is written then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
+ garment, also where they do not fit. State: PREPARED or later. With DONE it is verified, in the precision in which the
+ garment was set; the first time that it is read in the other one, it is verified in that as well. Otherwise it is a
+ preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
+ NOT_VERIFIED (DONE, but not good in this precision; nothing is written), CANCELLED, BUSY, INTERNAL. Threads: any, one
+ at a time.
  */
 BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession *session,
                                                     const struct BespokeBuffer *points,

@@ -1,10 +1,13 @@
 //! Progress and cancel: the one part of a session that any thread may touch at any time.
 //!
-//! The session writes a [`Progress`] after each iteration; readers take a copy that belongs to one moment. Nobody
-//! waits for a lock: the record is a sequence lock made of atomics only, so a reader that overlaps a write just
-//! reads again, and the writer is never held up.
+//! The session writes a [`Progress`] after each iteration; readers take a copy that belongs to one moment. Nobody waits
+//! for anybody: the writer fills the oldest of a few slots and then names it the latest, so a writer that loses its
+//! processor in the middle holds up no reader, and readers never hold up the writer.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering, fence};
+
+use crate::error::{Error, ErrorKind, Result};
 
 /// Where a session is on its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,19 +104,74 @@ impl Progress {
     }
 }
 
-/// Cancel flag and progress record of one session; shared with every thread that watches it.
+/// The answer to a request to stop.
+pub fn cancelled() -> Error {
+    Error::new(ErrorKind::Cancelled, "cancelled on request")
+}
+
+/// A request to stop that long work looks at: between its kernels, and in the loops of those that take long. Clones share
+/// one flag, which once set stays so.
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Nobody has asked to stop.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Asks whoever looks at it to stop.
+    pub fn request(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether somebody asked to stop.
+    #[inline]
+    pub fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// A checkpoint.
+    ///
+    /// # Errors
+    /// `Cancelled` where somebody asked to stop.
+    pub fn check(&self) -> Result<()> {
+        if self.is_requested() { Err(cancelled()) } else { Ok(()) }
+    }
+
+    /// The flag itself.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
+}
+
+/// Records that are kept. A reader has to read again only where all but one of them were replaced while it read one.
+const SLOTS: usize = 4;
+/// The stamp of a slot that is being written.
+const UNFINISHED: u64 = u64::MAX;
+
+/// One record and its number.
+#[derive(Debug)]
+struct Slot {
+    stamp: AtomicU64,
+    words: [AtomicU64; WORDS],
+}
+
+/// Requests to cancel and the progress record of one session; shared with every thread that watches it.
 #[derive(Debug)]
 pub struct Control {
-    cancel: AtomicBool,
-    /// Odd while a write is under way.
-    sequence: AtomicU64,
-    words: [AtomicU64; WORDS],
+    /// Requests to stop since the last reset.
+    requests: AtomicU64,
+    /// Number of the last whole record, which is in slot `latest % SLOTS`.
+    latest: AtomicU64,
+    slots: [Slot; SLOTS],
 }
 
 impl Default for Control {
     fn default() -> Self {
         let words = Progress::default().to_words();
-        Self { cancel: AtomicBool::new(false), sequence: AtomicU64::new(0), words: words.map(AtomicU64::new) }
+        let slots = std::array::from_fn(|_| Slot { stamp: AtomicU64::new(0), words: words.map(AtomicU64::new) });
+        Self { requests: AtomicU64::new(0), latest: AtomicU64::new(0), slots }
     }
 }
 
@@ -123,51 +181,56 @@ impl Control {
         Self::default()
     }
 
-    /// Asks the session to stop at its next checkpoint. One atomic store: a signal handler may call it.
+    /// Asks the session to stop. One atomic addition: a signal handler may call it.
     #[inline]
     pub fn cancel(&self) {
-        self.cancel.store(true, Ordering::Release);
+        self.requests.fetch_add(1, Ordering::Release);
+    }
+
+    /// How often somebody asked to stop since the last [`Control::clear_cancel`].
+    #[inline]
+    pub fn requests(&self) -> u64 {
+        self.requests.load(Ordering::Acquire)
     }
 
     /// Whether somebody asked to stop since the last [`Control::clear_cancel`].
     #[inline]
     pub fn is_cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Acquire)
+        self.requests() > 0
     }
 
-    /// Forgets a request to stop.
+    /// Forgets all requests to stop.
     pub fn clear_cancel(&self) {
-        self.cancel.store(false, Ordering::Release);
+        self.requests.store(0, Ordering::Release);
     }
 
-    /// Replaces the progress record. For the session's own thread; a second writer waits for the first.
+    /// Replaces the progress record. For one thread at a time, the one that is inside the session.
     pub fn publish(&self, progress: &Progress) {
-        let mut even = self.sequence.load(Ordering::Relaxed) & !1;
-        while let Err(now) = self.sequence.compare_exchange_weak(even, even + 1, Ordering::Acquire, Ordering::Relaxed) {
-            std::hint::spin_loop();
-            even = now & !1;
-        }
-        // The words may not be seen changed before the odd number is.
+        let number = self.latest.load(Ordering::Relaxed) + 1;
+        let slot = &self.slots[number as usize % SLOTS];
+        slot.stamp.store(UNFINISHED, Ordering::Relaxed);
+        // The words may not be seen changed before the stamp is.
         fence(Ordering::Release);
-        for (slot, word) in self.words.iter().zip(progress.to_words()) {
+        for (slot, word) in slot.words.iter().zip(progress.to_words()) {
             slot.store(word, Ordering::Relaxed);
         }
-        self.sequence.store(even + 2, Ordering::Release);
+        slot.stamp.store(number, Ordering::Release);
+        self.latest.store(number, Ordering::Release);
     }
 
-    /// A copy of the progress record that was written in one piece.
+    /// A copy of the last progress record that was written as a whole.
     pub fn progress(&self) -> Progress {
         loop {
-            let before = self.sequence.load(Ordering::Acquire);
-            if before & 1 == 0 {
-                let words = std::array::from_fn(|k| self.words[k].load(Ordering::Relaxed));
+            let number = self.latest.load(Ordering::Acquire);
+            let slot = &self.slots[number as usize % SLOTS];
+            if slot.stamp.load(Ordering::Acquire) == number {
+                let words = std::array::from_fn(|k| slot.words[k].load(Ordering::Relaxed));
                 fence(Ordering::Acquire);
-                if self.sequence.load(Ordering::Relaxed) == before {
+                if slot.stamp.load(Ordering::Relaxed) == number {
                     return Progress::from_words(&words);
                 }
             }
-            // The writer may have lost its processor in the middle of a write.
-            std::thread::yield_now();
+            // The writer has come around to this slot meanwhile: there are newer records, all of them whole.
         }
     }
 }

@@ -18,6 +18,7 @@ pub mod energy;
 pub mod error;
 pub mod input;
 pub mod options;
+mod panics;
 pub mod report;
 pub mod sdf;
 pub mod session;

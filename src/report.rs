@@ -26,19 +26,27 @@ pub struct StageReport {
     pub kernels: [f64; 4],
 }
 
-/// Intersecting pairs of triangles, counted by the exact verifier.
+/// Intersecting pairs of triangles, counted by the exact verifier. The garment is welded: triangles that share a corner's
+/// place share the corner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Verification {
     /// Pairs of garment triangles.
     pub garment_garment: u64,
+    /// Those of them that intersected or touched at the start, too.
+    pub since_start: u64,
     /// Pairs of a garment and an avatar triangle.
     pub garment_avatar: u64,
 }
 
 impl Verification {
-    /// True where nothing intersects.
+    /// Pairs of garment triangles that were apart at the start.
+    pub fn new_garment_garment(&self) -> u64 {
+        self.garment_garment - self.since_start
+    }
+
+    /// True where nothing intersects that did not from the start.
     pub fn is_clean(&self) -> bool {
-        self.garment_garment == 0 && self.garment_avatar == 0
+        self.new_garment_garment() == 0 && self.garment_avatar == 0
     }
 }
 
@@ -63,10 +71,13 @@ pub struct Report {
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
-    /// The separation floor in force, lower than the option's where the input is nearer than that.
+    /// The separation floor in force: lower than the option's where the garment is nearer to something than that, higher
+    /// where the coordinates of the result are coarse.
     pub separation_floor: f64,
     /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
+    /// Pairs of garment triangles that intersect or touch at the start, and are let off.
+    pub tangled_at_start: usize,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],
     /// Avatar vertices and triangles.

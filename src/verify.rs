@@ -11,6 +11,7 @@ mod triangles;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
 use boxes::{Aabb, Tree};
@@ -38,6 +39,19 @@ const CHUNK: usize = 64;
 /// # Errors
 /// [`ErrorKind::InvalidMesh`]: a coordinate is not finite or an index is out of range, so that nothing can be judged.
 pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -> Result<Intersections> {
+    intersections_unless(&Cancel::new(), a, b, limit)
+}
+
+/// [`intersections`], until somebody asks to stop.
+///
+/// # Errors
+/// As [`intersections`], and [`ErrorKind::Cancelled`].
+pub fn intersections_unless(
+    cancel: &Cancel,
+    a: &TriangleMesh,
+    b: Option<&TriangleMesh>,
+    limit: usize,
+) -> Result<Intersections> {
     judgeable(a, "first mesh")?;
     if let Some(b) = b {
         judgeable(b, "second mesh")?;
@@ -56,6 +70,9 @@ pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -
         .map(|(chunk, triangles)| {
             let mut found = Intersections::default();
             let mut hits = Vec::new();
+            if cancel.is_requested() {
+                return found;
+            }
             for (s, i) in triangles.iter().zip(chunk * CHUNK..) {
                 hits.clear();
                 tree.for_each_overlap(&boxes_a[i], |j| {
@@ -77,6 +94,7 @@ pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -
             found
         })
         .collect();
+    cancel.check()?;
 
     let mut all = Intersections::default();
     for part in partial {

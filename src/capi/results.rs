@@ -10,36 +10,39 @@ use crate::capi::sized::{self, Sized32};
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, BespokeBuffer, invalid};
 use crate::error::Result;
-use crate::input::buffer;
-use crate::session::StageReport;
+use crate::input::buffer::{self, Component, PositionsViewMut};
+use crate::session::{Precision, StageReport};
+
+const GARMENT_VERTICES: &str = "garment vertices";
+const AVATAR_VERTICES: &str = "avatar vertices";
 
 /// # Safety
-/// `points` is null or points to a buffer that tells the truth, `count` is null or points to a number.
-unsafe fn write_points(
-    positions: Vec<DVec3>,
-    points: *const BespokeBuffer,
-    count: *mut usize,
-    what: &str,
-) -> Result<()> {
-    // SAFETY: passed on from the caller.
-    unsafe {
-        if !count.is_null() {
-            count.write(positions.len());
-        }
-        let out = view::points_out(points, what)?;
-        if out.capacity == 0 && out.data.is_null() {
-            return Ok(());
-        }
-        buffer::write_positions(&out, &positions, what)
+/// `count` is null or points to a number.
+unsafe fn write_count(count: *mut usize, points: usize) {
+    if !count.is_null() {
+        // SAFETY: not null, and the caller vouches for a number.
+        unsafe { count.write(points) };
     }
+}
+
+/// # Safety
+/// `out` tells the truth.
+unsafe fn write_points(positions: &[DVec3], out: &PositionsViewMut, what: &str) -> Result<()> {
+    if out.capacity == 0 && out.data.is_null() {
+        return Ok(());
+    }
+    // SAFETY: passed on from the caller.
+    unsafe { buffer::write_positions(out, positions, what) }
 }
 
 /// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
 ///
-/// `points`: where to, F32 or F64; only the precision in which the garment was set is the one that DONE has verified.
-/// With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the garment, also where they do
-/// not fit. State: PREPARED or later; verified with DONE, a preview otherwise. Errors: INVALID_ARGUMENT (a capacity that
-/// is too small as well; nothing is written then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
+/// garment, also where they do not fit. State: PREPARED or later. With DONE it is verified, in the precision in which the
+/// garment was set; the first time that it is read in the other one, it is verified in that as well. Otherwise it is a
+/// preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
+/// NOT_VERIFIED (DONE, but not good in this precision; nothing is written), CANCELLED, BUSY, INTERNAL. Threads: any, one
+/// at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     session: *const BespokeSession,
@@ -47,7 +50,17 @@ pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     count: *mut usize,
 ) -> BespokeStatus {
     // SAFETY: passed on from the caller.
-    unsafe { call(session, |session| write_points(session.garment_positions()?, points, count, "garment vertices")) }
+    unsafe {
+        call(session, |session| {
+            write_count(count, session.garment_positions()?.len());
+            let out = view::points_out(points, GARMENT_VERTICES)?;
+            let precision = match out.component {
+                Component::F32 => Precision::F32,
+                Component::F64 => Precision::F64,
+            };
+            write_points(&session.garment_as_read(precision)?, &out, GARMENT_VERTICES)
+        })
+    }
 }
 
 /// Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
@@ -60,7 +73,13 @@ pub unsafe extern "C" fn bespoke_session_read_avatar_vertices(
     count: *mut usize,
 ) -> BespokeStatus {
     // SAFETY: passed on from the caller.
-    unsafe { call(session, |session| write_points(session.avatar_positions()?, points, count, "avatar vertices")) }
+    unsafe {
+        call(session, |session| {
+            let positions = session.avatar_positions()?;
+            write_count(count, positions.len());
+            write_points(&positions, &view::points_out(points, AVATAR_VERTICES)?, AVATAR_VERTICES)
+        })
+    }
 }
 
 /// The work of one stage.
@@ -136,7 +155,8 @@ pub struct BespokeReport {
     pub subdivided_avatar_vertices: u64,
     /// Triangles of the target avatar once those over several bones are split.
     pub subdivided_avatar_triangles: u64,
-    /// Distance that nothing falls below: the option, or less where the input is nearer than that.
+    /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
+    /// coordinates of the result are coarse.
     pub separation_floor: f64,
     /// 1 where the verifier has looked at the result, else 0.
     pub is_verified: u32,
@@ -146,6 +166,8 @@ pub struct BespokeReport {
     pub energy_count: u32,
     /// Always 0.
     pub reserved: u32,
+    /// Intersecting or touching pairs within the garment at the start, which are let off.
+    pub garment_intersections_at_start: u64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
@@ -190,6 +212,7 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 is_converged: u32::from(own.converged),
                 energy_count: own.terms.len() as u32,
                 reserved: 0,
+                garment_intersections_at_start: own.tangled_at_start as u64,
             };
             sized::write(filled, report, "report")
         })

@@ -102,6 +102,9 @@ pub unsafe extern "C" fn bespoke_session_run(session: *mut BespokeSession) -> Be
 pub struct BespokeIntersections {
     /// Of the garment with itself.
     pub garment_garment: u64,
+    /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
+    /// some of them.
+    pub since_start: u64,
     /// Of the garment with the avatar.
     pub garment_avatar: u64,
 }
@@ -109,7 +112,7 @@ pub struct BespokeIntersections {
 /// Counts the intersections of the vertices as they would be read now, with exact predicates.
 ///
 /// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
-/// none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
+/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
 /// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_verify(
@@ -126,6 +129,7 @@ pub unsafe extern "C" fn bespoke_session_verify(
             let counts = session.verify(view::precision(component, "intersections")?)?;
             intersections.write(BespokeIntersections {
                 garment_garment: counts.garment_garment,
+                since_start: counts.since_start,
                 garment_avatar: counts.garment_avatar,
             });
             Ok(())

@@ -1,6 +1,5 @@
 //! The session handle: one call at a time, no panic gets out, and the message of the last failure.
 
-use std::any::Any;
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
@@ -8,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use crate::capi::status::BespokeStatus;
 use crate::control::Control;
 use crate::error::{Error, ErrorKind, Result};
+use crate::panics::{PanicLog, recorded};
 use crate::session::Session;
 
 /// One garment on its way to one avatar. Opaque.
@@ -18,6 +18,7 @@ pub struct BespokeSession {
     message: Mutex<String>,
     /// Reached without the session's lock.
     pub(super) control: Arc<Control>,
+    panics: Arc<PanicLog>,
 }
 
 impl BespokeSession {
@@ -25,15 +26,6 @@ impl BespokeSession {
         // The text is whole at any time: a poisoned lock only says that some other thread panicked.
         self.message.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// What a panic said.
-fn panic_text(payload: &(dyn Any + Send)) -> &str {
-    payload
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("no further text")
 }
 
 /// Runs `work` alone in the session behind `handle`. Its failure becomes a status and the session's message.
@@ -46,22 +38,23 @@ pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session
         return BespokeStatus::InvalidArgument;
     };
     // The lock is taken inside, so that a panic poisons it.
-    let outcome = catch_unwind(AssertUnwindSafe(|| match handle.session.try_lock() {
+    let inside = || match handle.session.try_lock() {
         Ok(mut session) => Some(work(&mut session)),
         Err(TryLockError::WouldBlock) => None,
         Err(TryLockError::Poisoned(_)) => Some(Err(Error::new(
             ErrorKind::Internal,
             "an earlier call failed inside the library, so this session can only be destroyed",
         ))),
-    }));
+    };
+    let outcome = recorded(&handle.panics, || catch_unwind(AssertUnwindSafe(inside)));
     let error = match outcome {
         Ok(Some(Ok(()))) => return BespokeStatus::Ok,
         Ok(None) => return BespokeStatus::Busy,
         Ok(Some(Err(error))) => error,
-        Err(panic) => Error::new(
-            ErrorKind::Internal,
-            format!("a defect of the library, please report it: {}", panic_text(panic.as_ref())),
-        ),
+        Err(_) => {
+            let said = handle.panics.take().unwrap_or_else(|| "a panic without a text".to_string());
+            Error::new(ErrorKind::Internal, format!("a defect of the library, please report it: {said}"))
+        }
     };
     let status = error.kind.into();
     *handle.message() = error.message;
@@ -77,11 +70,13 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
     if session.is_null() {
         return BespokeStatus::InvalidArgument;
     }
-    let made = catch_unwind(|| {
+    let make = || {
         let session = Session::new();
-        let control = session.control();
-        Box::into_raw(Box::new(BespokeSession { session: Mutex::new(session), message: Mutex::default(), control }))
-    });
+        let (control, panics) = (session.control(), session.panics());
+        let (session, message) = (Mutex::new(session), Mutex::default());
+        Box::into_raw(Box::new(BespokeSession { session, message, control, panics }))
+    };
+    let made = recorded(&Arc::default(), || catch_unwind(make));
     // SAFETY: not null, and the caller vouches for room for one pointer.
     unsafe { session.write(*made.as_ref().unwrap_or(&std::ptr::null_mut())) };
     if made.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
@@ -103,7 +98,8 @@ pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -
         }
     }
     // SAFETY: it came from `Box::into_raw`, and the caller vouches that no other call uses it from now on.
-    let freed = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(session) })));
+    let free = || drop(unsafe { Box::from_raw(session) });
+    let freed = recorded(&Arc::default(), || catch_unwind(AssertUnwindSafe(free)));
     if freed.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 

@@ -1,29 +1,37 @@
 //! One garment on its way to one avatar: the state machine that a caller sees.
+//!
+//! What takes long is done by jobs in the session's own threads, one after the other, which own what they work on. What
+//! can be read is kept apart from them: it is replaced after each iteration, and stays when a job is left.
 
+mod fault;
 mod field_task;
+mod inputs;
+mod job;
+mod judgement;
+mod view;
 mod work;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use glam::DVec3;
 
 pub use crate::control::Stage;
-use crate::control::{Control, MAX_TERMS, Progress};
+use crate::control::{Cancel, Control, MAX_TERMS, Progress, cancelled};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnosis::Finding;
 use crate::input::mesh::TriangleMesh;
-use crate::input::skeleton::Skeleton;
-use crate::input::skin::SkinWeights;
-use crate::input::space::Space;
 pub use crate::options::Options;
+use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
-use crate::solver::newton::{Model, Newton, State};
-use crate::stage::inflate::Inflation;
-use crate::stage::problem::{Inputs, Problem};
-use crate::verify::intersections;
-use field_task::FieldTask;
-use work::{Step, Work};
+#[doc(hidden)]
+pub use fault::Fault;
+use inputs::Inputs;
+use job::Pool;
+use judgement::Judgement;
+use view::View;
+use work::{Context, Work};
 
 /// Floating-point format of a caller's positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,7 +52,7 @@ impl Precision {
         }
     }
 
-    /// The most that a coordinate is moved where the result, on the body `avatar`, is stored in this format.
+    /// The most that a coordinate is moved where a result on the body `avatar` is stored in this format, in its unit.
     fn error_near(self, avatar: &TriangleMesh) -> f64 {
         let corners = avatar.triangles.iter().flatten().map(|&v| avatar.positions[v as usize]);
         let (low, high) = corners.fold((DVec3::MAX, DVec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
@@ -68,40 +76,27 @@ pub struct Budget {
 }
 
 /// One retargeting: inputs, then `prepare`, then `step` or `run`, then results.
+///
+/// A request to stop (see [`Session::control`]) ends the call that runs at once, whatever it is doing; work under way then
+/// comes to its end in the background. `reset` and dropping the session wait for that.
 #[derive(Default)]
 pub struct Session {
-    garment: Option<(TriangleMesh, Precision)>,
-    source_skeleton: Option<Skeleton>,
-    avatar: Option<TriangleMesh>,
-    target_skeleton: Option<Skeleton>,
-    source_avatar: Option<TriangleMesh>,
-    skin: Option<SkinWeights>,
-    fit_weights: Option<Vec<f64>>,
-    source_space: Space,
-    target_space: Space,
-    options: Options,
+    inputs: Inputs,
     control: Arc<Control>,
-    work: Option<Work>,
+    /// Requests to stop that a call has answered.
+    answered: AtomicU64,
+    /// At rest between two jobs; gone once one was left.
+    work: Option<Box<Work>>,
+    /// After `work`, which is dropped first.
+    pool: Option<Pool>,
+    view: Option<View>,
     stage: Stage,
     report: Report,
-}
-
-fn mesh_to_ours(space: &Space, mesh: &TriangleMesh) -> TriangleMesh {
-    TriangleMesh {
-        positions: mesh.positions.iter().map(|&p| space.position_to_ours(p)).collect(),
-        triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
-    }
-}
-
-fn skeleton_to_ours(space: &Space, skeleton: &Skeleton) -> Skeleton {
-    Skeleton {
-        joints: skeleton.joints.iter().map(|&p| space.position_to_ours(p)).collect(),
-        bones: skeleton.bones.clone(),
-    }
-}
-
-fn missing<T>(what: &str, call: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::InvalidState, format!("{what} is missing: call {call} before prepare")))
+    findings: Vec<Finding>,
+    /// In which precisions the result is known to be good.
+    verified: Vec<Precision>,
+    panics: Arc<PanicLog>,
+    fault: Option<Fault>,
 }
 
 impl Session {
@@ -110,219 +105,59 @@ impl Session {
         Self::default()
     }
 
-    fn setting(&self, what: &str) -> Result<()> {
-        if self.stage == Stage::Setup {
-            return Ok(());
-        }
-        Err(Error::new(
-            ErrorKind::InvalidState,
-            format!("{what} cannot be set after prepare; call reset first, which keeps the inputs"),
-        ))
-    }
-
-    /// The garment, in the source space, around the source skeleton.
-    ///
-    /// # Errors
-    /// `InvalidMesh`, `InvalidState`.
-    pub fn set_garment(&mut self, mesh: TriangleMesh, precision: Precision) -> Result<()> {
-        self.setting("the garment")?;
-        mesh.check("garment")?;
-        self.garment = Some((mesh, precision));
-        Ok(())
-    }
-
-    /// Vertices of the garment, once it is set.
-    pub fn garment_vertex_count(&self) -> Option<usize> {
-        self.garment.as_ref().map(|g| g.0.positions.len())
-    }
-
-    /// The skeleton that the garment was designed on, in the source space.
-    ///
-    /// # Errors
-    /// `InvalidSkeleton`, `InvalidState`.
-    pub fn set_source_skeleton(&mut self, skeleton: Skeleton) -> Result<()> {
-        self.setting("the source skeleton")?;
-        skeleton.check("source skeleton")?;
-        self.source_skeleton = Some(skeleton);
-        Ok(())
-    }
-
-    /// The body to dress, in the target space. It may be open, non-manifold, in pieces and pass through itself.
-    ///
-    /// # Errors
-    /// `InvalidMesh`, `InvalidState`.
-    pub fn set_target_avatar(&mut self, mesh: TriangleMesh) -> Result<()> {
-        self.setting("the target avatar")?;
-        mesh.check("target avatar")?;
-        self.avatar = Some(mesh);
-        Ok(())
-    }
-
-    /// The skeleton of the body to dress, in the target space: the same joints and bones as the source skeleton, the bones
-    /// in any order and direction.
-    ///
-    /// # Errors
-    /// `InvalidSkeleton`, `InvalidState`.
-    pub fn set_target_skeleton(&mut self, skeleton: Skeleton) -> Result<()> {
-        self.setting("the target skeleton")?;
-        skeleton.check("target skeleton")?;
-        self.target_skeleton = Some(skeleton);
-        Ok(())
-    }
-
-    /// The body that the garment was designed on, in the source space. Optional: with it, each point of the garment aims
-    /// at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
-    ///
-    /// # Errors
-    /// `InvalidMesh`, `InvalidState`.
-    pub fn set_source_avatar(&mut self, mesh: TriangleMesh) -> Result<()> {
-        self.setting("the source avatar")?;
-        mesh.check("source avatar")?;
-        self.source_avatar = Some(mesh);
-        Ok(())
-    }
-
-    /// Skin weights of the target avatar. Optional: without them the nearest bone decides.
-    ///
-    /// # Errors
-    /// `InvalidState`. The size is compared with the avatar's by `prepare`.
-    pub fn set_target_skin(&mut self, skin: SkinWeights) -> Result<()> {
-        self.setting("the skin weights")?;
-        self.skin = Some(skin);
-        Ok(())
-    }
-
-    /// How much each garment vertex should fit: 0 not at all, 1 as the others. Optional: 1 everywhere.
-    ///
-    /// # Errors
-    /// `InvalidWeights` for a negative weight or one that is not finite, `InvalidState`.
-    pub fn set_fit_weights(&mut self, weights: Vec<f64>) -> Result<()> {
-        self.setting("the fit weights")?;
-        if let Some((v, w)) = weights.iter().enumerate().find(|(_, w)| !(w.is_finite() && **w >= 0.0)) {
-            return Err(Error::new(
-                ErrorKind::InvalidWeights,
-                format!("fit weights: vertex {v} has weight {w}; it must be finite and not negative"),
-            ));
-        }
-        self.fit_weights = Some(weights);
-        Ok(())
-    }
-
-    /// Axes, unit and winding of garment, source skeleton and source avatar.
-    ///
-    /// # Errors
-    /// `InvalidArgument`, `InvalidState`.
-    pub fn set_source_space(&mut self, space: Space) -> Result<()> {
-        self.setting("the source space")?;
-        space.check("source space")?;
-        self.source_space = space;
-        Ok(())
-    }
-
-    /// Axes, unit and winding of target avatar and target skeleton, and of the result.
-    ///
-    /// # Errors
-    /// `InvalidArgument`, `InvalidState`.
-    pub fn set_target_space(&mut self, space: Space) -> Result<()> {
-        self.setting("the target space")?;
-        space.check("target space")?;
-        self.target_space = space;
-        Ok(())
-    }
-
-    /// Weights, distances and limits.
-    ///
-    /// # Errors
-    /// `InvalidArgument`, `InvalidState`.
-    pub fn set_options(&mut self, options: Options) -> Result<()> {
-        self.setting("the options")?;
-        options.check()?;
-        self.options = options;
-        Ok(())
-    }
-
     /// Step 1: checks the inputs against each other, projects the avatar onto the skeleton, begins to build the distance
     /// field.
     ///
     /// # Errors
     /// `InvalidState` where an input is missing or the session is past this, `InvalidSkeleton`, `InvalidWeights`,
-    /// `NotEnclosed`. The session then still takes inputs.
+    /// `NotEnclosed`, `Cancelled`. The session then still takes inputs.
     pub fn prepare(&mut self) -> Result<()> {
         self.setting("prepare was called already: the inputs")?;
-        let clock = Instant::now();
-        let threads = match self.options.threads {
+        if self.control.is_cancelled() {
+            return Err(self.answer(cancelled()));
+        }
+        let threads = match self.inputs.options.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             n => n as usize,
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|k| format!("bespoke-{k}"))
-            .build()
-            .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")))?;
-        let mut findings = Vec::new();
-        let problem = pool.install(|| self.pose_problem(&mut findings))?;
-        let field = FieldTask::start(problem.avatar.clone(), self.options.voxel, threads)?;
-        let options = self.options.clone();
-        let (objective, newton, state) = pool.install(|| {
-            let state = State { x: problem.rest.clone(), t: 0.0 };
-            let objective = problem.begin(&options, &mut findings)?;
-            let newton = Newton::new(state.x.len(), &objective.terms())?;
-            Ok((objective, newton, state))
-        })?;
-        self.report = Report {
-            garment_size: [problem.rest.len(), problem.triangles.len()],
-            avatar_size: [problem.avatar.positions.len(), problem.avatar.triangles.len()],
-            projected_size: [problem.projected.start.len(), problem.projected.triangles.len()],
-            separation_floor: objective.floor(),
-            threads,
-            ..Report::default()
+        let inputs = self.inputs.clone();
+        let context = Context { stop: Cancel::new(), panics: self.panics.clone(), fault: self.fault };
+        let stop = context.stop.clone();
+        let control = &self.control;
+        let pool = self.pool.insert(Pool::new(threads, &self.panics)?);
+        let job = move || {
+            let mut findings = Vec::new();
+            let work = Work::prepare(&inputs, threads, context, &mut findings).map(Box::new);
+            (work, findings)
         };
-        self.report.prepare.seconds = clock.elapsed().as_secs_f64();
-        let step = Step::Inflate(Inflation::default());
-        self.work = Some(Work { pool: Arc::new(pool), options, problem, state, objective, newton, step, field });
+        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(work, findings)| {
+            self.findings = findings;
+            work
+        });
+        let work = match outcome {
+            Ok(work) => work,
+            Err(error) if error.kind == ErrorKind::Cancelled => return Err(self.answer(error)),
+            Err(error) => {
+                self.pool = None;
+                return Err(error);
+            }
+        };
+        let Some(avatar) = self.inputs.avatar.clone() else {
+            return inputs::missing("the target avatar", "set_target_avatar");
+        };
+        self.report = work.report.clone();
+        self.view = Some(View::of(&work, avatar, self.inputs.target_space));
+        self.work = Some(work);
         self.enter(Stage::Prepared);
         Ok(())
     }
 
-    fn pose_problem(&self, findings: &mut Vec<Finding>) -> Result<Problem> {
-        let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
-        let Some(source) = &self.source_skeleton else {
-            return missing("the source skeleton", "set_source_skeleton");
-        };
-        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
-        let Some(target) = &self.target_skeleton else {
-            return missing("the target skeleton", "set_target_skeleton");
-        };
-        let target = target.aligned_to(source)?;
-        if let Some(skin) = &self.skin {
-            check_skin(skin, &target, avatar)?;
+    /// Remembers that a request to stop was answered, where `error` is that answer.
+    fn answer(&self, error: Error) -> Error {
+        if error.kind == ErrorKind::Cancelled {
+            self.answered.store(self.control.requests(), Ordering::Relaxed);
         }
-        if let Some(weights) = &self.fit_weights
-            && weights.len() != garment.positions.len()
-        {
-            return Err(Error::new(
-                ErrorKind::InvalidWeights,
-                format!(
-                    "fit weights: there are {} weights, the garment has {} vertices",
-                    weights.len(),
-                    garment.positions.len()
-                ),
-            ));
-        }
-        Problem::new(
-            &Inputs {
-                garment: &mesh_to_ours(&self.source_space, garment),
-                source_skeleton: &skeleton_to_ours(&self.source_space, source),
-                avatar: &mesh_to_ours(&self.target_space, avatar),
-                target_skeleton: &skeleton_to_ours(&self.target_space, &target),
-                skin: self.skin.as_ref(),
-                source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
-                fit_weights: self.fit_weights.as_deref(),
-                coordinate_error: self.target_space.metres_per_unit * precision.error_near(avatar),
-            },
-            &self.options,
-            findings,
-        )
+        error
     }
 
     /// Goes on within `budget`. Returns the stage that is reached; at [`Stage::Done`] the result is verified.
@@ -340,29 +175,23 @@ impl Session {
                 },
             ));
         }
-        let outcome = self.iterate(budget);
-        if let Err(error) = &outcome {
+        self.iterate(budget).map_err(|error| {
             self.enter(if error.kind == ErrorKind::Cancelled { Stage::Cancelled } else { Stage::Failed });
-        }
-        outcome
+            self.answer(error)
+        })
     }
 
     fn iterate(&mut self, budget: Budget) -> Result<Stage> {
         let clock = Instant::now();
         let mut iterations = 0;
         loop {
-            if self.control.is_cancelled() {
-                return Err(Error::new(ErrorKind::Cancelled, "cancelled on request"));
-            }
-            let Some(work) = &mut self.work else {
-                return Err(Error::new(ErrorKind::Internal, "there is no work in a running session"));
-            };
-            let pool = work.pool.clone();
-            let (control, report) = (&self.control, &mut self.report);
-            let stage = pool.install(|| work.iterate(control, report))?;
+            let mut stage = self.iterate_once()?;
             self.enter(stage);
             if stage == Stage::Verify {
-                return self.finish();
+                stage = self.finish()?;
+                if stage == Stage::Done {
+                    return Ok(stage);
+                }
             }
             iterations += 1;
             let spent = clock.elapsed().as_millis() >= u128::from(budget.milliseconds);
@@ -372,24 +201,53 @@ impl Session {
         }
     }
 
-    /// The exact verifier has the last word, on the values as the caller will read them.
+    /// One job: the work goes there and comes back.
+    fn iterate_once(&mut self) -> Result<Stage> {
+        if self.control.is_cancelled() {
+            return Err(cancelled());
+        }
+        let (Some(mut work), Some(pool)) = (self.work.take(), &self.pool) else {
+            return Err(Error::new(ErrorKind::Internal, "there is no work in a running session"));
+        };
+        let stop = work.context.stop.clone();
+        let control = &self.control;
+        let (work, outcome) = pool.run(
+            || control.is_cancelled(),
+            &stop,
+            move || {
+                let outcome = work.iterate();
+                (work, outcome)
+            },
+        )?;
+        self.report = work.report.clone();
+        if let Some(view) = &mut self.view {
+            view.follow(&work);
+        }
+        self.work = Some(work);
+        outcome
+    }
+
+    /// The exact verifier has the last word, on the values as the caller will read them. Where it objects, the fit goes on
+    /// with wider gaps, a few times.
     fn finish(&mut self) -> Result<Stage> {
         let clock = Instant::now();
-        let precision = self.garment.as_ref().map_or(Precision::F32, |g| g.1);
-        let counted = self.verify(precision)?;
-        self.report.verify_seconds = clock.elapsed().as_secs_f64();
+        let precision = self.inputs.garment.as_ref().map_or(Precision::F32, |g| g.1);
+        let control = &self.control;
+        let judgement = self.judge(precision, || control.is_cancelled())?;
+        self.report.verify_seconds += clock.elapsed().as_secs_f64();
+        let counted = judgement.counted;
         self.report.verification = Some(counted);
         if !counted.is_clean() {
-            return Err(Error::new(
-                ErrorKind::NotVerified,
-                format!(
-                    "the result, in the precision and space in which it would be read, has {} intersecting pairs of \
-                     garment triangles and {} of garment and avatar triangles; it is not handed out as good. Read it in \
-                     64 bits, or move the avatar nearer to the origin",
-                    counted.garment_garment, counted.garment_avatar
-                ),
-            ));
+            if let Some(work) = &mut self.work
+                && work.widen()
+            {
+                self.enter(Stage::Fit);
+                return Ok(Stage::Fit);
+            }
+            self.findings.extend(judgement.findings());
+            return Err(not_verified(&counted));
         }
+        self.verified = vec![precision];
         self.enter(Stage::Done);
         Ok(Stage::Done)
     }
@@ -403,6 +261,11 @@ impl Session {
             self.prepare()?;
         }
         self.step(Budget::default())
+    }
+
+    /// What is worth knowing about the inputs, since prepare, and about the result; in the caller's indices.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
     }
 
     /// Where the session is.
@@ -423,12 +286,9 @@ impl Session {
     fn enter(&mut self, stage: Stage) {
         self.stage = stage;
         let mut progress = Progress { stage, ..Progress::default() };
-        if let Some(work) = &self.work {
-            progress.t = work.state.t;
-            progress.iteration = match &work.step {
-                Step::Inflate(s) => s.iterations,
-                Step::Fit(s) => s.iterations,
-            };
+        if let Some(view) = &self.view {
+            progress.t = view.t;
+            progress.iteration = view.iteration;
             let report = &self.report;
             progress.gradient_norm = report.gradient_norm;
             progress.min_distance = report.min_distance_self.min(report.min_distance_avatar);
@@ -444,8 +304,13 @@ impl Session {
         self.control.publish(&progress);
     }
 
-    fn working(&self) -> Result<&Work> {
-        self.work.as_ref().ok_or_else(|| {
+    /// Hears of the panics of the session's threads.
+    pub(crate) fn panics(&self) -> Arc<PanicLog> {
+        self.panics.clone()
+    }
+
+    fn readable(&self) -> Result<&View> {
+        self.view.as_ref().ok_or_else(|| {
             Error::new(ErrorKind::InvalidState, "there is nothing to read yet: call prepare first".to_string())
         })
     }
@@ -455,8 +320,23 @@ impl Session {
     /// # Errors
     /// `InvalidState` before `prepare`.
     pub fn garment_positions(&self) -> Result<Vec<DVec3>> {
-        let work = self.working()?;
-        Ok(work.state.x.iter().map(|&p| self.restored(work, p)).collect())
+        Ok(self.readable()?.garment_positions())
+    }
+
+    /// [`Self::garment_positions`] for a caller who stores them in `precision`. At [`Stage::Done`] they are good in it: what
+    /// the end of the run has not looked at is looked at now.
+    ///
+    /// # Errors
+    /// `InvalidState` before `prepare`, `NotVerified`, `Cancelled` by a request that no call has answered yet.
+    pub fn garment_as_read(&mut self, precision: Precision) -> Result<Vec<DVec3>> {
+        if self.stage == Stage::Done && !self.verified.contains(&precision) {
+            let counted = self.verify(precision)?;
+            if !counted.is_clean() {
+                return Err(not_verified(&counted));
+            }
+            self.verified.push(precision);
+        }
+        self.garment_positions()
     }
 
     /// The avatar as far as it is inflated now, in the caller's vertex order and the target space.
@@ -464,58 +344,61 @@ impl Session {
     /// # Errors
     /// `InvalidState` before `prepare`.
     pub fn avatar_positions(&self) -> Result<Vec<DVec3>> {
-        let work = self.working()?;
-        let problem = &work.problem;
-        if work.state.t >= 1.0 {
-            // To the bit as it came, not through the normalised space and back.
-            return Ok(self.avatar.as_ref().map(|avatar| avatar.positions.clone()).unwrap_or_default());
-        }
-        let between = problem.projected.shrunk.iter().zip(&problem.avatar.positions);
-        Ok(between.map(|(&a, &b)| self.restored(work, a.lerp(b, work.state.t))).collect())
-    }
-
-    fn restored(&self, work: &Work, p: DVec3) -> DVec3 {
-        self.target_space.position_from_ours(work.problem.target_frame.restore(p))
+        Ok(self.readable()?.avatar_positions())
     }
 
     /// Counts intersections exactly, of the garment as a caller reads it in `precision`, against itself and the avatar at
     /// full size.
     ///
     /// # Errors
-    /// `InvalidState` before `prepare`.
+    /// `InvalidState` before `prepare`, `Cancelled` by a request that no call has answered yet; the stage stays.
     pub fn verify(&self, precision: Precision) -> Result<Verification> {
-        let work = self.working()?;
-        let positions = self.garment_positions()?.into_iter().map(|p| precision.round(p)).collect();
-        let garment = TriangleMesh { positions, triangles: work.problem.triangles.clone() };
-        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
-        work.pool.install(|| {
-            Ok(Verification {
-                garment_garment: intersections(&garment, None, 0)?.count,
-                garment_avatar: intersections(&garment, Some(avatar), 0)?.count,
-            })
-        })
+        let answered = self.answered.load(Ordering::Relaxed);
+        let judged = self.judge(precision, || self.control.requests() > answered);
+        judged.map(|judgement| judgement.counted).map_err(|error| self.answer(error))
     }
 
-    /// Back to where inputs can be set; the inputs stay.
+    fn judge(&self, precision: Precision, should_stop: impl Fn() -> bool) -> Result<Judgement> {
+        let (view, Some(pool)) = (self.readable()?, &self.pool) else {
+            return Err(Error::new(ErrorKind::Internal, "there are no threads in a prepared session"));
+        };
+        if should_stop() {
+            return Err(cancelled());
+        }
+        let (view, stop, fault) = (view.clone(), Cancel::new(), self.fault);
+        let cancel = stop.clone();
+        let job = move || {
+            Fault::Verify.at(fault);
+            view.judge(precision, &cancel)
+        };
+        pool.run(should_stop, &stop, job)?
+    }
+
+    /// Back to where inputs can be set; the inputs stay. Waits for work that a request to stop has left.
     pub fn reset(&mut self) {
         self.work = None;
+        if let Some(pool) = self.pool.take() {
+            pool.drain();
+        }
+        self.view = None;
         self.report = Report::default();
+        self.findings.clear();
+        self.verified.clear();
         self.control.clear_cancel();
+        self.answered.store(0, Ordering::Relaxed);
         self.enter(Stage::Setup);
     }
 }
 
-fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) -> Result<()> {
-    let (have, want) = ((skin.joint_count(), skin.vertex_count()), (skeleton.joints.len(), avatar.positions.len()));
-    if have == want {
-        return Ok(());
-    }
-    Err(Error::new(
-        ErrorKind::InvalidWeights,
+fn not_verified(counted: &Verification) -> Error {
+    Error::new(
+        ErrorKind::NotVerified,
         format!(
-            "skin weights: they are for {} joints and {} vertices, the target skeleton has {} joints and the avatar {} \
-             vertices",
-            have.0, have.1, want.0, want.1
+            "the result, in the precision and space in which it would be read, has {} intersecting pairs of garment triangles \
+             that did not intersect at the start, and {} of garment and avatar triangles; it is not handed out as good. Set \
+             and read the garment in 64 bits, or move the avatar nearer to the origin",
+            counted.new_garment_garment(),
+            counted.garment_avatar
         ),
-    ))
+    )
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::Term;
 use super::pattern::{PairCollector, Pattern};
+use crate::control::Cancel;
 use crate::energy::{Configuration, Direction, Sink};
 
 /// Elements in a chunk.
@@ -29,6 +30,7 @@ pub struct System {
     /// c.
     pub t_hessian: f64,
     lanes: Vec<Lane>,
+    cancel: Cancel,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -121,6 +123,11 @@ impl Sink for LaneSink<'_> {
 }
 
 impl System {
+    /// From now on looks at `cancel`; once that is set, what is assembled is incomplete.
+    pub fn watch(&mut self, cancel: Cancel) {
+        self.cancel = cancel;
+    }
+
     /// Evaluates all the derivatives of `terms` at `at`. Returns the pairs of vertices that the pattern lacks; where
     /// there are any, the Hessian is incomplete.
     pub fn assemble(&mut self, pattern: &Pattern, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
@@ -130,9 +137,13 @@ impl System {
             .flat_map(|&term| (0..term.energy.len()).step_by(CHUNK).map(move |start| (term, start)))
             .collect();
         self.lanes.resize_with(LANES, Lane::default);
+        let cancel = &self.cancel;
         self.lanes.par_iter_mut().enumerate().for_each(|(index, lane)| {
             lane.clear(pattern);
             for &(Term { energy, weight }, start) in chunks.iter().skip(index).step_by(LANES) {
+                if cancel.is_requested() {
+                    return;
+                }
                 let range = start..(start + CHUNK).min(energy.len());
                 energy.derivatives(at, range, &mut LaneSink { lane, pattern, weight });
             }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Term, assembly};
+use crate::control::Cancel;
 use crate::energy::Configuration;
 
 /// Sufficient decrease (Armijo): `E(a) <= E(0) + SUFFICIENT a E'(0)`.
@@ -22,7 +23,8 @@ pub struct Found {
 }
 
 /// Finds a fraction of the step from `at` along (`dx`, `dt`), at most `longest`, that decreases the objective enough.
-/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success.
+/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success. `None` where
+/// there is no such fraction, or once `cancel` is set.
 #[allow(clippy::too_many_arguments)]
 pub fn backtrack(
     terms: &[Term<'_>],
@@ -33,9 +35,13 @@ pub fn backtrack(
     value: f64,
     longest: f64,
     trial: &mut Vec<DVec3>,
+    cancel: &Cancel,
 ) -> Option<Found> {
     let mut fraction = longest;
     for _ in 0..CUTS {
+        if cancel.is_requested() {
+            return None;
+        }
         trial.clear();
         trial.extend(at.x.iter().zip(dx).map(|(&x, &d)| x + fraction * d));
         let values = assembly::values(terms, Configuration { x: trial, t: at.t + fraction * dt });

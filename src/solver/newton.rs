@@ -17,6 +17,7 @@ use super::assembly::{self, System};
 use super::cholesky::Factor;
 use super::line_search::backtrack;
 use super::pattern::{PairCollector, Pattern};
+use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::error::{Error, ErrorKind, Result};
 
@@ -100,6 +101,7 @@ pub struct Newton {
     trial: Vec<DVec3>,
     /// The value of each term at the present state, where it is known.
     values: Option<Vec<f64>>,
+    cancel: Cancel,
     /// What has been done so far.
     pub counters: Counters,
 }
@@ -123,30 +125,42 @@ impl Newton {
             dx: Vec::new(),
             trial: Vec::new(),
             values: None,
+            cancel: Cancel::new(),
             counters: Counters { analyses: 1, ..Counters::default() },
         })
+    }
+
+    /// The same solver, which ends with `Cancelled` at its next checkpoint once `cancel` is set.
+    pub fn watching(mut self, cancel: Cancel) -> Self {
+        self.system.watch(cancel.clone());
+        self.cancel = cancel;
+        self
     }
 
     /// Assembles and factorises the system at `at`, and solves for the response of the vertices; with `border`, for that
     /// to a change of t as well.
     ///
     /// # Errors
-    /// `Internal` where the Hessian cannot be made positive definite or memory runs out.
+    /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `Cancelled`.
     pub fn linearise(&mut self, terms: &[Term<'_>], at: Configuration<'_>, border: bool) -> Result<()> {
         let clock = Instant::now();
         self.counters.assemblies += 1;
         let missing = self.system.assemble(&self.pattern, terms, at);
+        self.cancel.check()?;
         if !missing.is_empty() {
             self.pattern = self.pattern.extended(missing);
             self.factor = Factor::analyse(&self.pattern)?;
+            self.cancel.check()?;
             self.counters.analyses += 1;
             self.counters.assemblies += 1;
             self.system.assemble(&self.pattern, terms, at);
         }
         self.counters.assembly += clock.elapsed();
+        self.cancel.check()?;
 
         let clock = Instant::now();
         self.factorise()?;
+        self.cancel.check()?;
         self.response.clear();
         self.response.extend(self.system.gradient.iter().map(|g| -g));
         if border {
@@ -177,6 +191,7 @@ impl Newton {
                 }
             }
             added = shift;
+            self.cancel.check()?;
             self.counters.factorisations += 1;
             if self.factor.factorise(&self.pattern, &self.system.hessian) {
                 return Ok(());
@@ -259,6 +274,7 @@ impl Newton {
         let clock = Instant::now();
         let fraction = model.admit(state.configuration(), &self.dx, kept * dt, 1.0);
         self.counters.admission += clock.elapsed();
+        self.cancel.check()?;
         for (x, d) in state.x.iter_mut().zip(&self.dx) {
             *x += fraction * *d;
         }
@@ -283,13 +299,15 @@ impl Newton {
         let clock = Instant::now();
         let longest = model.admit(state.configuration(), &self.dx, dt, 1.0);
         self.counters.admission += clock.elapsed();
+        self.cancel.check()?;
 
         let clock = Instant::now();
         let terms = model.terms();
         let start = state.configuration();
         let before = self.values.take().unwrap_or_else(|| assembly::values(&terms, start));
         let before = assembly::weighted(&terms, &before);
-        let found = backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial);
+        let found = backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel);
+        self.cancel.check()?;
         self.counters.line_search += clock.elapsed();
         Ok(found.map(|found| {
             std::mem::swap(&mut state.x, &mut self.trial);

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::rounding::Gaps;
 use crate::contact::tangle::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Step, Tangle, ccd};
+use crate::control::Cancel;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
@@ -49,6 +50,7 @@ pub struct Objective {
     weights: Options,
     barrier_weight: f64,
     gaps: Gaps,
+    cancel: Cancel,
 }
 
 impl Objective {
@@ -71,7 +73,13 @@ impl Objective {
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
             gaps,
+            cancel: Cancel::new(),
         }
+    }
+
+    /// From now on looks at `cancel`; once that is set, [`Model::admit`] admits nothing.
+    pub fn watch(&mut self, cancel: Cancel) {
+        self.cancel = cancel;
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
@@ -157,6 +165,12 @@ impl Objective {
         let nearest = near.min_distance_self.min(near.min_distance_avatar);
         let floor = (FLOOR_SHARE * nearest).min(self.gaps.floor);
         self.set_floor(if nearest > lowest { floor.max(lowest) } else { floor });
+    }
+
+    /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
+    pub fn widen(&mut self) {
+        self.gaps = self.gaps.doubled();
+        self.barrier.set_settings(BarrierSettings { dhat_self: self.gaps.own_dhat, ..*self.barrier.settings() });
     }
 
     /// The gaps that contact keeps.
@@ -252,6 +266,9 @@ impl Model for Objective {
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
         let step = Step { dx, dt };
         self.find_pairs(at, Some(&step));
+        if self.cancel.is_requested() {
+            return 0.0;
+        }
         let floor = self.barrier.settings().floor;
         ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest)
     }

@@ -11,28 +11,29 @@ use super::initialize::{ProjectedAvatar, project};
 use super::objective::{NO_DISTANCE, Objective, Shape};
 use super::rounding::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
+use crate::control::Cancel;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject};
+use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::input::guide::choose_guides;
 use crate::input::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
+use crate::input::weld::Weld;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
 use crate::verify::intersections;
 
-/// Pairs of triangles that are named one by one.
-const MOST_NAMED: usize = 1000;
-
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
-    /// The garment, around the source skeleton.
+    /// The garment, around the source skeleton, welded.
     pub garment: &'a TriangleMesh,
+    /// The way from the welded garment's indices to the caller's.
+    pub weld: Arc<Weld>,
     /// The skeleton that the garment was designed on.
     pub source_skeleton: &'a Skeleton,
     /// The body to dress.
@@ -43,7 +44,7 @@ pub struct Inputs<'a> {
     pub skin: Option<&'a SkinWeights>,
     /// The body that the garment was designed on, in the garment's space.
     pub source_avatar: Option<&'a TriangleMesh>,
-    /// How much each garment vertex should fit, 1 where not given.
+    /// How much each welded vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's space.
     pub coordinate_error: f64,
@@ -59,6 +60,8 @@ pub struct Problem {
     pub rest: Vec<DVec3>,
     /// Its triangles.
     pub triangles: Vec<[u32; 3]>,
+    /// The way to the caller's indices.
+    pub weld: Arc<Weld>,
     /// The avatar at full size, its own vertices and triangles.
     pub avatar: Arc<TriangleMesh>,
     /// The avatar between skeleton and full size.
@@ -76,13 +79,13 @@ pub struct Problem {
 
 impl Problem {
     /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing goes to `findings`, in the
-    /// indices of `inputs`.
+    /// caller's indices.
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `InvalidMesh` where the coordinates of the result are too coarse,
     /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it, and, if the options
-    /// are strict, `SelfIntersection` where the garment passes through itself.
-    pub fn new(inputs: &Inputs<'_>, options: &Options, findings: &mut Vec<Finding>) -> Result<Self> {
+    /// are strict, `SelfIntersection` where the garment passes through itself; `Cancelled`.
+    pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
         let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
@@ -98,14 +101,18 @@ impl Problem {
             triangles: inputs.avatar.triangles.clone(),
         };
         gather_unused(&mut avatar);
+        cancel.check()?;
         let projected = project(&avatar, &target, &source, inputs.skin);
+        cancel.check()?;
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         let gaps = Gaps::of(options).widened(inputs.coordinate_error * target_frame.scale, &garment)?;
         if gaps != Gaps::of(options) {
             findings.push(coarse_coordinates(&gaps));
         }
         let tangled = intersections(&garment, None, usize::MAX)?.pairs;
+        cancel.check()?;
         enclosure::check(&garment, &projected, &source)?;
+        cancel.check()?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let lengths = topology.mean_edge_lengths(&garment.positions);
@@ -140,6 +147,7 @@ impl Problem {
             target_frame,
             rest: garment.positions,
             triangles: garment.triangles,
+            weld: inputs.weld.clone(),
             avatar: Arc::new(avatar),
             projected,
             shape: Arc::new(shape),
@@ -169,7 +177,7 @@ impl Problem {
         objective.begin(at, &self.tangled);
         let tangled = objective.tangle().triangle_pairs();
         if options.strict && !tangled.is_empty() {
-            return Err(intersects_itself(tangled));
+            return Err(self.intersects_itself(tangled));
         }
         self.report_tangle(tangled, findings);
         let near = objective.activity(at);
@@ -188,7 +196,7 @@ impl Problem {
                 .nearest(at)
                 .into_iter()
                 .flat_map(|pair| objective.garment_vertices(pair))
-                .map(|v| Element::vertex(Subject::Garment, v))
+                .map(|v| Element::vertex(Subject::Garment, self.weld.vertex_of[v as usize]))
                 .collect();
             findings.push(Finding {
                 distance: near.min_distance_self.min(near.min_distance_avatar),
@@ -210,21 +218,35 @@ impl Problem {
     }
 
     fn report_tangle(&self, tangled: &[[u32; 2]], findings: &mut Vec<Finding>) {
-        let count = tangled.len();
-        for (k, &[s, t]) in tangled.iter().take(MOST_NAMED).enumerate() {
-            let how = if self.tangled.binary_search(&[s, t]).is_ok() { "intersect" } else { "touch within rounding" };
-            let more = match (k + 1 == MOST_NAMED, count - MOST_NAMED.min(count)) {
-                (true, rest) if rest > 0 => format!("; {rest} more pairs are not named"),
-                _ => String::new(),
-            };
+        let finding = |pair: &[u32; 2]| {
+            let how = if self.tangled.binary_search(pair).is_ok() { "intersect" } else { "touch within rounding" };
+            let [s, t] = pair.map(|t| self.weld.triangle_of[t as usize]);
             let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
-            findings.push(Finding::new(
-                FindingKind::SelfIntersection,
-                Severity::Warning,
-                &elements,
-                format!("garment: triangles {s} and {t} {how} before anything has moved; they may still do so in the result{more}"),
-            ));
-        }
+            let sentence = format!(
+                "garment: triangles {s} and {t} {how} before anything has moved; they are let off until they come apart, and \
+                 may still {how} in the result"
+            );
+            Finding::new(FindingKind::SelfIntersection, Severity::Warning, &elements, sentence)
+        };
+        describe(findings, tangled, finding, "pairs of garment triangles intersect before anything has moved");
+    }
+
+    fn intersects_itself(&self, pairs: &[[u32; 2]]) -> Error {
+        let named = |pair: &[u32; 2]| {
+            let [a, b] = pair.map(|t| self.weld.triangle_of[t as usize]);
+            format!("{a} and {b}")
+        };
+        let named: Vec<String> = pairs.iter().take(4).map(named).collect();
+        Error::new(
+            ErrorKind::SelfIntersection,
+            format!(
+                "garment: {} pairs of triangles intersect or touch before anything has moved (triangles {}{}); move them \
+                 apart, or switch strict off",
+                pairs.len(),
+                named.join(", "),
+                if pairs.len() > named.len() { ", ..." } else { "" },
+            ),
+        )
     }
 
     /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
@@ -267,20 +289,6 @@ fn gather_unused(mesh: &mut TriangleMesh) {
     for (p, _) in mesh.positions.iter_mut().zip(used).filter(|(_, used)| !used) {
         *p = place;
     }
-}
-
-fn intersects_itself(pairs: &[[u32; 2]]) -> Error {
-    let named: Vec<String> = pairs.iter().take(4).map(|[a, b]| format!("{a} and {b}")).collect();
-    Error::new(
-        ErrorKind::SelfIntersection,
-        format!(
-            "garment: {} pairs of triangles intersect or touch before anything has moved (triangles {}{}); move them apart, or \
-             switch strict off",
-            pairs.len(),
-            named.join(", "),
-            if pairs.len() > named.len() { ", ..." } else { "" },
-        ),
-    )
 }
 
 fn coarse_coordinates(gaps: &Gaps) -> Finding {

@@ -68,12 +68,20 @@ impl Gaps {
             floor: self.floor.max(floor.min(FLOOR_IN_DHAT * own_dhat)),
         })
     }
+
+    /// All gaps twice as wide.
+    pub fn doubled(self) -> Self {
+        Self {
+            own_dhat: 2.0 * self.own_dhat,
+            dhat: 2.0 * self.dhat,
+            inflation_dhat: 2.0 * self.inflation_dhat,
+            floor: 2.0 * self.floor,
+        }
+    }
 }
 
 fn median_edge(mesh: &TriangleMesh) -> f64 {
-    let side = |t: &[u32; 3], k: usize| {
-        mesh.positions[t[k] as usize].distance(mesh.positions[t[(k + 1) % 3] as usize])
-    };
+    let side = |t: &[u32; 3], k: usize| mesh.positions[t[k] as usize].distance(mesh.positions[t[(k + 1) % 3] as usize]);
     let mut lengths: Vec<f64> = mesh.triangles.iter().flat_map(|t| (0..3).map(move |k| side(t, k))).collect();
     let middle = lengths.len() / 2;
     if lengths.is_empty() {

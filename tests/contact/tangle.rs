@@ -93,7 +93,8 @@ fn free_pairs_are_left_out_and_no_others() {
     for seed in 30..34 {
         let scene = Scene::random(seed, 0.1);
         let at = Configuration { x: &scene.x, t: 0.3 };
-        let mesh = TriangleMesh { positions: scene.x.clone(), triangles: scene.bodies.garment.surface.triangles.clone() };
+        let mesh =
+            TriangleMesh { positions: scene.x.clone(), triangles: scene.bodies.garment.surface.triangles.clone() };
         let tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
         let tangle = Tangle::new(&scene.bodies.garment.surface, &tangled);
         let (mut all, mut guarded) = (CandidateSet::default(), CandidateSet::default());

@@ -1,9 +1,12 @@
 //! A sleeve on an arm: small enough to look at every step.
 
-use bespoke::control::Stage;
+use std::sync::Arc;
+
+use bespoke::control::{Cancel, Stage};
 use bespoke::error::ErrorKind;
 use bespoke::input::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
+use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Precision, Session};
 use bespoke::solver::newton::{Model, Newton, State};
@@ -104,18 +107,22 @@ fn the_sleeve_grows_with_the_arm_and_comes_out_in_the_arms_space() {
 fn no_iterate_of_the_inflation_intersects() {
     let (garment, avatar, skeleton) = (sleeve(), thick_arm(), arm(1.0, DVec3::ZERO));
     let options = Options::default();
+    let (weld, _) = Weld::new(&garment);
     let inputs = Inputs {
-        garment: &garment,
+        garment: &weld.mesh,
+        weld: Arc::new(weld.clone()),
         source_skeleton: &skeleton,
         avatar: &avatar,
         target_skeleton: &skeleton,
         skin: None,
         source_avatar: None,
         fit_weights: None,
+        coordinate_error: 0.0,
     };
-    let problem = Problem::new(&inputs, &options).unwrap();
-    let (mut objective, kept) = problem.begin(&options).unwrap();
-    assert_eq!(kept, options);
+    let mut findings = Vec::new();
+    let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut findings).unwrap();
+    let mut objective = problem.begin(&options, &mut findings).unwrap();
+    assert!(findings.is_empty() && objective.floor() == options.separation_floor, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms()).unwrap();
     let mut inflation = Inflation::default();

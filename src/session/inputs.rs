@@ -1,0 +1,248 @@
+//! What a caller has set. Shared, so that work that goes on keeps what it needs.
+
+use std::sync::Arc;
+
+use super::{Precision, Session, Stage};
+use crate::control::Cancel;
+use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnosis::Finding;
+use crate::input::mesh::TriangleMesh;
+use crate::input::skeleton::Skeleton;
+use crate::input::skin::SkinWeights;
+use crate::input::space::Space;
+use crate::input::weld::Weld;
+use crate::options::Options;
+use crate::stage::problem::{Inputs as Posed, Problem};
+
+/// Everything that can be set, in the caller's own spaces.
+#[derive(Clone, Default)]
+pub(super) struct Inputs {
+    pub(super) garment: Option<(Arc<TriangleMesh>, Precision)>,
+    source_skeleton: Option<Arc<Skeleton>>,
+    pub(super) avatar: Option<Arc<TriangleMesh>>,
+    target_skeleton: Option<Arc<Skeleton>>,
+    source_avatar: Option<Arc<TriangleMesh>>,
+    skin: Option<Arc<SkinWeights>>,
+    fit_weights: Option<Arc<[f64]>>,
+    source_space: Space,
+    pub(super) target_space: Space,
+    pub(super) options: Options,
+}
+
+impl Session {
+    pub(super) fn setting(&self, what: &str) -> Result<()> {
+        if self.stage == Stage::Setup {
+            return Ok(());
+        }
+        Err(Error::new(
+            ErrorKind::InvalidState,
+            format!("{what} cannot be set after prepare; call reset first, which keeps the inputs"),
+        ))
+    }
+
+    /// The garment, in the source space, around the source skeleton.
+    ///
+    /// # Errors
+    /// `InvalidMesh`, `InvalidState`.
+    pub fn set_garment(&mut self, mesh: TriangleMesh, precision: Precision) -> Result<()> {
+        self.setting("the garment")?;
+        mesh.check("garment")?;
+        self.inputs.garment = Some((Arc::new(mesh), precision));
+        Ok(())
+    }
+
+    /// Vertices of the garment, once it is set.
+    pub fn garment_vertex_count(&self) -> Option<usize> {
+        self.inputs.garment.as_ref().map(|g| g.0.positions.len())
+    }
+
+    /// The skeleton that the garment was designed on, in the source space.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton`, `InvalidState`.
+    pub fn set_source_skeleton(&mut self, skeleton: Skeleton) -> Result<()> {
+        self.setting("the source skeleton")?;
+        skeleton.check("source skeleton")?;
+        self.inputs.source_skeleton = Some(Arc::new(skeleton));
+        Ok(())
+    }
+
+    /// The body to dress, in the target space. It may be open, non-manifold, in pieces and pass through itself.
+    ///
+    /// # Errors
+    /// `InvalidMesh`, `InvalidState`.
+    pub fn set_target_avatar(&mut self, mesh: TriangleMesh) -> Result<()> {
+        self.setting("the target avatar")?;
+        mesh.check("target avatar")?;
+        self.inputs.avatar = Some(Arc::new(mesh));
+        Ok(())
+    }
+
+    /// The skeleton of the body to dress, in the target space: the same joints and bones as the source skeleton, the bones
+    /// in any order and direction.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton`, `InvalidState`.
+    pub fn set_target_skeleton(&mut self, skeleton: Skeleton) -> Result<()> {
+        self.setting("the target skeleton")?;
+        skeleton.check("target skeleton")?;
+        self.inputs.target_skeleton = Some(Arc::new(skeleton));
+        Ok(())
+    }
+
+    /// The body that the garment was designed on, in the source space. Optional: with it, each point of the garment aims
+    /// at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
+    ///
+    /// # Errors
+    /// `InvalidMesh`, `InvalidState`.
+    pub fn set_source_avatar(&mut self, mesh: TriangleMesh) -> Result<()> {
+        self.setting("the source avatar")?;
+        mesh.check("source avatar")?;
+        self.inputs.source_avatar = Some(Arc::new(mesh));
+        Ok(())
+    }
+
+    /// Skin weights of the target avatar. Optional: without them the nearest bone decides.
+    ///
+    /// # Errors
+    /// `InvalidState`. The size is compared with the avatar's by `prepare`.
+    pub fn set_target_skin(&mut self, skin: SkinWeights) -> Result<()> {
+        self.setting("the skin weights")?;
+        self.inputs.skin = Some(Arc::new(skin));
+        Ok(())
+    }
+
+    /// How much each garment vertex should fit: 0 not at all, 1 as the others. Optional: 1 everywhere.
+    ///
+    /// # Errors
+    /// `InvalidWeights` for a negative weight or one that is not finite, `InvalidState`.
+    pub fn set_fit_weights(&mut self, weights: Vec<f64>) -> Result<()> {
+        self.setting("the fit weights")?;
+        if let Some((v, w)) = weights.iter().enumerate().find(|(_, w)| !(w.is_finite() && **w >= 0.0)) {
+            return Err(Error::new(
+                ErrorKind::InvalidWeights,
+                format!("fit weights: vertex {v} has weight {w}; it must be finite and not negative"),
+            ));
+        }
+        self.inputs.fit_weights = Some(weights.into());
+        Ok(())
+    }
+
+    /// Axes, unit and winding of garment, source skeleton and source avatar.
+    ///
+    /// # Errors
+    /// `InvalidArgument`, `InvalidState`.
+    pub fn set_source_space(&mut self, space: Space) -> Result<()> {
+        self.setting("the source space")?;
+        space.check("source space")?;
+        self.inputs.source_space = space;
+        Ok(())
+    }
+
+    /// Axes, unit and winding of target avatar and target skeleton, and of the result.
+    ///
+    /// # Errors
+    /// `InvalidArgument`, `InvalidState`.
+    pub fn set_target_space(&mut self, space: Space) -> Result<()> {
+        self.setting("the target space")?;
+        space.check("target space")?;
+        self.inputs.target_space = space;
+        Ok(())
+    }
+
+    /// Weights, distances and limits.
+    ///
+    /// # Errors
+    /// `InvalidArgument`, `InvalidState`.
+    pub fn set_options(&mut self, options: Options) -> Result<()> {
+        self.setting("the options")?;
+        options.check()?;
+        self.inputs.options = options;
+        Ok(())
+    }
+}
+
+impl Inputs {
+    /// Checks the inputs against each other and poses the problem. What is worth knowing goes to `findings`.
+    ///
+    /// # Errors
+    /// `InvalidState` where an input is missing, those of [`Problem::new`].
+    pub(super) fn pose_problem(&self, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Problem> {
+        let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
+        let Some(source) = &self.source_skeleton else {
+            return missing("the source skeleton", "set_source_skeleton");
+        };
+        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
+        let Some(target) = &self.target_skeleton else {
+            return missing("the target skeleton", "set_target_skeleton");
+        };
+        let target = target.aligned_to(source)?;
+        if let Some(skin) = &self.skin {
+            check_skin(skin, &target, avatar)?;
+        }
+        if let Some(weights) = &self.fit_weights
+            && weights.len() != garment.positions.len()
+        {
+            return Err(Error::new(
+                ErrorKind::InvalidWeights,
+                format!(
+                    "fit weights: there are {} weights, the garment has {} vertices",
+                    weights.len(),
+                    garment.positions.len()
+                ),
+            ));
+        }
+        let (weld, found) = Weld::new(garment);
+        findings.extend(found);
+        cancel.check()?;
+        Problem::new(
+            &Posed {
+                garment: &mesh_to_ours(&self.source_space, &weld.mesh),
+                source_skeleton: &skeleton_to_ours(&self.source_space, source),
+                avatar: &mesh_to_ours(&self.target_space, avatar),
+                target_skeleton: &skeleton_to_ours(&self.target_space, &target),
+                skin: self.skin.as_deref(),
+                source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
+                fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
+                weld: Arc::new(weld),
+                coordinate_error: self.target_space.metres_per_unit * precision.error_near(avatar),
+            },
+            &self.options,
+            cancel,
+            findings,
+        )
+    }
+}
+
+fn mesh_to_ours(space: &Space, mesh: &TriangleMesh) -> TriangleMesh {
+    TriangleMesh {
+        positions: mesh.positions.iter().map(|&p| space.position_to_ours(p)).collect(),
+        triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
+    }
+}
+
+fn skeleton_to_ours(space: &Space, skeleton: &Skeleton) -> Skeleton {
+    Skeleton {
+        joints: skeleton.joints.iter().map(|&p| space.position_to_ours(p)).collect(),
+        bones: skeleton.bones.clone(),
+    }
+}
+
+pub(super) fn missing<T>(what: &str, call: &str) -> Result<T> {
+    Err(Error::new(ErrorKind::InvalidState, format!("{what} is missing: call {call} before prepare")))
+}
+
+fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) -> Result<()> {
+    let (have, want) = ((skin.joint_count(), skin.vertex_count()), (skeleton.joints.len(), avatar.positions.len()));
+    if have == want {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::InvalidWeights,
+        format!(
+            "skin weights: they are for {} joints and {} vertices, the target skeleton has {} joints and the avatar {} \
+             vertices",
+            have.0, have.1, want.0, want.1
+        ),
+    ))
+}

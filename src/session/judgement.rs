@@ -1,0 +1,70 @@
+//! What the exact verifier says of a garment as its caller would read it, against what it was at the start.
+
+use crate::control::Cancel;
+use crate::error::Result;
+use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::input::mesh::TriangleMesh;
+use crate::input::weld::Weld;
+use crate::report::Verification;
+use crate::verify::intersections_unless;
+
+/// Counts, and the pairs of triangles that must not be there, in the caller's indices.
+pub(super) struct Judgement {
+    pub(super) counted: Verification,
+    /// Pairs of garment triangles that did not intersect at the start.
+    own: Vec<[u32; 2]>,
+    /// Pairs of a garment and an avatar triangle.
+    avatar: Vec<[u32; 2]>,
+}
+
+impl Judgement {
+    /// Judges the welded `garment`, of which the pairs of triangles in `tangled`, in ascending order, intersected at the
+    /// start.
+    ///
+    /// # Errors
+    /// `InvalidMesh` where a coordinate is not finite, `Cancelled`.
+    pub(super) fn new(
+        garment: &TriangleMesh,
+        weld: &Weld,
+        avatar: &TriangleMesh,
+        tangled: &[[u32; 2]],
+        cancel: &Cancel,
+    ) -> Result<Self> {
+        let own = intersections_unless(cancel, garment, None, usize::MAX)?;
+        let avatar = intersections_unless(cancel, garment, Some(avatar), usize::MAX)?;
+        let callers = |t: u32| weld.triangle_of[t as usize];
+        let new = own.pairs.iter().filter(|pair| tangled.binary_search(pair).is_err());
+        let new: Vec<[u32; 2]> = new.map(|pair| pair.map(callers)).collect();
+        Ok(Self {
+            counted: Verification {
+                garment_garment: own.count,
+                since_start: own.count - new.len() as u64,
+                garment_avatar: avatar.count,
+            },
+            own: new,
+            avatar: avatar.pairs.into_iter().map(|[s, t]| [callers(s), t]).collect(),
+        })
+    }
+
+    /// The pairs that must not be there.
+    pub(super) fn findings(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        let finding = |elements: [Element; 2], sentence: String| {
+            Finding::new(FindingKind::ResultIntersection, Severity::Error, &elements, sentence)
+        };
+        let own = |&[s, t]: &[u32; 2]| {
+            let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
+            finding(
+                elements,
+                format!("result: garment triangles {s} and {t} intersect, which they did not at the start"),
+            )
+        };
+        describe(&mut findings, &self.own, own, "pairs of garment triangles intersect in the result");
+        let avatar = |&[s, t]: &[u32; 2]| {
+            let elements = [Element::triangle(Subject::Garment, s), Element::triangle(Subject::TargetAvatar, t)];
+            finding(elements, format!("result: garment triangle {s} and avatar triangle {t} intersect"))
+        };
+        describe(&mut findings, &self.avatar, avatar, "pairs of garment and avatar triangles intersect in the result");
+        findings
+    }
+}

@@ -1,0 +1,78 @@
+//! What a caller can read: the last accepted iterate, apart from the work that goes on.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::Precision;
+use super::judgement::Judgement;
+use super::work::Work;
+use crate::control::Cancel;
+use crate::error::Result;
+use crate::input::mesh::TriangleMesh;
+use crate::input::space::Space;
+use crate::stage::problem::Problem;
+
+/// The last accepted iterate, with all that it takes to hand it out in the caller's space.
+#[derive(Clone)]
+pub(super) struct View {
+    problem: Arc<Problem>,
+    /// As the caller gave it.
+    avatar: Arc<TriangleMesh>,
+    space: Space,
+    /// Pairs of garment triangles that intersected at the start.
+    tangled: Arc<[[u32; 2]]>,
+    /// Welded garment vertices in the normalised space.
+    x: Vec<DVec3>,
+    /// Inflation parameter.
+    pub(super) t: f64,
+    /// Iterations of the stage.
+    pub(super) iteration: u32,
+}
+
+impl View {
+    /// What `work` has reached. The target is `avatar`, in `space`.
+    pub(super) fn of(work: &Work, avatar: Arc<TriangleMesh>, space: Space) -> Self {
+        Self {
+            problem: work.problem.clone(),
+            avatar,
+            space,
+            tangled: work.tangled.clone(),
+            x: work.state.x.clone(),
+            t: work.state.t,
+            iteration: work.iterations(),
+        }
+    }
+
+    /// Follows `work` to what it has reached now.
+    pub(super) fn follow(&mut self, work: &Work) {
+        self.x.clone_from(&work.state.x);
+        self.t = work.state.t;
+        self.iteration = work.iterations();
+    }
+
+    pub(super) fn garment_positions(&self) -> Vec<DVec3> {
+        let welded: Vec<DVec3> = self.x.iter().map(|&p| self.restored(p)).collect();
+        self.problem.weld.spread(&welded)
+    }
+
+    pub(super) fn avatar_positions(&self) -> Vec<DVec3> {
+        if self.t >= 1.0 {
+            // To the bit as it came, not through the normalised space and back.
+            return self.avatar.positions.clone();
+        }
+        let between = self.problem.projected.shrunk.iter().zip(&self.problem.avatar.positions);
+        between.map(|(&a, &b)| self.restored(a.lerp(b, self.t))).collect()
+    }
+
+    fn restored(&self, p: DVec3) -> DVec3 {
+        self.space.position_from_ours(self.problem.target_frame.restore(p))
+    }
+
+    /// Judges the garment as it is read in `precision`.
+    pub(super) fn judge(&self, precision: Precision, cancel: &Cancel) -> Result<Judgement> {
+        let positions = self.x.iter().map(|&p| precision.round(self.restored(p))).collect();
+        let garment = TriangleMesh { positions, triangles: self.problem.triangles.clone() };
+        Judgement::new(&garment, &self.problem.weld, &self.avatar, &self.tangled, cancel)
+    }
+}
