@@ -719,7 +719,8 @@ const char *bespoke_version_text(void);
 BespokeStatus bespoke_session_create(struct BespokeSession **session);
 
 /*
- Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable.
+ Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
+ thread of the session is left; where a request to stop has just ended a call, that may take a moment.
 
  Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
  other call with this session may begin from here on.
@@ -727,7 +728,8 @@ BespokeStatus bespoke_session_create(struct BespokeSession **session);
 BespokeStatus bespoke_session_destroy(struct BespokeSession *session);
 
 /*
- Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+ Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
+ bespoke_session_destroy, it waits for work that a request to stop has left.
 
  State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
  */
@@ -880,11 +882,11 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 
 /*
  Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
- PREPARED; where it fails, the session still takes inputs.
+ PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
 
  State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
- INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, BUSY,
- INTERNAL. Threads: any, one at a time.
+ INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED,
+ BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
@@ -914,16 +916,20 @@ BespokeStatus bespoke_session_run(struct BespokeSession *session);
  Counts the intersections of the vertices as they would be read now, with exact predicates.
 
  `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
- none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
- INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+ none in the precision of its garment. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by
+ a request that no call has answered yet; the stage stays), BUSY, INTERNAL; `*intersections` is written with OK only.
+ Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
                                      uint32_t component,
                                      struct BespokeIntersections *intersections);
 
 /*
- Asks a session to stop. The call that runs returns CANCELLED after its present iteration, or the next one does. The
- request stays until bespoke_session_reset.
+ Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+ whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
+
+ What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
+ in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
 
  Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
  it.

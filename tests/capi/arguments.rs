@@ -15,7 +15,7 @@ use bespoke::capi::view::{BespokeBuffer, BespokeComponent, BespokeView};
 
 use crate::caller::{Caller, bones, no_options, points, triangles};
 
-use BespokeStatus::{InvalidArgument, InvalidWeights, Ok};
+use BespokeStatus::{InvalidArgument, InvalidWeights, MemoryLimit, Ok};
 
 #[test]
 fn null_sessions_are_refused() {
@@ -157,6 +157,27 @@ fn options_are_checked() {
         (BespokeOptions { surface_form: 2, ..no_options() }, "surface_form is 2"),
     ] {
         caller.refused(set(options), InvalidArgument, &[word]);
+    }
+}
+
+/// A program that was built with an earlier header: its struct ends where a later field begins.
+#[test]
+fn shorter_options_of_an_earlier_header_are_accepted() {
+    let (caller, _sample) = Caller::with_sample();
+    let end = std::mem::offset_of!(BespokeOptions, memory_limit);
+    // What lies behind it is none of the library's.
+    let options = BespokeOptions { struct_size: end as u32, memory_limit: 1, ..no_options() };
+    // SAFETY: the session is alive, the options larger than they say.
+    unsafe {
+        caller.accepted(bespoke_session_set_options(caller.session, &options));
+        caller.accepted(bespoke_session_prepare(caller.session));
+        caller.accepted(bespoke_session_reset(caller.session));
+        let options = BespokeOptions { memory_limit: 1, ..no_options() };
+        caller.accepted(bespoke_session_set_options(caller.session, &options));
+        caller.refused(bespoke_session_prepare(caller.session), MemoryLimit, &["MB", "memory_limit"]);
+        let mut defaults = BespokeOptions { struct_size: end as u32, memory_limit: 77, ..no_options() };
+        assert_eq!(bespoke_options_read_defaults(&mut defaults), Ok);
+        assert_eq!((defaults.memory_limit, defaults.dhat), (77, 0.002));
     }
 }
 
