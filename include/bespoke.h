@@ -108,6 +108,10 @@ enum BespokeStatus
    A defect of this library. The session refuses all further work and can only be destroyed; others go on.
    */
   BESPOKE_STATUS_INTERNAL = 12,
+  /*
+   The session would take more memory than the option `memory_limit` allows.
+   */
+  BESPOKE_STATUS_MEMORY_LIMIT = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -433,6 +437,11 @@ typedef struct BespokeOptions {
    One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
    */
   uint32_t surface_form;
+  /*
+   Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+   meshes before it begins, and looked at again as it goes on.
+   */
+  uint64_t memory_limit;
 } BespokeOptions;
 
 /*
@@ -665,6 +674,10 @@ typedef struct BespokeReport {
    Always 0.
    */
   uint32_t reserved;
+  /*
+   Bytes that the session's arrays take, without what the threads and the allocator add.
+   */
+  uint64_t memory_bytes;
 } BespokeReport;
 
 /*
@@ -885,8 +898,8 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
  PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
 
  State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
- INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, CANCELLED,
- BUSY, INTERNAL. Threads: any, one at a time.
+ INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, MEMORY_LIMIT,
+ CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
@@ -898,7 +911,7 @@ BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
  afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
  verified; until then what can be read is a preview.
  State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
- INFLATION_STALLED, NOT_VERIFIED, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+ INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,

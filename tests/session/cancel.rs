@@ -93,7 +93,7 @@ fn measure(session: &mut Session, span: Duration, rounds: usize, seed: u64) -> A
 #[ignore = "takes minutes, and its figures are only good on a quiet machine"]
 fn figures_of_real_meshes() {
     let cases: [(&str, fn(&mut TriangleMesh), u64, usize); 3] =
-        [("Puffer_dense", as_it_is, 12, 40), ("jumpsuit_dense", as_it_is, 20, 40), ("jumpsuit_dense", fine, 60, 12)];
+        [("Puffer_dense", as_it_is, 12, 16), ("jumpsuit_dense", as_it_is, 20, 16), ("jumpsuit_dense", fine, 60, 8)];
     for (garment, change, seconds, rounds) in cases {
         let Some(mut session) = load(garment, "Goblin", Options::default(), change) else { return };
         let vertices = session.garment_vertex_count().unwrap();
