@@ -41,7 +41,7 @@ const BAND: f32 = 2.0;
 
 /// Layers of blocks around a surface that are in use, and bytes of a block: its nodes here, and what OpenVDB has there
 /// while it works.
-const LAYERS: f64 = 4.0;
+const LAYERS: f64 = 2.0;
 const BLOCK_BYTES: f64 = 3.0 * size_of::<Block>() as f64;
 
 /// How to build a [`Field`].

@@ -4,10 +4,11 @@ use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
 use bespoke::memory::Sizes;
 use bespoke::options::Options;
-use bespoke::session::{Precision, Session};
+use bespoke::session::{Budget, Precision, Session};
 use glam::DVec3;
 
 use super::assets::load;
+use super::cancel::{as_it_is, fine, finer};
 use super::small::{arm, moved, session, sleeve, thick_arm, tube};
 
 fn limited(memory_limit: u64) -> Session {
@@ -88,6 +89,26 @@ fn an_avatar_too_large_for_the_voxels_is_refused_by_prepare() {
     assert!(error.message.contains("voxel"), "{error}");
 }
 
+/// Prints a line for each case: `cargo test --release --test session memory:: -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes and gigabytes"]
+fn figures_of_finer_meshes() {
+    for change in [as_it_is, finer, fine] {
+        let Some(mut session) = load("jumpsuit_dense", "child", Options::default(), change) else { return };
+        session.prepare().unwrap();
+        let prepared = session.report();
+        session.step(Budget { iterations: 2, milliseconds: 0 }).unwrap();
+        let [garment_vertices, _] = prepared.garment_size;
+        let sizes = Sizes { garment_vertices, avatar_triangles: prepared.projected_size[1], field: 0 };
+        println!(
+            "{garment_vertices} vertices: held {} prepared, {} after two iterations; estimated {:?}",
+            prepared.memory,
+            session.report().memory,
+            sizes.estimate()
+        );
+    }
+}
+
 /// The estimate from sizes is above what real garments are found to hold, and not far above it.
 #[test]
 fn the_estimate_is_near_what_real_garments_take() {
@@ -101,7 +122,7 @@ fn the_estimate_is_near_what_real_garments_take() {
         let sizes =
             Sizes { garment_vertices: report.garment_size[0], avatar_triangles: report.projected_size[1], field: 0 };
         let estimate: u64 = sizes.estimate().iter().map(|part| part.bytes).sum();
-        assert!(estimate > report.memory / 2, "{garment}: {estimate} for {}", report.memory);
+        assert!(estimate > report.memory, "{garment}: {estimate} for {}", report.memory);
         assert!(estimate < 3 * report.memory, "{garment}: {estimate} for {}", report.memory);
         println!("{garment} on {avatar}: estimate {estimate} without the field, held {}", report.memory);
     }
