@@ -9,46 +9,60 @@ pub(crate) fn bytes<T>(v: &Vec<T>) -> u64 {
 
 const MB: f64 = 1e6;
 
-/// What a session may take at most.
+/// What a session may take at most, and what of it is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MemoryLimit(u64);
+pub struct MemoryLimit {
+    total: u64,
+    held: u64,
+}
 
 impl MemoryLimit {
     /// No limit.
-    pub const NONE: Self = Self(u64::MAX);
+    pub const NONE: Self = Self { total: u64::MAX, held: 0 };
 
     /// A limit of so many bytes; 0 is none.
     pub fn new(bytes: u64) -> Self {
-        if bytes == 0 { Self::NONE } else { Self(bytes) }
+        if bytes == 0 { Self::NONE } else { Self { total: bytes, held: 0 } }
     }
 
-    /// What is left of it beside `held` bytes.
+    /// The same limit where `held` bytes more are taken.
     pub fn beside(self, held: u64) -> Self {
-        if self == Self::NONE { self } else { Self(self.0.saturating_sub(held)) }
+        if self.total == u64::MAX { self } else { Self { held: self.held.saturating_add(held), ..self } }
     }
 
     /// How many things of `size` bytes have room.
     pub fn room_for(self, size: usize) -> usize {
-        if self == Self::NONE { usize::MAX } else { usize::try_from(self.0 / size as u64).unwrap_or(usize::MAX) }
+        if self.total == u64::MAX {
+            return usize::MAX;
+        }
+        usize::try_from(self.total.saturating_sub(self.held) / size as u64).unwrap_or(usize::MAX)
     }
 
     /// # Errors
-    /// `MemoryLimit` where the parts are more than the limit together; the sentence names the largest.
+    /// `MemoryLimit` where the parts do not fit beside what is held; the sentence names the largest.
     pub fn check(self, parts: &[Part]) -> Result<()> {
-        let needed = parts.iter().fold(0u64, |sum, part| sum.saturating_add(part.bytes));
-        if needed <= self.0 {
+        let needed = parts.iter().fold(self.held, |sum, part| sum.saturating_add(part.bytes));
+        if needed <= self.total {
             return Ok(());
         }
         let largest = parts.iter().max_by_key(|part| part.bytes).map_or("", |part| part.what);
-        Err(Error::new(
+        Err(self.exceeded(&format!("about {:.1} MB", needed as f64 / MB), largest))
+    }
+
+    /// The failure where nobody knows how much more would be needed for `what`.
+    pub fn lacking(self, what: &str) -> Error {
+        self.exceeded("more", what)
+    }
+
+    fn exceeded(self, needed: &str, what: &str) -> Error {
+        Error::new(
             ErrorKind::MemoryLimit,
             format!(
-                "memory: about {:.1} MB are needed, the limit is {:.1} MB; most of it is for {largest}. Raise memory_limit, or \
-                 use a coarser mesh or a larger voxel",
-                needed as f64 / MB,
-                self.0 as f64 / MB
+                "memory: {needed} would be needed, the limit is {:.1} MB; most of it is for {what}. Raise memory_limit, or use \
+                 a coarser mesh, a larger voxel or a smaller dhat",
+                self.total as f64 / MB
             ),
-        ))
+        )
     }
 }
 

@@ -179,7 +179,7 @@ impl Work {
         ];
         limit.check(&parts)?;
         if self.objective.lacks_room() {
-            return limit.check(&[parts[0], Part { what: "contacts of the garment", bytes: u64::MAX }]);
+            return Err(limit.lacking("contacts of the garment, more pairs than there is room for"));
         }
         self.objective.limit_pairs(limit.beside(system));
         Ok(())

@@ -26,7 +26,7 @@ fn a_mesh_too_large_for_the_limit_is_refused_before_the_work() {
     let mut session = limited(1_000_000);
     let error = session.prepare().unwrap_err();
     assert_eq!(error.kind, ErrorKind::MemoryLimit);
-    for words in ["MB", "the limit is 1.0 MB", "linear system of the garment", "memory_limit"] {
+    for words in ["MB", "the limit is 1.0 MB", "of the garment", "memory_limit"] {
         assert!(error.message.contains(words), "{error}");
     }
     assert_eq!(session.stage(), Stage::Setup);
@@ -57,7 +57,7 @@ fn pairs_beyond_the_limit_end_the_session() {
         dhat: 0.1,
         inflation_dhat: 0.1,
         voxel: 0.05,
-        memory_limit: 2 * estimate(garment.positions.len()),
+        memory_limit: estimate(garment.positions.len()) + 10_000_000,
         ..Options::default()
     };
     let mut session = Session::new();
@@ -68,7 +68,7 @@ fn pairs_beyond_the_limit_end_the_session() {
     session.set_options(options).unwrap();
     let error = session.run().unwrap_err();
     assert_eq!(error.kind, ErrorKind::MemoryLimit, "{error}");
-    assert!(error.message.contains("contacts") || error.message.contains("linear system"), "{error}");
+    assert!(error.message.contains("more pairs than there is room for"), "{error}");
 }
 
 /// The field of such an avatar has no room for its voxels: said at once, not when Step 3 begins.
