@@ -97,7 +97,9 @@ fn measure(session: &mut Session, span: Duration, rounds: usize, seed: u64) -> A
 #[test]
 #[ignore = "takes minutes, and its figures are only good on a quiet machine"]
 fn figures_of_real_meshes() {
-    let cases: [(&str, fn(&mut TriangleMesh), u64, usize); 3] =
+    /// A garment, what is done to its mesh, seconds of its run, and requests.
+    type Case = (&'static str, fn(&mut TriangleMesh), u64, usize);
+    let cases: [Case; 3] =
         [("Puffer_dense", as_it_is, 12, 16), ("jumpsuit_dense", as_it_is, 20, 16), ("jumpsuit_dense", fine, 60, 8)];
     for (garment, change, seconds, rounds) in cases {
         let Some(mut session) = load(garment, "Goblin", Options::default(), change) else { return };
