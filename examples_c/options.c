@@ -27,6 +27,7 @@ const char *const options_usage =
     "  --tolerance X           the fit ends where what a step still promises is below this part of the objective (1e-3)\n"
     "  --printed-surface       the surface term as printed in the paper, which makes scaling cost something\n"
     "  --threads N             0: all cores (0)\n"
+    "  --memory-limit MB       give up where more memory would be needed (no limit)\n"
     "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
     "  --report FILE           a JSON file with times, iterations, energies, distances and counts\n"
     "  --quiet                 no progress on standard output\n"
@@ -72,6 +73,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         {"--voxel", &options->voxel, true},
         {"--tolerance", &options->tolerance, true},
         {"--threads", &options->threads, false},
+        {"--memory-limit", &options->memory_limit, true},
     };
     const struct {
         const char *name;

@@ -29,6 +29,7 @@ typedef struct Options {
     double voxel;
     double tolerance;
     double threads;
+    double memory_limit;
     bool printed_surface;
     bool quiet;
     bool help;

@@ -42,6 +42,7 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
     fprintf(file, "{\n  \"library_version\": \"%s\",\n  \"threads\": %" PRIu32 ",\n", bespoke_version_text(), report.threads);
     fputs("  ", file);
     write_number(file, "seconds", seconds, ",\n  ");
+    fprintf(file, "\"memory_bytes\": %" PRIu64 ",\n  ", report.memory_bytes);
     fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", peak_memory());
     write_work(file, "prepare", &report.prepare);
     write_work(file, "inflate", &report.inflate);

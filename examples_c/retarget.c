@@ -160,6 +160,7 @@ static bool set_options(Run *run) {
         .dhat = magnitude(given->dhat),
         .voxel = magnitude(given->voxel),
         .tolerance = magnitude(given->tolerance),
+        .memory_limit = given->memory_limit > 0.0 ? (uint64_t)(1e6 * given->memory_limit) : 0,
         .surface_form = given->printed_surface ? BESPOKE_SURFACE_FORM_PRINTED : BESPOKE_SURFACE_FORM_SIMILARITY,
     };
     return succeeded(run, bespoke_session_set_options(run->session, &options), NULL);

@@ -49,6 +49,16 @@
 #define BESPOKE_ENERGY_NAME_SIZE 32
 
 /*
+ Bytes of the sentence in BespokeDiagnostic, its zero byte included.
+ */
+#define BESPOKE_SENTENCE_SIZE 512
+
+/*
+ Elements that a BespokeDiagnostic can name.
+ */
+#define BESPOKE_MAX_ELEMENTS 4
+
+/*
  The outcome of a call.
  */
 enum BespokeStatus
@@ -108,6 +118,10 @@ enum BespokeStatus
    A defect of this library. The session refuses all further work and can only be destroyed; others go on.
    */
   BESPOKE_STATUS_INTERNAL = 12,
+  /*
+   The session would take more memory than the option `memory_limit` allows.
+   */
+  BESPOKE_STATUS_MEMORY_LIMIT = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -291,6 +305,164 @@ typedef uint32_t BespokeSurfaceForm;
 #endif // __cplusplus
 
 /*
+ What a diagnostic is about.
+ */
+enum BespokeDiagnosticKind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES = 1,
+  /*
+   A garment triangle with the corners of another, which counts once. Both are named.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_DUPLICATE_TRIANGLE = 2,
+  /*
+   A garment triangle without area.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_DEGENERATE_TRIANGLE = 3,
+  /*
+   A garment edge with more than two triangles. Its vertices are named.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_NON_MANIFOLD_EDGE = 4,
+  /*
+   A garment vertex that no triangle uses.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_UNUSED_VERTEX = 5,
+  /*
+   A small piece of the garment, such as a button, that is held to the piece beside it.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE = 6,
+  /*
+   Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
+   they have come apart.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION = 7,
+  /*
+   Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
+   named.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT = 8,
+  /*
+   The avatar, shrunk onto the source skeleton, passes through the garment.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES = 9,
+  /*
+   The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES = 10,
+  /*
+   Two triangles that intersect in the result and did not at the start.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION = 11,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeDiagnosticKind BespokeDiagnosticKind;
+#else
+typedef uint32_t BespokeDiagnosticKind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ How much a diagnostic matters.
+ */
+enum BespokeSeverity
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Good to know.
+   */
+  BESPOKE_SEVERITY_NOTE = 1,
+  /*
+   The result may be worse for it.
+   */
+  BESPOKE_SEVERITY_WARNING = 2,
+  /*
+   There is no result because of it.
+   */
+  BESPOKE_SEVERITY_ERROR = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeSeverity BespokeSeverity;
+#else
+typedef uint32_t BespokeSeverity;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ Which of the inputs an element belongs to.
+ */
+enum BespokeSubject
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   The garment.
+   */
+  BESPOKE_SUBJECT_GARMENT = 1,
+  /*
+   The body to dress.
+   */
+  BESPOKE_SUBJECT_TARGET_AVATAR = 2,
+  /*
+   The body that the garment was designed on.
+   */
+  BESPOKE_SUBJECT_SOURCE_AVATAR = 3,
+  /*
+   The skeleton that the garment was designed on.
+   */
+  BESPOKE_SUBJECT_SOURCE_SKELETON = 4,
+  /*
+   The skeleton of the body to dress.
+   */
+  BESPOKE_SUBJECT_TARGET_SKELETON = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeSubject BespokeSubject;
+#else
+typedef uint32_t BespokeSubject;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
+ What the index of an element counts.
+ */
+enum BespokeElementKind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /*
+   Vertices of a mesh.
+   */
+  BESPOKE_ELEMENT_KIND_VERTEX = 1,
+  /*
+   Triangles of a mesh.
+   */
+  BESPOKE_ELEMENT_KIND_TRIANGLE = 2,
+  /*
+   Bones of a skeleton.
+   */
+  BESPOKE_ELEMENT_KIND_BONE = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeElementKind BespokeElementKind;
+#else
+typedef uint32_t BespokeElementKind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/*
  Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
  */
 typedef struct BespokeControl BespokeControl;
@@ -433,6 +605,11 @@ typedef struct BespokeOptions {
    One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
    */
   uint32_t surface_form;
+  /*
+   Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+   meshes before it begins, and looked at again as it goes on.
+   */
+  uint64_t memory_limit;
   /*
    1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
    named by bespoke_session_read_diagnostics, and no others ever join them.
@@ -681,6 +858,10 @@ typedef struct BespokeReport {
    */
   uint32_t reserved;
   /*
+   Bytes that the session's arrays take, without what the threads and the allocator add.
+   */
+  uint64_t memory_bytes;
+  /*
    Intersecting or touching pairs within the garment at the start, which are let off.
    */
   uint64_t garment_intersections_at_start;
@@ -703,6 +884,59 @@ typedef struct BespokeEnergy {
    */
   double weight;
 } BespokeEnergy;
+
+/*
+ A vertex, triangle or bone of an input.
+ */
+typedef struct BespokeElement {
+  /*
+   One of BespokeSubject; 0 where there is no element.
+   */
+  uint32_t subject;
+  /*
+   One of BespokeElementKind.
+   */
+  uint32_t kind;
+  /*
+   The caller's index, from 0.
+   */
+  uint32_t index;
+} BespokeElement;
+
+/*
+ One thing worth knowing about the inputs or the result.
+ */
+typedef struct BespokeDiagnostic {
+  /*
+   One of BespokeDiagnosticKind.
+   */
+  uint32_t kind;
+  /*
+   One of BespokeSeverity.
+   */
+  uint32_t severity;
+  /*
+   Elements in use.
+   */
+  uint32_t element_count;
+  /*
+   The elements that it is about, for a tool to select.
+   */
+  struct BespokeElement elements[BESPOKE_MAX_ELEMENTS];
+  /*
+   0.
+   */
+  uint32_t reserved;
+  /*
+   A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
+   has none.
+   */
+  double distance;
+  /*
+   One sentence, UTF-8; ends with a zero byte.
+   */
+  char sentence[BESPOKE_SENTENCE_SIZE];
+} BespokeDiagnostic;
 
 #ifdef __cplusplus
 extern "C" {
@@ -738,7 +972,8 @@ const char *bespoke_version_text(void);
 BespokeStatus bespoke_session_create(struct BespokeSession **session);
 
 /*
- Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable.
+ Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
+ thread of the session is left; where a request to stop has just ended a call, that may take a moment.
 
  Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
  other call with this session may begin from here on.
@@ -746,7 +981,8 @@ BespokeStatus bespoke_session_create(struct BespokeSession **session);
 BespokeStatus bespoke_session_destroy(struct BespokeSession *session);
 
 /*
- Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+ Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
+ bespoke_session_destroy, it waits for work that a request to stop has left.
 
  State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
  */
@@ -899,11 +1135,11 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 
 /*
  Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
- PREPARED; where it fails, the session still takes inputs.
+ PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
 
  State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
- INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, BUSY,
- INTERNAL. Threads: any, one at a time.
+ INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, MEMORY_LIMIT,
+ CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
@@ -915,7 +1151,7 @@ BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
  afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
  verified; until then what can be read is a preview.
  State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
- INFLATION_STALLED, NOT_VERIFIED, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+ INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,
@@ -933,16 +1169,20 @@ BespokeStatus bespoke_session_run(struct BespokeSession *session);
  Counts the intersections of the vertices as they would be read now, with exact predicates.
 
  `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
- none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
- INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+ none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by
+ a request that no call has answered yet; the stage stays), BUSY, INTERNAL; `*intersections` is written with OK only.
+ Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
                                      uint32_t component,
                                      struct BespokeIntersections *intersections);
 
 /*
- Asks a session to stop. The call that runs returns CANCELLED after its present iteration, or the next one does. The
- request stays until bespoke_session_reset.
+ Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+ whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
+
+ What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
+ in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
 
  Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
  it.
@@ -1025,6 +1265,20 @@ BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, 
 BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
+
+/*
+ Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
+ verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+ are.
+
+ `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
+ `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
+ with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_diagnostics(const struct BespokeSession *session,
+                                               struct BespokeDiagnostic *diagnostics,
+                                               size_t capacity,
+                                               size_t *count);
 
 #ifdef __cplusplus
 }  // extern "C"

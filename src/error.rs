@@ -25,6 +25,8 @@ pub enum ErrorKind {
     NotVerified,
     /// The caller asked to stop.
     Cancelled,
+    /// The session would take more memory than its limit.
+    MemoryLimit,
     /// A numerical or internal failure: a defect of this library.
     Internal,
 }

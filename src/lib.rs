@@ -17,6 +17,7 @@ pub mod control;
 pub mod energy;
 pub mod error;
 pub mod input;
+pub mod memory;
 pub mod options;
 mod panics;
 pub mod report;

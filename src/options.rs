@@ -42,6 +42,8 @@ pub struct Options {
     pub max_iterations: u32,
     /// Which form of the surface term.
     pub surface_form: SurfaceForm,
+    /// Bytes that the session may take at most; 0 is no limit.
+    pub memory_limit: u64,
     /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
     pub strict: bool,
 }
@@ -65,6 +67,7 @@ impl Default for Options {
             tolerance: 1e-3,
             max_iterations: 500,
             surface_form: SurfaceForm::Similarity,
+            memory_limit: 0,
             strict: false,
         }
     }

@@ -92,4 +92,6 @@ pub struct Report {
     pub t: f64,
     /// Threads of the session.
     pub threads: usize,
+    /// Bytes that the session's arrays take.
+    pub memory: u64,
 }

@@ -84,8 +84,11 @@ unsafe fn read_progress(control: &Control, progress: *mut BespokeProgress) -> Be
     }
 }
 
-/// Asks a session to stop. The call that runs returns CANCELLED after its present iteration, or the next one does. The
-/// request stays until bespoke_session_reset.
+/// Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+/// whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
+///
+/// What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
+/// in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
 ///
 /// Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
 /// it.

@@ -1,6 +1,6 @@
 //! Options and spaces as C structs in which zero means the default.
 
-use std::mem::size_of;
+use std::mem::{offset_of, size_of};
 
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::sized::{self, Sized32};
@@ -61,6 +61,9 @@ pub struct BespokeOptions {
     pub max_iterations: u32,
     /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
+    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+    /// meshes before it begins, and looked at again as it goes on.
+    pub memory_limit: u64,
     /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
     /// named by bespoke_session_read_diagnostics, and no others ever join them.
     pub strict: u32,
@@ -68,8 +71,10 @@ pub struct BespokeOptions {
     pub reserved: u32,
 }
 
-// SAFETY: repr(C) of u32 pairs and f64 without padding.
-unsafe impl Sized32 for BespokeOptions {}
+// SAFETY: repr(C) of u32 pairs and 64-bit numbers without padding.
+unsafe impl Sized32 for BespokeOptions {
+    const FIRST_SIZE: usize = offset_of!(BespokeOptions, memory_limit);
+}
 
 /// `given`, or `default` where it is zero.
 fn or_default(given: f64, default: f64) -> f64 {
@@ -109,6 +114,7 @@ impl BespokeOptions {
             tolerance: or_default(self.tolerance, default.tolerance),
             max_iterations: if self.max_iterations == 0 { default.max_iterations } else { self.max_iterations },
             surface_form,
+            memory_limit: self.memory_limit,
             strict: match self.strict {
                 0 => false,
                 1 => true,
@@ -161,6 +167,7 @@ pub unsafe extern "C" fn bespoke_options_read_defaults(options: *mut BespokeOpti
             SurfaceForm::Similarity => BespokeSurfaceForm::Similarity,
             SurfaceForm::Printed => BespokeSurfaceForm::Printed,
         } as u32,
+        memory_limit: default.memory_limit,
         strict: u32::from(default.strict),
         reserved: 0,
     };

@@ -1,7 +1,7 @@
 //! What a session hands out: vertices, and the report of its work.
 
 use std::ffi::c_char;
-use std::mem::size_of;
+use std::mem::{offset_of, size_of};
 
 use glam::DVec3;
 
@@ -166,12 +166,16 @@ pub struct BespokeReport {
     pub energy_count: u32,
     /// Always 0.
     pub reserved: u32,
+    /// Bytes that the session's arrays take, without what the threads and the allocator add.
+    pub memory_bytes: u64,
     /// Intersecting or touching pairs within the garment at the start, which are let off.
     pub garment_intersections_at_start: u64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
-unsafe impl Sized32 for BespokeReport {}
+unsafe impl Sized32 for BespokeReport {
+    const FIRST_SIZE: usize = offset_of!(BespokeReport, memory_bytes);
+}
 
 /// Fills a struct with what the session has done so far. The caller sets `struct_size` first.
 ///
@@ -212,6 +216,7 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 is_converged: u32::from(own.converged),
                 energy_count: own.terms.len() as u32,
                 reserved: 0,
+                memory_bytes: own.memory,
                 garment_intersections_at_start: own.tangled_at_start as u64,
             };
             sized::write(filled, report, "report")

@@ -44,11 +44,11 @@ impl From<Stage> for BespokeStage {
 }
 
 /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
-/// PREPARED; where it fails, the session still takes inputs.
+/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
 ///
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
-/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, BUSY,
-/// INTERNAL. Threads: any, one at a time.
+/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, MEMORY_LIMIT,
+/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -> BespokeStatus {
     // SAFETY: passed on from the caller.
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -
 /// afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
 /// verified; until then what can be read is a preview.
 /// State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
-/// INFLATION_STALLED, NOT_VERIFIED, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+/// INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_step(
     session: *mut BespokeSession,
@@ -112,8 +112,9 @@ pub struct BespokeIntersections {
 /// Counts the intersections of the vertices as they would be read now, with exact predicates.
 ///
 /// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
-/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY,
-/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by
+/// a request that no call has answered yet; the stage stays), BUSY, INTERNAL; `*intersections` is written with OK only.
+/// Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_verify(
     session: *const BespokeSession,

@@ -82,7 +82,8 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
     if made.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 
-/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable.
+/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
+/// thread of the session is left; where a request to stop has just ended a call, that may take a moment.
 ///
 /// Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
 /// other call with this session may begin from here on.
@@ -103,7 +104,8 @@ pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -
     if freed.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 
-/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
+/// bespoke_session_destroy, it waits for work that a request to stop has left.
 ///
 /// State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]

@@ -8,7 +8,10 @@ use crate::error::{Error, ErrorKind, Result};
 ///
 /// # Safety
 /// `repr(C)`, begins with a `u32`, has no padding, and any bit pattern is a value of it, all zeros included.
-pub(super) unsafe trait Sized32: Copy {}
+pub(super) unsafe trait Sized32: Copy {
+    /// The smallest size that is accepted: that of the struct as it first was in this version of the binary interface.
+    const FIRST_SIZE: usize = size_of::<Self>();
+}
 
 fn declared_size(pointer: *const u8, what: &str) -> Result<usize> {
     if pointer.is_null() {
@@ -19,8 +22,8 @@ fn declared_size(pointer: *const u8, what: &str) -> Result<usize> {
     Ok(size)
 }
 
-fn check_size<T>(size: usize, what: &str) -> Result<()> {
-    if size < size_of::<T>() {
+fn check_size<T: Sized32>(size: usize, what: &str) -> Result<()> {
+    if size < T::FIRST_SIZE {
         return Err(Error::new(
             ErrorKind::InvalidArgument,
             format!("{what}: struct_size is {size}; set it to sizeof of the struct, which is {}", size_of::<T>()),
@@ -29,7 +32,8 @@ fn check_size<T>(size: usize, what: &str) -> Result<()> {
     Ok(())
 }
 
-/// A copy of the caller's struct. A longer one, from a later header, is accepted where all it adds is zero.
+/// A copy of the caller's struct. What a shorter one, from an earlier header, lacks is zero. A longer one, from a later
+/// header, is accepted where all it adds is zero.
 ///
 /// # Safety
 /// `pointer` is null or points to as many readable bytes as its first field says.
@@ -49,11 +53,16 @@ pub(super) unsafe fn read<T: Sized32>(pointer: *const T, what: &str) -> Result<T
             ));
         }
     }
-    // SAFETY: at least `size_of::<T>()` readable bytes, and any bit pattern is a `T`.
-    Ok(unsafe { pointer.read_unaligned() })
+    let mut value = std::mem::MaybeUninit::<T>::zeroed();
+    // SAFETY: the caller vouches for `size` readable bytes, and any bit pattern is a `T`, all zeros included.
+    unsafe {
+        std::ptr::copy_nonoverlapping(bytes, value.as_mut_ptr().cast(), size.min(size_of::<T>()));
+        Ok(value.assume_init())
+    }
 }
 
-/// Fills the caller's struct, all but its `struct_size`. What a longer one, from a later header, adds becomes zero.
+/// Fills the caller's struct, all but its `struct_size`, as far as it goes. What a longer one, from a later header, adds
+/// becomes zero.
 ///
 /// # Safety
 /// `pointer` is null or points to as many readable and writable bytes as its first field says.
@@ -63,10 +72,11 @@ pub(super) unsafe fn write<T: Sized32>(value: T, pointer: *mut T, what: &str) ->
     let from = (&raw const value).cast::<u8>();
     let to = pointer.cast::<u8>();
     let skip = size_of::<u32>();
-    // SAFETY: both sides hold `size_of::<T>()` bytes, the caller's at least `size`, and they are apart.
+    let known = size.min(size_of::<T>());
+    // SAFETY: ours holds `size_of::<T>()` bytes and the caller's `size`, both at least `known`, and they are apart.
     unsafe {
-        std::ptr::copy_nonoverlapping(from.add(skip), to.add(skip), size_of::<T>() - skip);
-        std::ptr::write_bytes(to.add(size_of::<T>()), 0, size - size_of::<T>());
+        std::ptr::copy_nonoverlapping(from.add(skip), to.add(skip), known - skip);
+        std::ptr::write_bytes(to.add(known), 0, size - known);
     }
     Ok(())
 }

@@ -34,6 +34,8 @@ pub enum BespokeStatus {
     Busy = 11,
     /// A defect of this library. The session refuses all further work and can only be destroyed; others go on.
     Internal = 12,
+    /// The session would take more memory than the option `memory_limit` allows.
+    MemoryLimit = 13,
 }
 
 impl From<ErrorKind> for BespokeStatus {
@@ -49,6 +51,7 @@ impl From<ErrorKind> for BespokeStatus {
             ErrorKind::InflationStalled => Self::InflationStalled,
             ErrorKind::NotVerified => Self::NotVerified,
             ErrorKind::Cancelled => Self::Cancelled,
+            ErrorKind::MemoryLimit => Self::MemoryLimit,
             ErrorKind::Internal => Self::Internal,
         }
     }
@@ -73,6 +76,7 @@ pub extern "C" fn bespoke_status_name(status: u32) -> *const c_char {
         10 => c"BESPOKE_STATUS_CANCELLED",
         11 => c"BESPOKE_STATUS_BUSY",
         12 => c"BESPOKE_STATUS_INTERNAL",
+        13 => c"BESPOKE_STATUS_MEMORY_LIMIT",
         _ => c"BESPOKE_STATUS_UNKNOWN",
     };
     name.as_ptr()

@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use super::surface::Surface;
+use crate::memory::bytes;
 
 /// Where the objective is evaluated: the garment's vertices and the inflation parameter.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +66,13 @@ impl Bodies {
     #[inline]
     pub fn garment_count(&self) -> usize {
         self.garment.surface.vertex_count
+    }
+
+    /// Bytes that they hold.
+    pub fn memory(&self) -> u64 {
+        let Self { garment, avatar } = self;
+        let points = [&garment.rest, &avatar.start, &avatar.motion].into_iter().map(bytes).sum::<u64>();
+        points + garment.surface.memory() + avatar.surface.memory()
     }
 
     /// Position of vertex `i`.

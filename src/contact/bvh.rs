@@ -3,6 +3,8 @@
 
 use glam::DVec3;
 
+use crate::memory::bytes;
+
 /// Boxes in a leaf.
 const LEAF_SIZE: usize = 4;
 
@@ -105,6 +107,11 @@ impl Bvh {
         self.split(centres, start, start + middle);
         self.nodes[node].link = self.nodes.len() as u32;
         self.split(centres, start + middle, end);
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.nodes) + bytes(&self.items)
     }
 
     /// Follows the boxes, which are as many as when the tree was built.

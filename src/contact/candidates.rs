@@ -1,6 +1,7 @@
 //! Broad phase: all the pairs of primitives that may come within a margin of each other during a step.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -9,6 +10,7 @@ use super::bvh::{Aabb, Bvh, NodePair};
 use super::distance::Kind;
 use super::surface::Surface;
 use super::tangle::Tangle;
+use crate::memory::bytes;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
 const PIECES: usize = 128;
@@ -85,6 +87,11 @@ impl CandidateSet {
         self.pairs.is_empty()
     }
 
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.pairs)
+    }
+
     /// All pairs, run by run.
     #[inline]
     pub fn pairs(&self) -> &[[u32; 4]] {
@@ -117,6 +124,10 @@ struct SweptSurface {
 }
 
 impl SweptSurface {
+    fn memory(&self) -> u64 {
+        bytes(&self.vertices) + bytes(&self.edges) + bytes(&self.triangles) + self.tree.memory()
+    }
+
     /// Bounds everything, with vertices inside the given boxes.
     fn bound(&mut self, surface: &Surface, vertex: impl Fn(usize) -> Aabb + Sync) {
         fill(&mut self.vertices, surface.vertex_count, vertex);
@@ -158,6 +169,7 @@ pub struct BroadPhase {
     avatar_work: Vec<NodePair>,
     pieces: Vec<Piece>,
     tangle: Tangle,
+    most: usize,
 }
 
 impl BroadPhase {
@@ -177,6 +189,7 @@ impl BroadPhase {
             avatar_work: Vec::new(),
             pieces: Vec::new(),
             tangle: Tangle::default(),
+            most: usize::MAX,
         }
     }
 
@@ -188,6 +201,22 @@ impl BroadPhase {
     /// Replaces the tangle.
     pub fn set_tangle(&mut self, tangle: Tangle) {
         self.tangle = tangle;
+    }
+
+    /// From now on a search ends, incomplete, where it has found about `most` pairs.
+    pub fn set_most(&mut self, most: usize) {
+        self.most = most;
+    }
+
+    /// Whether a search that found these ended before it was complete.
+    pub fn is_incomplete(&self, found: &CandidateSet) -> bool {
+        found.len() >= self.most
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        let pieces = self.pieces.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
+        self.garment.memory() + self.avatar.memory() + pieces.sum::<u64>()
     }
 
     /// Replaces `out` by all the pairs whose swept boxes, from `at` along the whole of `step`, come within a margin of
@@ -227,17 +256,20 @@ impl BroadPhase {
         let (self_pieces, avatar_pieces) = self.pieces.split_at_mut(self_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
         let surface = &bodies.garment.surface;
+        let room = &Room { found: AtomicUsize::new(0), most: self.most };
         rayon::join(
             || {
                 self_pieces.par_iter_mut().zip(self_work).for_each(|(piece, &start)| {
-                    let collector = Collector { a: surface, b: surface, a_boxes: garment, b_boxes: garment, offset: 0 };
+                    let collector =
+                        Collector { a: surface, b: surface, a_boxes: garment, b_boxes: garment, offset: 0, room };
                     collector.run::<true>(margin_self, start, piece);
                 });
             },
             || {
                 avatar_pieces.par_iter_mut().zip(avatar_work).for_each(|(piece, &start)| {
                     let b = &bodies.avatar.surface;
-                    let collector = Collector { a: surface, b, a_boxes: garment, b_boxes: avatar, offset: n as u32 };
+                    let collector =
+                        Collector { a: surface, b, a_boxes: garment, b_boxes: avatar, offset: n as u32, room };
                     collector.run::<false>(margin_avatar, start, piece);
                 });
             },
@@ -269,6 +301,32 @@ struct Collector<'a> {
     a_boxes: &'a SweptSurface,
     b_boxes: &'a SweptSurface,
     offset: u32,
+    room: &'a Room,
+}
+
+/// Pairs that a search may find, all its pieces together.
+struct Room {
+    found: AtomicUsize,
+    most: usize,
+}
+
+impl Room {
+    /// Pairs after which a piece says how many it has.
+    const STRIDE: usize = 1024;
+
+    /// Counts what a piece has found that had `before` pairs and has `after`.
+    #[inline]
+    fn count(&self, before: usize, after: usize) {
+        let strides = after / Self::STRIDE - before / Self::STRIDE;
+        if strides > 0 {
+            self.found.fetch_add(strides * Self::STRIDE, Ordering::Relaxed);
+        }
+    }
+
+    #[inline]
+    fn is_full(&self) -> bool {
+        self.found.load(Ordering::Relaxed) >= self.most
+    }
 }
 
 impl Collector<'_> {
@@ -283,9 +341,10 @@ impl Collector<'_> {
         a_boxes.tree.traverse(other, margin, start, stack, |s, t| {
             let s_box = a_boxes.triangles[s as usize].inflated(margin);
             let t_box = b_boxes.triangles[t as usize].inflated(margin);
-            if !s_box.overlaps(&b_boxes.triangles[t as usize]) {
+            if !s_box.overlaps(&b_boxes.triangles[t as usize]) || self.room.is_full() {
                 return;
             }
+            let before = point_triangle.len() + edge_edge.len();
             let (s_corners, t_corners) = (a.triangles[s as usize], b.triangles[t as usize]);
             if b.has_face(t) {
                 for v in a.owned_vertices(s) {
@@ -317,6 +376,7 @@ impl Collector<'_> {
                     }
                 }
             }
+            self.room.count(before, point_triangle.len() + edge_edge.len());
         });
     }
 }

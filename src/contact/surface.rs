@@ -2,6 +2,8 @@
 //! each edge belongs to exactly one triangle, so that a search for close triangles meets every pair of a point
 //! and a triangle, or of two edges, exactly once.
 
+use crate::memory::bytes;
+
 /// Marks a side of a triangle whose edge another triangle owns.
 const NOT_OWNED: u32 = u32::MAX;
 
@@ -51,6 +53,11 @@ impl Surface {
             owned_edges.push(sides);
         }
         Self { triangles, edges, vertex_count, owned_corners, owned_edges }
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.owned_corners) + bytes(&self.owned_edges)
     }
 
     /// The vertices that `triangle` owns.

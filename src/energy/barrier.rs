@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
 use crate::contact::{Bodies, CandidateSet, Class, Kind, mollifier};
+use crate::memory::bytes;
 
 /// Candidates a thread takes at once.
 const CHUNK: usize = 2048;
@@ -244,6 +245,10 @@ impl Energy for Barrier {
     /// Number of candidates.
     fn len(&self) -> usize {
         self.candidates.len()
+    }
+
+    fn memory(&self) -> u64 {
+        self.candidates.memory() + bytes(&self.active)
     }
 
     /// Infinite if a candidate is at or below the floor.

@@ -19,6 +19,7 @@ use glam::DVec3;
 
 use super::{Configuration, Direction, Energy, Sink};
 use crate::input::mesh::BoundaryLoop;
+use crate::memory::bytes;
 
 /// A chain of garment edges.
 #[derive(Clone, Copy, Debug)]
@@ -146,6 +147,10 @@ impl Energy for Curvature {
         self.corners.len()
     }
 
+    fn memory(&self) -> u64 {
+        bytes(&self.corners)
+    }
+
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         self.corners[range].iter().map(|k| k.weight * (alpha(&k.edges(at.x)) - k.alpha).powi(2)).sum()
     }
@@ -244,6 +249,10 @@ impl Energy for Torsion {
 
     fn len(&self) -> usize {
         self.twists.len()
+    }
+
+    fn memory(&self) -> u64 {
+        bytes(&self.twists)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

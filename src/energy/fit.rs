@@ -17,6 +17,7 @@ use glam::DVec3;
 
 use super::{Configuration, Energy, Sink};
 use crate::error::{Error, ErrorKind, Result};
+use crate::memory::bytes;
 use crate::sdf::Field;
 
 /// A quadrature point: barycentric coordinates and weight.
@@ -183,6 +184,10 @@ impl Energy for Fit {
 
     fn len(&self) -> usize {
         self.elements.len()
+    }
+
+    fn memory(&self) -> u64 {
+        bytes(&self.elements) + bytes(&self.samples)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

@@ -59,6 +59,11 @@ pub trait Energy: Sync {
         self.len() == 0
     }
 
+    /// Bytes of the arrays that it holds; 0 where it has none.
+    fn memory(&self) -> u64 {
+        0
+    }
+
     /// The sum of the elements in `range`.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64;
 

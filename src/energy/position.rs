@@ -13,6 +13,7 @@ use glam::DVec3;
 
 use super::{Configuration, Direction, Energy, Sink};
 use crate::input::guide::Guide;
+use crate::memory::bytes;
 
 /// A guide whose squared length falls below this has no direction, and no say.
 const NO_AXIS: f64 = 1e-24;
@@ -101,6 +102,10 @@ impl Energy for Position {
 
     fn len(&self) -> usize {
         self.constraints.len()
+    }
+
+    fn memory(&self) -> u64 {
+        bytes(&self.constraints) + bytes(&self.guides)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

@@ -18,6 +18,7 @@ use glam::{DMat3, DVec3};
 
 use super::{Configuration, Energy, Sink};
 use crate::input::mesh::Hinge;
+use crate::memory::bytes;
 
 /// A rest triangle whose doubled area is below this share of its longest edge squared has no frame.
 const DEGENERATE: f64 = 1e-10;
@@ -193,6 +194,10 @@ impl Energy for Surface {
 
     fn len(&self) -> usize {
         self.elements.len()
+    }
+
+    fn memory(&self) -> u64 {
+        bytes(&self.elements)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::input::mesh::TriangleMesh;
+use crate::memory::bytes;
 
 /// Triangles in one leaf.
 const LEAF: usize = 4;
@@ -67,6 +68,11 @@ impl ClosestPoint {
             build(&mut nodes, &mut order, 0, &bounds, &centres);
         }
         Self { nodes, corners: order.iter().map(|&t| of(t)).collect(), triangles: order }
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.nodes) + bytes(&self.corners) + bytes(&self.triangles)
     }
 
     /// Distance from `p` to the closest triangle; infinite without any.

@@ -39,6 +39,11 @@ const MIN_RIM: f64 = 4.0;
 /// it widens its band; up to 2 it does not widen.
 const BAND: f32 = 2.0;
 
+/// Layers of blocks around a surface that are in use, and bytes of a block: its nodes here, and what OpenVDB has there
+/// while it works.
+const LAYERS: f64 = 2.0;
+const BLOCK_BYTES: f64 = 3.0 * size_of::<Block>() as f64;
+
 /// How to build a [`Field`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldOptions {
@@ -105,6 +110,21 @@ impl Field {
         let mut blocks = Vec::new();
         blocks.resize_with(extent.iter().product(), OnceLock::new);
         Ok(Self { tree: ClosestPoint::new(mesh), volume, origin, voxel, per_voxel: voxel.recip(), extent, blocks })
+    }
+
+    /// About how many bytes the field of `mesh` takes at most, while it is built and in use.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidMesh`] without triangles, [`ErrorKind::InvalidArgument`] where the voxel is too small for the
+    /// mesh: as [`Self::build`], but before the work.
+    pub fn estimate(mesh: &TriangleMesh, voxel: f64) -> Result<u64> {
+        let (low, high) = used_bounds(mesh)?;
+        let (_, extent) = layout(low, high, voxel)?;
+        let places: usize = extent.iter().product();
+        // Blocks along the surface, and the layers beside them that OpenVDB and the samples touch; never more than all.
+        let along = mesh.areas().iter().sum::<f64>() / (BLOCK as f64 * voxel).powi(2);
+        let stored = (LAYERS * along + 64.0).min(places as f64);
+        Ok((places * size_of::<OnceLock<Box<Block>>>()) as u64 + (stored * BLOCK_BYTES) as u64)
     }
 
     /// The search tree over the mesh: exact distances without a side.

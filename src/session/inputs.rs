@@ -11,6 +11,7 @@ use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::space::Space;
 use crate::input::weld::Weld;
+use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::problem::{Inputs as Posed, Problem};
 
@@ -163,6 +164,26 @@ impl Session {
 }
 
 impl Inputs {
+    /// Bytes that they hold.
+    pub(super) fn memory(&self) -> u64 {
+        let mesh = |mesh: &Arc<TriangleMesh>| bytes(&mesh.positions) + bytes(&mesh.triangles);
+        let meshes = [self.garment.as_ref().map(|g| &g.0), self.avatar.as_ref(), self.source_avatar.as_ref()];
+        let weights = self.fit_weights.as_ref().map_or(0, |w| size_of_val(&w[..]) as u64);
+        let skin = self.skin.as_ref().map_or(0, |s| (s.vertex_count() * size_of::<Option<u32>>()) as u64);
+        meshes.into_iter().flatten().map(mesh).sum::<u64>() + weights + skin
+    }
+
+    /// The sizes that are known before anything is done.
+    pub(super) fn sizes(&self) -> Sizes {
+        let vertices = |mesh: &Arc<TriangleMesh>| mesh.positions.len();
+        let triangles = |mesh: &Arc<TriangleMesh>| mesh.triangles.len();
+        Sizes {
+            garment_vertices: self.garment.as_ref().map_or(0, |g| vertices(&g.0)),
+            avatar_triangles: self.avatar.as_ref().map_or(0, triangles),
+            field: 0,
+        }
+    }
+
     /// Checks the inputs against each other and poses the problem. What is worth knowing goes to `findings`.
     ///
     /// # Errors

@@ -9,9 +9,11 @@ use super::inputs::Inputs;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnosis::Finding;
+use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
 use crate::panics::PanicLog;
 use crate::report::{Report, StageReport, TermReport};
+use crate::sdf::Field;
 use crate::solver::newton::{Counters, Model, Newton, State};
 use crate::stage::fit::Settling;
 use crate::stage::inflate::Inflation;
@@ -49,6 +51,12 @@ pub(super) struct Work {
     is_narrow: bool,
     /// What was measured so far.
     pub(super) report: Report,
+    /// Bytes of the inputs and the problem.
+    held: u64,
+    /// Bytes of the distance field, as estimated.
+    expected: u64,
+    /// The distance field, once it is there.
+    distance: Option<Arc<Field>>,
     pub(super) context: Context,
 }
 
@@ -70,13 +78,22 @@ impl Work {
         let stop = &context.stop;
         Fault::Prepare.at(context.fault);
         let clock = Instant::now();
+        let limit = MemoryLimit::new(inputs.options.memory_limit);
+        let held = inputs.memory();
+        let sizes = inputs.sizes();
+        limit.beside(held).check(&sizes.estimate())?;
         let problem = inputs.pose_problem(stop, findings)?;
         stop.check()?;
+        let expected = Field::estimate(&problem.avatar, inputs.options.voxel)?;
+        let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
+        limit.beside(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.begin(&inputs.options, findings)?;
         stop.check()?;
-        let newton = Newton::new(state.x.len(), &objective.terms())?.watching(stop.clone());
+        let held = held + problem.memory();
+        let room = limit.beside(held + expected + objective.memory());
+        let newton = Newton::within(room, state.x.len(), &objective.terms())?.watching(stop.clone());
         objective.watch(stop.clone());
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
@@ -92,7 +109,7 @@ impl Work {
         let tangled = objective.tangle().triangle_pairs().into();
         let options = inputs.options.clone();
         let (widened, is_narrow) = (0, false);
-        Ok(Self {
+        let mut work = Self {
             options,
             problem,
             state,
@@ -100,12 +117,17 @@ impl Work {
             newton,
             step,
             field,
+            held,
+            expected,
+            distance: None,
             tangled,
             widened,
             is_narrow,
             report,
             context,
-        })
+        };
+        work.look_at_memory()?;
+        Ok(work)
     }
 
     /// Iterations of the step under way.
@@ -146,6 +168,7 @@ impl Work {
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
         part.add(&before, &self.newton.counters, clock.elapsed());
         self.describe();
+        self.look_at_memory()?;
         match (stage, ended) {
             (_, false) => Ok(stage),
             (Stage::Inflate, true) => {
@@ -168,15 +191,47 @@ impl Work {
         let clock = Instant::now();
         let (field, seconds) = self.field.wait()?;
         self.report.field_seconds = seconds;
-        let mut objective = self.problem.fit_objective(Arc::new(field), &self.state.x, options)?;
+        let field = Arc::new(field);
+        self.distance = Some(field.clone());
+        let mut objective = self.problem.fit_objective(field, &self.state.x, options)?;
         objective.take_over(&self.objective);
         self.objective = objective;
         self.objective.watch(self.context.stop.clone());
         self.context.stop.check()?;
-        self.newton = Newton::new(self.state.x.len(), &self.objective.terms())?.watching(self.context.stop.clone());
+        let room = self.room().beside(self.objective.memory());
+        let newton = Newton::within(room, self.state.x.len(), &self.objective.terms())?;
+        self.newton = newton.watching(self.context.stop.clone());
+        self.objective.limit_pairs(self.room().beside(self.newton.memory()));
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         self.report.fit.seconds += clock.elapsed().as_secs_f64();
         self.report.fit.analyses += 1;
+        Ok(())
+    }
+
+    /// Bytes of the distance field.
+    fn field_memory(&self) -> u64 {
+        self.distance.as_ref().map_or(self.expected, |field| field.memory() + field.closest_point().memory())
+    }
+
+    /// What objective and solver may take.
+    fn room(&self) -> MemoryLimit {
+        MemoryLimit::new(self.options.memory_limit).beside(self.held + self.field_memory())
+    }
+
+    /// Reports what is held, and refuses to go on beyond the limit.
+    fn look_at_memory(&mut self) -> Result<()> {
+        let (contacts, system) = (self.objective.memory(), self.newton.memory());
+        self.report.memory = self.held + self.field_memory() + contacts + system;
+        let limit = self.room();
+        let parts = [
+            Part { what: "the linear system of the garment", bytes: system },
+            Part { what: "contacts of the garment", bytes: contacts },
+        ];
+        limit.check(&parts)?;
+        if self.objective.lacks_room() {
+            return Err(limit.lacking("contacts of the garment, more pairs than there is room for"));
+        }
+        self.objective.limit_pairs(limit.beside(system));
         Ok(())
     }
 

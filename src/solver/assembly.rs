@@ -10,6 +10,7 @@ use super::Term;
 use super::pattern::{PairCollector, Pattern};
 use crate::control::Cancel;
 use crate::energy::{Configuration, Direction, Sink};
+use crate::memory::bytes;
 
 /// Elements in a chunk.
 const CHUNK: usize = 256;
@@ -154,6 +155,17 @@ impl System {
             missing.append(&mut lane.missing);
         }
         missing
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        let lanes: u64 = self.lanes.iter().map(|l| bytes(&l.hessian) + bytes(&l.gradient) + bytes(&l.border)).sum();
+        lanes + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
+    }
+
+    /// Bytes that it will hold for `pattern`.
+    pub fn memory_for(pattern: &Pattern) -> u64 {
+        ((LANES + 1) * (pattern.value_count() + 6 * pattern.vertex_count()) * size_of::<f64>()) as u64
     }
 
     fn add_lanes(&mut self, pattern: &Pattern) {

@@ -15,12 +15,14 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::pattern::Pattern;
 use crate::error::{Error, ErrorKind, Result};
+use crate::memory::{MemoryLimit, Part, bytes};
 
 /// The symbolic analysis of one pattern, and the factor of the last matrix.
 pub struct Factor {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
     memory: MemBuffer,
+    scratch: usize,
 }
 
 impl Factor {
@@ -29,6 +31,14 @@ impl Factor {
     /// # Errors
     /// `Internal` where memory runs out.
     pub fn analyse(pattern: &Pattern) -> Result<Self> {
+        Self::analyse_within(MemoryLimit::NONE, pattern)
+    }
+
+    /// [`Self::analyse`], as long as the factor has room.
+    ///
+    /// # Errors
+    /// As [`Self::analyse`], and `MemoryLimit`.
+    pub fn analyse_within(limit: MemoryLimit, pattern: &Pattern) -> Result<Self> {
         let failed = |_| Error::new(ErrorKind::Internal, "the symbolic factorisation ran out of memory or indices");
         let n = pattern.vertex_count();
         let (forward, inverse) = ordering(pattern).map_err(failed)?;
@@ -46,9 +56,12 @@ impl Factor {
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(2, Par::Seq),
         ]);
+        let scratch_bytes = scratch.unaligned_bytes_required();
+        let bytes = (size_of::<f64>() * symbolic.len_val() + scratch_bytes) as u64;
+        limit.check(&[Part { what: "the factorisation of the garment's linear system", bytes }])?;
         let memory = MemBuffer::try_new(scratch)
             .map_err(|_| Error::new(ErrorKind::Internal, "there is no memory for the factorisation's work space"))?;
-        Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory })
+        Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory, scratch: scratch_bytes })
     }
 
     /// Factorises the matrix with the given values (lower triangle, in the order of `pattern`). Returns false where it
@@ -78,6 +91,11 @@ impl Factor {
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+    }
+
+    /// Bytes that it holds, but for the symbolic analysis, which is small.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.values) + self.scratch as u64
     }
 
     /// Number of scalars in the factor.

@@ -20,6 +20,7 @@ use super::pattern::{PairCollector, Pattern};
 use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::error::{Error, ErrorKind, Result};
+use crate::memory::{MemoryLimit, bytes};
 
 /// The unknowns.
 #[derive(Clone, Debug, Default)]
@@ -102,6 +103,7 @@ pub struct Newton {
     /// The value of each term at the present state, where it is known.
     values: Option<Vec<f64>>,
     cancel: Cancel,
+    limit: MemoryLimit,
     /// What has been done so far.
     pub counters: Counters,
 }
@@ -112,13 +114,22 @@ impl Newton {
     /// # Errors
     /// `Internal` where memory runs out.
     pub fn new(vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
+        Self::within(MemoryLimit::NONE, vertex_count, terms)
+    }
+
+    /// [`Self::new`], which never takes more memory than `limit`.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and `MemoryLimit`; so may [`Self::linearise`] from then on.
+    pub fn within(limit: MemoryLimit, vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
         let mut pairs = PairCollector::default();
         for term in terms {
             term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
         }
         let pattern = Pattern::new(vertex_count, pairs);
         Ok(Self {
-            factor: Factor::analyse(&pattern)?,
+            factor: Factor::analyse_within(limit.beside(System::memory_for(&pattern)), &pattern)?,
+            limit,
             pattern,
             system: System::default(),
             response: Vec::new(),
@@ -137,6 +148,16 @@ impl Newton {
         self
     }
 
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        self.pattern.memory()
+            + self.factor.memory()
+            + self.system.memory()
+            + bytes(&self.response)
+            + bytes(&self.dx)
+            + bytes(&self.trial)
+    }
+
     /// Assembles and factorises the system at `at`, and solves for the response of the vertices; with `border`, for that
     /// to a change of t as well.
     ///
@@ -149,7 +170,9 @@ impl Newton {
         self.cancel.check()?;
         if !missing.is_empty() {
             self.pattern = self.pattern.extended(missing);
-            self.factor = Factor::analyse(&self.pattern)?;
+            // The old factor stays until there is a new one.
+            let held = System::memory_for(&self.pattern) + self.factor.memory();
+            self.factor = Factor::analyse_within(self.limit.beside(held), &self.pattern)?;
             self.cancel.check()?;
             self.counters.analyses += 1;
             self.counters.assemblies += 1;

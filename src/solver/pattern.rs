@@ -4,6 +4,8 @@
 //! lower triangle is kept in compressed columns, and a block's entries lie at positions that follow from its
 //! place in its block column: assembly scatters straight into the array that is factorised.
 
+use crate::memory::bytes;
+
 /// Sparsity of a symmetric block matrix, lower triangle, diagonal included.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
@@ -88,6 +90,11 @@ impl Pattern {
             }
         }
         Self::new(self.vertex_count(), extra)
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        [&self.column_start, &self.rows, &self.col_ptr, &self.row_idx].into_iter().map(bytes).sum()
     }
 
     /// Number of block columns.

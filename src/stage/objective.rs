@@ -16,6 +16,7 @@ use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::error::Result;
 use crate::input::mesh::TriangleMesh;
+use crate::memory::MemoryLimit;
 use crate::options::Options;
 use crate::solver::Term;
 use crate::solver::newton::Model;
@@ -63,7 +64,7 @@ impl Objective {
             ..BarrierSettings::default()
         };
         let barrier = Barrier::new(bodies.clone(), settings);
-        Self {
+        let mut objective = Self {
             shape,
             fit,
             inflation: None,
@@ -74,12 +75,32 @@ impl Objective {
             barrier_weight: weights.inflation_barrier_weight,
             gaps,
             cancel: Cancel::new(),
-        }
+        };
+        objective.limit_pairs(MemoryLimit::new(weights.memory_limit));
+        objective
     }
 
     /// From now on looks at `cancel`; once that is set, [`Model::admit`] admits nothing.
     pub fn watch(&mut self, cancel: Cancel) {
         self.cancel = cancel;
+    }
+
+    /// From now on keeps to `most` bytes of pairs.
+    pub fn limit_pairs(&mut self, most: MemoryLimit) {
+        // A pair is in the piece that found it and in the whole set; vectors grow by doubling.
+        self.broad_phase.set_most(most.room_for(4 * size_of::<[u32; 4]>()));
+    }
+
+    /// Whether the last search for pairs ended for want of room. What was computed since is worth nothing.
+    pub fn lacks_room(&self) -> bool {
+        self.broad_phase.is_incomplete(self.barrier.candidates())
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        self.terms().iter().map(|term| term.energy.memory()).sum::<u64>()
+            + self.bodies.memory()
+            + self.broad_phase.memory()
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
@@ -266,7 +287,7 @@ impl Model for Objective {
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
         let step = Step { dx, dt };
         self.find_pairs(at, Some(&step));
-        if self.cancel.is_requested() {
+        if self.cancel.is_requested() || self.lacks_room() {
             return 0.0;
         }
         let floor = self.barrier.settings().floor;

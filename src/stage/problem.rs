@@ -23,6 +23,7 @@ use crate::input::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
+use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
@@ -156,6 +157,19 @@ impl Problem {
             tangled,
             gaps,
         })
+    }
+
+    /// Bytes that it holds, but for the shape terms, which the objectives count.
+    pub fn memory(&self) -> u64 {
+        let avatar = &self.avatar;
+        let projected = &self.projected;
+        let points = [&self.rest, &avatar.positions, &projected.start, &projected.end, &projected.shrunk];
+        let triangles = [&self.triangles, &avatar.triangles, &projected.triangles];
+        points.into_iter().map(bytes).sum::<u64>()
+            + triangles.into_iter().map(bytes).sum::<u64>()
+            + bytes(&projected.bones)
+            + bytes(&self.fit_weights)
+            + self.source_body.as_ref().map_or(0, ClosestPoint::memory)
     }
 
     /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its separation floor is lower than the

@@ -15,7 +15,7 @@ use bespoke::capi::view::{BespokeBuffer, BespokeComponent, BespokeView};
 
 use crate::caller::{Caller, bones, no_options, points, triangles};
 
-use BespokeStatus::{InvalidArgument, InvalidWeights, Ok};
+use BespokeStatus::{InvalidArgument, InvalidWeights, MemoryLimit, Ok};
 
 #[test]
 fn null_sessions_are_refused() {
@@ -157,6 +157,27 @@ fn options_are_checked() {
         (BespokeOptions { surface_form: 2, ..no_options() }, "surface_form is 2"),
     ] {
         caller.refused(set(options), InvalidArgument, &[word]);
+    }
+}
+
+/// A program that was built with an earlier header: its struct ends where a later field begins.
+#[test]
+fn shorter_options_of_an_earlier_header_are_accepted() {
+    let (caller, _sample) = Caller::with_sample();
+    let end = std::mem::offset_of!(BespokeOptions, memory_limit);
+    // What lies behind it is none of the library's.
+    let options = BespokeOptions { struct_size: end as u32, memory_limit: 1, ..no_options() };
+    // SAFETY: the session is alive, the options larger than they say.
+    unsafe {
+        caller.accepted(bespoke_session_set_options(caller.session, &options));
+        caller.accepted(bespoke_session_prepare(caller.session));
+        caller.accepted(bespoke_session_reset(caller.session));
+        let options = BespokeOptions { memory_limit: 1, ..no_options() };
+        caller.accepted(bespoke_session_set_options(caller.session, &options));
+        caller.refused(bespoke_session_prepare(caller.session), MemoryLimit, &["MB", "memory_limit"]);
+        let mut defaults = BespokeOptions { struct_size: end as u32, memory_limit: 77, ..no_options() };
+        assert_eq!(bespoke_options_read_defaults(&mut defaults), Ok);
+        assert_eq!((defaults.memory_limit, defaults.dhat), (77, 0.002));
     }
 }
 
@@ -333,7 +354,7 @@ fn names_and_versions() {
     let text = |pointer| unsafe { CStr::from_ptr(pointer) }.to_str().expect("UTF-8");
     assert_eq!(text(bespoke_status_name(Ok as u32)), "BESPOKE_STATUS_OK");
     assert_eq!(text(bespoke_status_name(BespokeStatus::Internal as u32)), "BESPOKE_STATUS_INTERNAL");
-    assert_eq!(text(bespoke_status_name(13)), "BESPOKE_STATUS_UNKNOWN");
+    assert_eq!(text(bespoke_status_name(14)), "BESPOKE_STATUS_UNKNOWN");
     assert_eq!(text(bespoke_version_text()), env!("CARGO_PKG_VERSION"));
     assert_eq!(bespoke_abi_version(), BESPOKE_ABI_VERSION);
 }

@@ -148,6 +148,27 @@ fn empty_surfaces_and_no_motion() {
     assert!(out.is_empty());
 }
 
+/// All pairs of a grid are near: many more than there is room for.
+#[test]
+fn a_search_ends_where_there_is_no_more_room() {
+    let (rest, triangles) = grid(24);
+    let empty = Avatar { surface: Surface::new(0, vec![]), start: vec![], motion: vec![] };
+    let bodies =
+        Bodies { garment: Garment { surface: Surface::new(rest.len(), triangles), rest: rest.clone() }, avatar: empty };
+    let at = Configuration { x: &rest, t: 0.0 };
+    let mut broad_phase = BroadPhase::new(&bodies);
+    let (mut all, mut some) = (CandidateSet::default(), CandidateSet::default());
+    broad_phase.candidates(&bodies, at, None, 10.0, 10.0, &mut all);
+    assert!(all.len() > 1_000_000 && !broad_phase.is_incomplete(&all), "{}", all.len());
+    broad_phase.set_most(20_000);
+    broad_phase.candidates(&bodies, at, None, 10.0, 10.0, &mut some);
+    assert!(broad_phase.is_incomplete(&some));
+    assert!((20_000..400_000).contains(&some.len()), "{}", some.len());
+    broad_phase.set_most(all.len() + 1);
+    broad_phase.candidates(&bodies, at, None, 10.0, 10.0, &mut some);
+    assert!(all == some && !broad_phase.is_incomplete(&some));
+}
+
 #[test]
 fn runs_cover_ranges() {
     let set = CandidateSet::new(&[[0; 4]; 3], &[], &[[1; 4]; 2], &[[2; 4]; 4]);

@@ -1,17 +1,20 @@
 //! The real meshes, where they are at hand: ten pairs, the same defaults for all.
 
 use bespoke::control::Stage;
+use bespoke::input::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 
 use super::obj::{assets, read_mesh, read_skeleton};
 
-fn dress(garment: &str, avatar: &str, options: Options) {
-    let Some(folder) = assets() else { return };
+/// A session with a real garment, changed by `change` first, on a real avatar; none where they are not at hand.
+pub fn load(garment: &str, avatar: &str, options: Options, change: fn(&mut TriangleMesh)) -> Option<Session> {
+    let folder = assets()?;
     let (garment, avatar) = (folder.join("garments").join(garment), folder.join("avatars").join(avatar));
     let mut session = Session::new();
     session.set_options(options).unwrap();
-    let cloth = read_mesh(&garment.join("garment.obj"));
+    let mut cloth = read_mesh(&garment.join("garment.obj"));
+    change(&mut cloth);
     let body = read_mesh(&avatar.join("avatar.obj"));
     let skeleton = read_skeleton(&avatar.join("skeleton.obj"));
     if let Ok(text) = std::fs::read_to_string(avatar.join("skin.txt")) {
@@ -28,6 +31,11 @@ fn dress(garment: &str, avatar: &str, options: Options) {
     session.set_source_skeleton(read_skeleton(&garment.join("skeleton.obj"))).unwrap();
     session.set_target_avatar(body).unwrap();
     session.set_target_skeleton(skeleton).unwrap();
+    Some(session)
+}
+
+fn dress(garment: &str, avatar: &str, options: Options) {
+    let Some(mut session) = load(garment, avatar, options, |_| {}) else { return };
     assert_eq!(session.run().unwrap(), Stage::Done);
     let report = session.report();
     assert!(report.verification.unwrap().is_clean());

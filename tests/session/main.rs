@@ -1,6 +1,8 @@
 //! A session from inputs to a verified result.
 
 mod assets;
+mod cancel;
+mod memory;
 mod small;
 
 #[path = "../support/obj.rs"]

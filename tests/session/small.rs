@@ -16,13 +16,20 @@ use bespoke::verify::intersections;
 use glam::DVec3;
 
 /// An arm of two bones with a slight bend.
-fn arm(scale: f64, away: DVec3) -> Skeleton {
+pub fn arm(scale: f64, away: DVec3) -> Skeleton {
     let joints = [DVec3::new(0.0, 0.0, -1.0), DVec3::ZERO, DVec3::new(0.2, 0.0, 1.0)];
     Skeleton { joints: joints.iter().map(|&p| away + scale * p).collect(), bones: vec![[0, 1], [1, 2]] }
 }
 
 /// A tube about the arm from `z` = `low` to `high`, open or with its ends closed by fans.
-fn tube(low: f64, high: f64, radius: impl Fn(f64, f64) -> f64, rings: u32, sides: u32, closed: bool) -> TriangleMesh {
+pub fn tube(
+    low: f64,
+    high: f64,
+    radius: impl Fn(f64, f64) -> f64,
+    rings: u32,
+    sides: u32,
+    closed: bool,
+) -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     let centre = |z: f64| DVec3::new(0.2 * z.max(0.0), 0.0, z);
     for r in 0..=rings {
@@ -54,23 +61,23 @@ fn tube(low: f64, high: f64, radius: impl Fn(f64, f64) -> f64, rings: u32, sides
     mesh
 }
 
-fn sleeve() -> TriangleMesh {
+pub fn sleeve() -> TriangleMesh {
     tube(-0.6, 0.7, |z, _| 0.3 + 0.03 * (12.0 * z).sin(), 16, 20, false)
 }
 
 /// Thicker than the sleeve, and not round.
-fn thick_arm() -> TriangleMesh {
+pub fn thick_arm() -> TriangleMesh {
     tube(-1.1, 1.15, |z, a| 0.36 + 0.1 * z * z + 0.05 * (3.0 * a).cos(), 14, 18, true)
 }
 
-fn moved(mesh: &TriangleMesh, scale: f64, away: DVec3) -> TriangleMesh {
+pub fn moved(mesh: &TriangleMesh, scale: f64, away: DVec3) -> TriangleMesh {
     TriangleMesh {
         positions: mesh.positions.iter().map(|&p| away + scale * p).collect(),
         triangles: mesh.triangles.clone(),
     }
 }
 
-fn session(scale: f64, away: DVec3) -> Session {
+pub fn session(scale: f64, away: DVec3) -> Session {
     let mut session = Session::new();
     session.set_garment(sleeve(), Precision::F32).unwrap();
     session.set_source_skeleton(arm(1.0, DVec3::ZERO)).unwrap();
