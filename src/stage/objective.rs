@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::{Bodies, BroadPhase, Configuration, Step, ccd};
+use crate::energy::attachment::Attachment;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
@@ -18,6 +19,8 @@ use glam::DVec3;
 pub struct Shape {
     /// Surface shape (Eq. 2).
     pub surface: Surface,
+    /// Loose pieces on the piece beside them.
+    pub attachment: Attachment,
     /// Curvature of the boundary curves (Eq. 5).
     pub curvature: Curvature,
     /// Torsion of the boundary curves.
@@ -104,6 +107,7 @@ impl Model for Objective {
         let w = &self.weights;
         let mut terms: Vec<Term<'_>> = vec![
             Term { energy: &shape.surface, weight: w.surface_weight },
+            Term { energy: &shape.attachment, weight: w.surface_weight },
             Term { energy: &shape.curvature, weight: w.curvature_weight },
             Term { energy: &shape.torsion, weight: w.torsion_weight },
             Term { energy: &shape.position, weight: w.position_weight },
