@@ -5,9 +5,11 @@
 //! `gradient += g a`, `hessian += h a a^T` with `h >= 0`, or as a plain gradient. A Hessian made of such pieces
 //! is positive semidefinite by construction: no eigenvalue is ever computed.
 
+pub mod attachment;
 pub mod barrier;
 pub mod curve;
 pub mod fit;
+mod frame;
 pub mod inflation;
 pub mod position;
 pub mod surface;

@@ -16,16 +16,10 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
+use super::frame::{LeastSquares, Normal, coefficients, outer, scaled_cross};
 use super::{Configuration, Energy, Sink};
-use crate::input::mesh::Hinge;
+use crate::input::mesh::{Hinge, has_area};
 use crate::memory::bytes;
-
-/// A rest triangle whose doubled area is below this share of its longest edge squared has no frame.
-const DEGENERATE: f64 = 1e-10;
-
-/// Below this squared length (of the normalised space, to the fourth) a normal counts as none: the square
-/// root has no derivative there.
-const NO_NORMAL: f64 = 1e-60;
 
 /// How the normal of a triangle's frame grows with the triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,33 +50,6 @@ pub struct Surface {
     elements: Vec<Element>,
     form: SurfaceForm,
     degenerate_count: usize,
-}
-
-/// The normal of a triangle in the chosen form, with what its differential
-/// `dN = scale dn - pull n (n . dn)` needs.
-#[derive(Clone, Copy)]
-struct Normal {
-    value: DVec3,
-    n: DVec3,
-    scale: f64,
-    pull: f64,
-}
-
-impl Normal {
-    #[inline]
-    fn new(n: DVec3, form: SurfaceForm) -> Self {
-        match form {
-            SurfaceForm::Printed => Self { value: n, n, scale: 1.0, pull: 0.0 },
-            SurfaceForm::Similarity => {
-                let squared = n.length_squared();
-                if squared < NO_NORMAL {
-                    return Self { value: DVec3::ZERO, n, scale: 0.0, pull: 0.0 };
-                }
-                let scale = 1.0 / squared.sqrt().sqrt();
-                Self { value: n * scale, n, scale, pull: 0.5 * scale / squared }
-            }
-        }
-    }
 }
 
 /// The three free edges of a hinge and its two normals.
@@ -128,7 +95,8 @@ impl Shape {
 impl Surface {
     /// The term for a garment with vertices `rest` and `hinges` between its triangles.
     ///
-    /// A hinge with a degenerate rest triangle, or with both opposite corners in one place, gets no element.
+    /// A hinge with a rest triangle without area, or with both opposite corners in one place, gets no element. So hinges
+    /// must come from triangles without caps (see [`crate::input::cap`]), else the surface is torn there.
     pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
         let elements: Vec<Element> = hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect();
         let degenerate_count = hinges.len() - elements.len();
@@ -147,13 +115,11 @@ impl Element {
         let shape = Shape::new(rest, v, form);
         let across = rest[v[3] as usize] - rest[v[2] as usize];
         let f1 = -shape.e1;
-        let longest = |a: DVec3, b: DVec3| a.length_squared().max(b.length_squared()).max((a - b).length_squared());
-        let limits = [longest(shape.e1, shape.e2), longest(f1, shape.f2)].map(|l| l * DEGENERATE);
-        let areas = [shape.n1.n, shape.n2.n].map(DVec3::length);
-        // Written so that a rest shape of zero size fails too.
-        if !(areas[0] > limits[0] && areas[1] > limits[1] && across.length_squared() > 0.0) {
+        let [p1, p2, p3, p4] = v.map(|i| rest[i as usize]);
+        if !(has_area([p1, p2, p3]) && has_area([p2, p1, p4]) && across.length_squared() > 0.0) {
             return None;
         }
+        let areas = [shape.n1.n, shape.n2.n].map(DVec3::length);
         let x = across.normalize_or_zero();
         let [c1, c2, c3] = coefficients(x, shape.e1, shape.e2, &shape.n1)?;
         let [d1, d2, d3] = coefficients(x, f1, shape.f2, &shape.n2)?;
@@ -165,26 +131,6 @@ impl Element {
             weight: 0.5 * (areas[0] + areas[1]),
         })
     }
-}
-
-/// Solves `c1 a + c2 b + c3 N = x` by Cramer's rule, N being a multiple of `a x b`; none without a finite answer.
-fn coefficients(x: DVec3, a: DVec3, b: DVec3, normal: &Normal) -> Option<[f64; 3]> {
-    let n = normal.n;
-    let squared = n.length_squared();
-    let c = [x.cross(b).dot(n) / squared, a.cross(x).dot(n) / squared, x.dot(n) / normal.value.dot(n)];
-    c.iter().all(|v| v.is_finite()).then_some(c)
-}
-
-/// `s I + [p]x`.
-#[inline]
-fn scaled_cross(s: f64, p: DVec3) -> DMat3 {
-    DMat3::from_cols(DVec3::new(s, p.z, -p.y), DVec3::new(-p.z, s, p.x), DVec3::new(p.y, -p.x, s))
-}
-
-/// `u v^T`.
-#[inline]
-fn outer(u: DVec3, v: DVec3) -> DMat3 {
-    DMat3::from_cols(u * v.x, u * v.y, u * v.z)
 }
 
 impl Energy for Surface {
@@ -206,30 +152,10 @@ impl Energy for Surface {
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        let mut rows = [[0.0; 12]; 3];
-        let mut block = [0.0; 144];
+        let mut squares = LeastSquares::new();
         for k in &self.elements[range] {
             let shape = Shape::new(at.x, k.vertices, self.form);
-            let jacobian = shape.jacobian(k);
-            let force = shape.residual(k) * (2.0 * k.weight);
-            let root = (2.0 * k.weight).sqrt();
-            for (i, j) in jacobian.iter().enumerate() {
-                for (c, column) in [j.x_axis, j.y_axis, j.z_axis].into_iter().enumerate() {
-                    let column = column * root;
-                    rows[0][3 * i + c] = column.x;
-                    rows[1][3 * i + c] = column.y;
-                    rows[2][3 * i + c] = column.z;
-                }
-                let gradient = DVec3::new(force.dot(j.x_axis), force.dot(j.y_axis), force.dot(j.z_axis));
-                sink.gradient(k.vertices[i], gradient);
-            }
-            let [r0, r1, r2] = &rows;
-            for (a, line) in block.chunks_exact_mut(12).enumerate() {
-                for (b, entry) in line.iter_mut().enumerate() {
-                    *entry = r0[a] * r0[b] + r1[a] * r1[b] + r2[a] * r2[b];
-                }
-            }
-            sink.block(&k.vertices, &block);
+            squares.add(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
         }
     }
 

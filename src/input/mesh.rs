@@ -151,7 +151,7 @@ impl Topology {
             }
         }
         (topology.loops, topology.open_boundaries) = trace_boundary(&boundary);
-        topology.components = count_components(vertex_count, &topology.edges);
+        topology.components = label_pieces(vertex_count, topology.edges.iter().copied()).1;
         topology
     }
 
@@ -247,28 +247,39 @@ fn trace_boundary(boundary: &[[u32; 2]]) -> (Vec<BoundaryLoop>, Vec<Vec<u32>>) {
     (loops, open)
 }
 
-/// Number of pieces that `edges` join the vertices into, not counting vertices without edges.
-fn count_components(vertex_count: usize, edges: &[[u32; 2]]) -> usize {
+/// The label of a vertex that belongs to no piece.
+pub const NO_PIECE: u32 = u32::MAX;
+
+/// For each vertex the piece that it belongs to, pieces being what `links` between vertices join, numbered from 0 in the
+/// order of their lowest vertices; [`NO_PIECE`] for a vertex without a link. And the number of pieces.
+pub fn label_pieces(vertex_count: usize, links: impl Iterator<Item = [u32; 2]>) -> (Vec<u32>, usize) {
     let mut parent: Vec<u32> = (0..vertex_count as u32).collect();
-    let mut find = |mut v: u32, link: Option<u32>| {
+    let mut linked = vec![false; vertex_count];
+    let find = |parent: &mut [u32], mut v: u32| {
         while parent[v as usize] != v {
             let above = parent[parent[v as usize] as usize];
             parent[v as usize] = above;
             v = above;
         }
-        if let Some(root) = link {
-            parent[v as usize] = root;
-        }
         v
     };
-    let mut used = vec![false; vertex_count];
-    let (mut vertices, mut links) = (0, 0);
-    for &[a, b] in edges {
-        for v in [a, b] {
-            vertices += usize::from(!std::mem::replace(&mut used[v as usize], true));
-        }
-        let root = find(a, None);
-        links += usize::from(find(b, Some(root)) != root);
+    for [a, b] in links {
+        linked[a as usize] = true;
+        linked[b as usize] = true;
+        let (a, b) = (find(&mut parent, a), find(&mut parent, b));
+        // The lowest vertex of a piece is its root, so that it is labelled first.
+        parent[a.max(b) as usize] = a.min(b);
     }
-    vertices - links
+    let mut count = 0;
+    let mut labels = vec![NO_PIECE; vertex_count];
+    for v in (0..vertex_count as u32).filter(|&v| linked[v as usize]) {
+        let root = find(&mut parent, v);
+        if root == v {
+            labels[v as usize] = count;
+            count += 1;
+        } else {
+            labels[v as usize] = labels[root as usize];
+        }
+    }
+    (labels, count as usize)
 }

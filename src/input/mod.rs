@@ -1,6 +1,7 @@
 //! What a caller hands in, checked and turned into ours.
 
 pub mod buffer;
+pub mod cap;
 pub mod diagnosis;
 pub mod guide;
 pub mod mesh;

@@ -8,6 +8,7 @@ use super::rounding::Gaps;
 use crate::contact::tangle::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Step, Tangle, ccd};
 use crate::control::Cancel;
+use crate::energy::attachment::Attachment;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
@@ -32,6 +33,8 @@ pub const NO_DISTANCE: f64 = 1e-12;
 pub struct Shape {
     /// Surface shape (Eq. 2).
     pub surface: Surface,
+    /// Loose pieces on the piece beside them.
+    pub attachment: Attachment,
     /// Curvature of the boundary curves (Eq. 5).
     pub curvature: Curvature,
     /// Torsion of the boundary curves.
@@ -270,6 +273,7 @@ impl Model for Objective {
         let w = &self.weights;
         let mut terms: Vec<Term<'_>> = vec![
             Term { energy: &shape.surface, weight: w.surface_weight },
+            Term { energy: &shape.attachment, weight: w.surface_weight },
             Term { energy: &shape.curvature, weight: w.curvature_weight },
             Term { energy: &shape.torsion, weight: w.torsion_weight },
             Term { energy: &shape.position, weight: w.position_weight },

@@ -12,11 +12,13 @@ use super::objective::{NO_DISTANCE, Objective, Shape};
 use super::rounding::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::control::Cancel;
+use crate::energy::attachment::Attachment;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::cap::without_caps;
 use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::input::guide::choose_guides;
 use crate::input::mesh::{Topology, TriangleMesh};
@@ -117,18 +119,32 @@ impl Problem {
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let lengths = topology.mean_edge_lengths(&garment.positions);
+        let attachment = Attachment::new(&garment.positions, &garment.triangles);
+        findings.extend(attachment.findings(|t| inputs.weld.triangle_of[t as usize]));
+        let mut held = vec![false; garment.positions.len()];
+        attachment.pieces().iter().flat_map(|piece| &piece.vertices).for_each(|&v| held[v as usize] = true);
+        let whole = without_caps(&garment.positions, &garment.triangles);
+        let hinges = whole.map(|triangles| Topology::new(garment.positions.len(), &triangles).hinges);
         let mut guides = Vec::new();
         let mut constraints = Vec::new();
         for (curve, guide) in
             topology.loops.iter().zip(choose_guides(&garment.positions, &topology.loops, &source, &target))
         {
-            if let Some(guide) = guide {
+            // A piece that is held to another one, such as a button, has no place of its own along a bone.
+            if let Some(guide) = guide
+                && !held[curve.vertices[0] as usize]
+            {
                 constraints.extend(curve.vertices.iter().map(|&v| (v, guides.len() as u32)));
                 guides.push(guide.guide);
             }
         }
         let shape = Shape {
-            surface: Surface::new(&garment.positions, &topology.hinges, options.surface_form),
+            surface: Surface::new(
+                &garment.positions,
+                hinges.as_ref().unwrap_or(&topology.hinges),
+                options.surface_form,
+            ),
+            attachment,
             curvature: Curvature::new(&garment.positions, &topology.loops),
             torsion: Torsion::new(&garment.positions, &topology.loops),
             position: Position::new(&garment.positions, &constraints, guides, &lengths),

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod attachment;
 mod barrier;
 mod curve;
 mod fit;

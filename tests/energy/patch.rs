@@ -14,7 +14,7 @@ pub struct Patch {
 }
 
 /// Triangles of a grid of `columns` by `rows` vertices; the columns may wrap around.
-fn triangles(columns: u32, rows: u32, wraps: bool) -> Vec<[u32; 3]> {
+pub fn triangles(columns: u32, rows: u32, wraps: bool) -> Vec<[u32; 3]> {
     let across = if wraps { columns } else { columns - 1 };
     let cell = |j: u32, i: u32| {
         let (a, b) = (j * columns + i, j * columns + (i + 1) % columns);

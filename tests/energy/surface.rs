@@ -2,11 +2,12 @@
 
 use bespoke::energy::surface::{Surface, SurfaceForm};
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::mesh::Hinge;
+use bespoke::input::cap::without_caps;
+use bespoke::input::mesh::{Hinge, Topology};
 use glam::{DMat3, DVec3};
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
-use crate::patch::{Patch, rotation, shaken, sheet, similar, tube};
+use crate::patch::{Patch, rotation, shaken, sheet, similar, triangles, tube};
 use crate::support::Random;
 
 const FORMS: [SurfaceForm; 2] = [SurfaceForm::Similarity, SurfaceForm::Printed];
@@ -201,4 +202,107 @@ fn ranges_add_up_and_stencils_cover_the_hessian() {
     let mut stencils = Vec::new();
     energy.stencils(&mut |v| stencils.push(v.to_vec()));
     assert_eq!(stencils, patch.hinges.iter().map(|h| h.vertices.to_vec()).collect::<Vec<_>>());
+}
+
+/// A strip of long cells below the line y = 0, of short cells above it: every other vertex of the line lies inside an
+/// edge of the lower strip. With `caps` these gaps hold a triangle, without, the lower strip is split there.
+fn t_junctions(caps: bool) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    const CELLS: u32 = 3;
+    let columns = 2 * CELLS + 1;
+    // Rows at y = 0, 1, 2 of short cells, then one at y = -1 of long ones.
+    let bump = |x: f64, y: f64| if y == 0.0 { 0.0 } else { 0.2 * (1.3 * x + y).sin() };
+    let point = |x: f64, y: f64| DVec3::new(x, y, bump(x, y));
+    let mut rest: Vec<DVec3> =
+        (0..3 * columns).map(|k| point(f64::from(k % columns), f64::from(k / columns))).collect();
+    rest.extend((0..=CELLS).map(|k| point(2.0 * f64::from(k), -1.0)));
+    let mut all = triangles(columns, 3, false);
+    for k in 0..CELLS {
+        let (left, middle, right) = (2 * k, 2 * k + 1, 2 * k + 2);
+        let (below, beside) = (3 * columns + k, 3 * columns + k + 1);
+        all.push([below, beside, left]);
+        if caps {
+            all.extend([[beside, right, left], [left, right, middle]]);
+        } else {
+            all.extend([[beside, right, middle], [beside, middle, left]]);
+        }
+    }
+    (rest, all)
+}
+
+/// Holds the lowest row, pulls one vertex of the highest, and lets the rest find its place: Gauss-Newton with dense
+/// matrices. Returns the energy that this has cost, and how far the vertices inside an edge have left it, as a fraction of
+/// its length, at most.
+fn pulled(rest: &[DVec3], energy: &Surface) -> (f64, f64) {
+    let mut x: Vec<DVec3> = rest.to_vec();
+    let tip = rest.iter().position(|p| p.x == 3.0 && p.y == 2.0).unwrap();
+    x[tip] += DVec3::new(0.06, 0.3, 0.3);
+    let held: Vec<bool> = (0..rest.len()).map(|v| rest[v].y < -0.5 || v == tip).collect();
+    let free: Vec<usize> = (0..3 * x.len()).filter(|&i| !held[i / 3]).collect();
+    for _ in 0..40 {
+        let d = dense(energy, &x, 0.0);
+        let mut rows: Vec<Vec<f64>> = free
+            .iter()
+            .map(|&i| {
+                let row = free.iter().map(|&j| d.hessian[i][j] + if i == j { 1e-6 } else { 0.0 });
+                row.chain([-d.gradient[i]]).collect()
+            })
+            .collect();
+        for k in 0..free.len() {
+            let pivot = rows[k].clone();
+            for row in rows.iter_mut().skip(k + 1) {
+                let factor = row[k] / pivot[k];
+                row.iter_mut().zip(&pivot).skip(k).for_each(|(a, b)| *a -= factor * b);
+            }
+        }
+        let mut step = vec![0.0; free.len()];
+        for k in (0..free.len()).rev() {
+            let known: f64 = (k + 1..free.len()).map(|j| rows[k][j] * step[j]).sum();
+            step[k] = (rows[k][free.len()] - known) / rows[k][k];
+        }
+        for (&i, s) in free.iter().zip(&step) {
+            x[i / 3][i % 3] += s;
+        }
+    }
+    let slope = dense(energy, &x, 0.0).gradient;
+    assert!(free.iter().all(|&i| slope[i].abs() < 1e-9), "it has not come to rest");
+    let inside = (1..6).step_by(2);
+    let off = |k: usize| x[k].distance(0.5 * (x[k - 1] + x[k + 1])) / x[k - 1].distance(x[k + 1]);
+    (value(energy, &x), inside.map(off).fold(0.0, f64::max))
+}
+
+#[test]
+fn t_junctions_hold_together() {
+    let (rest, caps) = t_junctions(true);
+    let (_, conforming) = t_junctions(false);
+    let surface = |triangles: &[[u32; 3]]| {
+        let hinges = Topology::new(rest.len(), triangles).hinges;
+        Surface::new(&rest, &hinges, SurfaceForm::default())
+    };
+    let mended = surface(&without_caps(&rest, &caps).unwrap());
+    assert_eq!((mended.len(), mended.degenerate_count()), (surface(&conforming).len(), 0));
+    let torn = surface(&caps);
+    assert_eq!(torn.degenerate_count(), 9);
+
+    let [mended, whole, torn] = [mended, surface(&conforming), torn].map(|energy| pulled(&rest, &energy));
+    assert!((mended.0 / whole.0 - 1.0).abs() < 1e-9 && (mended.1 - whole.1).abs() < 1e-9, "{mended:?} {whole:?}");
+    assert!(mended.1 < 0.01, "{mended:?}");
+    // The upper strip would fold away as along a cut.
+    assert!(torn.0 < 0.05 * whole.0, "{torn:?} {whole:?}");
+}
+
+#[test]
+fn an_edge_of_three_triangles_bends_in_every_pair() {
+    let wing = |angle: f64| DVec3::new(0.5, angle.cos(), angle.sin());
+    let rest = [DVec3::ZERO, DVec3::X, wing(0.3), wing(2.0), wing(4.4)];
+    let hinges = Topology::new(5, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]]).hinges;
+    let energy = Surface::new(&rest, &hinges, SurfaceForm::default());
+    assert_eq!((energy.len(), energy.degenerate_count()), (3, 0));
+    let mut seen = Vec::new();
+    energy.stencils(&mut |v| seen.push([v[2], v[3]]));
+    assert_eq!(seen, [[2, 3], [2, 4], [3, 4]]);
+    for wing in 2..5 {
+        let mut x = rest;
+        x[wing] += 0.2 * DVec3::X;
+        assert!(value(&energy, &x) > 1e-3);
+    }
 }

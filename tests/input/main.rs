@@ -1,6 +1,7 @@
 //! What a caller hands in: checks, connectivity, skeleton, weights, buffers, spaces, guides of boundary loops.
 
 mod buffer;
+mod cap;
 mod guide;
 mod mesh;
 mod skeleton;

@@ -306,3 +306,39 @@ fn the_source_body_keeps_the_designed_clearance() {
     assert!((mean_clearance(true) - designed).abs() < 0.02 * designed);
     assert!(mean_clearance(false) < 0.7 * designed);
 }
+
+/// A button shares no vertex with the sleeve, and nothing of the sleeve's shape tells where it belongs.
+#[test]
+fn a_button_keeps_its_place_and_its_size() {
+    let mut garment = sleeve();
+    let count = garment.positions.len();
+    // On the crest of a wave of the sleeve, a little off it.
+    let (z, size) = (std::f64::consts::FRAC_PI_2 / 12.0, 0.05);
+    let middle = DVec3::new(0.2 * z + 0.35, 0.0, z);
+    garment.positions.push(middle);
+    garment.positions.extend((0..8).map(|k| {
+        let angle = f64::from(k) * std::f64::consts::TAU / 8.0;
+        middle + size * DVec3::new(0.0, angle.cos(), angle.sin())
+    }));
+    let first = count as u32;
+    garment.triangles.extend((0..8).map(|k| [first, first + 1 + k, first + 1 + (k + 1) % 8]));
+
+    let mut session = session(1.0, DVec3::ZERO);
+    session.set_garment(garment.clone(), Precision::F64).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    let end = session.garment_positions().unwrap();
+
+    // The vertices of the sleeve around it tell where it belongs and how much the sleeve has grown there.
+    let around: Vec<usize> = (0..count).filter(|&v| garment.positions[v].distance(middle) < 0.2).collect();
+    assert!(around.len() > 8);
+    let seen = |x: &[DVec3]| {
+        let centre = around.iter().map(|&v| x[v]).sum::<DVec3>() / around.len() as f64;
+        let spread = around.iter().map(|&v| x[v].distance(centre)).sum::<f64>() / around.len() as f64;
+        let rim = x[count + 1..].iter().map(|p| p.distance(x[count])).sum::<f64>() / 8.0;
+        (x[count].distance(centre) / spread, rim / spread)
+    };
+    let (before, after) = (seen(&garment.positions), seen(&end));
+    println!("{before:?} {after:?}");
+    assert!((after.0 - before.0).abs() < 0.1, "it has drifted: {before:?} {after:?}");
+    assert!((after.1 / before.1 - 1.0).abs() < 0.2, "its size: {before:?} {after:?}");
+}
