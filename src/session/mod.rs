@@ -304,6 +304,7 @@ impl Session {
                 fit_weights: self.fit_weights.as_deref(),
             },
             &self.options,
+            &mut Vec::new(),
         )
     }
 

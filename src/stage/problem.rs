@@ -9,12 +9,14 @@ use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{Objective, Shape};
+use super::retreat;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::position::Position;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnosis::Finding;
 use crate::input::guide::choose_guides;
 use crate::input::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::Skeleton;
@@ -71,12 +73,13 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Normalises, projects the avatar, and sets up the shape terms.
+    /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing of the way there is added to
+    /// `findings`, in indices of these inputs; also where it fails.
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `NotEnclosed` where the garment lies beside the skeleton or the
-    /// shrunk avatar pokes through it, `SelfIntersection` where the garment passes through itself.
-    pub fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
+    /// shrunk avatar pokes through it and cannot be led around it, `SelfIntersection` where the garment passes through itself.
+    pub fn new(inputs: &Inputs<'_>, options: &Options, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
         let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
@@ -92,10 +95,11 @@ impl Problem {
             triangles: inputs.avatar.triangles.clone(),
         };
         gather_unused(&mut avatar);
-        let projected = project(&avatar, &target, &source, inputs.skin);
+        let mut projected = project(&avatar, &target, &source, inputs.skin);
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         check_itself(&garment)?;
-        enclosure::check(&garment, &projected, &source)?;
+        let wire = retreat::resolve(&garment, &avatar, &mut projected, &source, findings)?;
+        enclosure::check(&garment, &wire)?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let lengths = topology.mean_edge_lengths(&garment.positions);
