@@ -24,7 +24,7 @@ const ROUNDS: [Search; 3] = [
     Search { radius: 0.08, spacing: 0.008, clearance: 2e-4 },
 ];
 /// No more than this share of the bones' length is pulled back: what hangs on the rest would not be dressed.
-const MOST_PULLED: f64 = 0.25;
+const MOST_PULLED: f64 = 0.2;
 /// The garment must be around the wire for this share of it.
 const MOSTLY: f64 = 0.85;
 /// A wire with more joints than this is not tried: the table of ways between them grows with its square.

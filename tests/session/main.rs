@@ -1,6 +1,7 @@
 //! A session from inputs to a verified result.
 
 mod assets;
+mod shifted;
 mod small;
 
 #[path = "../support/obj.rs"]
