@@ -228,7 +228,7 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
 
 /// The point of the segment from `a` along `edge` closest to `p`.
 #[inline]
-fn closest_on_segment(p: DVec3, a: DVec3, edge: DVec3) -> DVec3 {
+pub fn closest_on_segment(p: DVec3, a: DVec3, edge: DVec3) -> DVec3 {
     let length = edge.length_squared();
     let s = if length > 0.0 { ((p - a).dot(edge) / length).clamp(0.0, 1.0) } else { 0.0 };
     a + s * edge

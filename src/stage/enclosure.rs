@@ -1,34 +1,24 @@
-//! Whether the garment is around the source skeleton, so that the shrunk avatar is inside it.
+//! Whether the garment is around the skeleton, or lies beside it.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::initialize::ProjectedAvatar;
+use super::section::Section;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
-use crate::input::skeleton::{BoneGraph, Skeleton};
-use crate::verify::intersections;
+use crate::sdf::closest_point::closest_on_segment;
 
 /// Garment vertices whose nearest places on the skeleton are looked at.
 const PLACES: usize = 64;
-/// Directions looked into from each place, evenly around the bone.
-const DIRECTIONS: usize = 8;
-/// A garment that fills fewer of them at every place lies beside its skeleton. Half, so that a cape still passes.
-const AROUND: usize = 4;
+/// The garment must be around at least this share of them. Low, so that a cape still passes.
+const AROUND: f64 = 0.1;
 
-/// Refuses a garment that lies beside the skeleton, or through which the avatar pokes where it is shrunk onto it.
+/// Refuses a garment that lies beside `lines`, the skeleton's bones as far as there is anything on them.
 ///
 /// # Errors
-/// `NotEnclosed`, naming bone and triangles.
-pub fn check(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skeleton) -> Result<()> {
-    check_crossings(garment, projected, source)?;
-    let graph = BoneGraph::new(source);
-    let corners: Vec<u32> = garment.triangles.iter().flatten().copied().collect();
-    let around = corners
-        .par_iter()
-        .step_by(corners.len().div_ceil(PLACES).max(1))
-        .any(|&v| directions_filled(garment, &graph, source, garment.positions[v as usize]) >= AROUND);
-    if around {
+/// `NotEnclosed`.
+pub fn check(garment: &TriangleMesh, lines: &[[DVec3; 2]]) -> Result<()> {
+    if share_around(garment, lines) >= AROUND {
         return Ok(());
     }
     Err(Error::new(
@@ -38,62 +28,23 @@ pub fn check(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skele
     ))
 }
 
-/// In how many directions around the bone a look from the place on the skeleton nearest to `p` meets the garment.
-fn directions_filled(garment: &TriangleMesh, graph: &BoneGraph, source: &Skeleton, p: DVec3) -> usize {
-    let places = (0..source.bones.len() as u32).map(|bone| {
-        let place = source.point_at(bone, graph.project(source, bone, p));
-        (place.distance_squared(p), place, bone)
+/// The share of the garment for which this holds: it is around the nearest place of `lines`, in the plane across them.
+pub fn share_around(garment: &TriangleMesh, lines: &[[DVec3; 2]]) -> f64 {
+    let corners: Vec<u32> = garment.triangles.iter().flatten().copied().collect();
+    let looks: Vec<bool> = corners
+        .par_iter()
+        .step_by(corners.len().div_ceil(PLACES).max(1))
+        .map(|&v| surrounds_nearest(garment, lines, garment.positions[v as usize]))
+        .collect();
+    let around = looks.iter().filter(|&&around| around).count();
+    around as f64 / looks.len().max(1) as f64
+}
+
+fn surrounds_nearest(garment: &TriangleMesh, lines: &[[DVec3; 2]], p: DVec3) -> bool {
+    let places = lines.iter().map(|&[a, b]| {
+        let place = closest_on_segment(p, a, b - a);
+        (place.distance_squared(p), place, b - a)
     });
-    let Some((_, place, bone)) = places.min_by(|a, b| a.0.total_cmp(&b.0)) else { return 0 };
-    let [a, b] = source.bones[bone as usize].map(|j| source.joints[j as usize]);
-    let (u, v) = (b - a).try_normalize().unwrap_or(DVec3::Z).any_orthonormal_pair();
-    (0..DIRECTIONS)
-        .filter(|&k| {
-            let angle = std::f64::consts::TAU * k as f64 / DIRECTIONS as f64;
-            let direction = angle.cos() * u + angle.sin() * v;
-            garment.triangles.iter().any(|t| ray_meets(place, direction, t.map(|v| garment.positions[v as usize])))
-        })
-        .count()
-}
-
-/// Whether the ray from `origin` meets the triangle (Möller and Trumbore 1997).
-fn ray_meets(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
-    let (e1, e2) = (b - a, c - a);
-    let p = direction.cross(e2);
-    let determinant = e1.dot(p);
-    if determinant == 0.0 {
-        return false;
-    }
-    let from = origin - a;
-    let q = from.cross(e1);
-    let (s, t) = (from.dot(p) / determinant, direction.dot(q) / determinant);
-    s >= 0.0 && t >= 0.0 && s + t <= 1.0 && e2.dot(q) / determinant > 0.0
-}
-
-/// Where the shrunk avatar meets the garment, Step 2 cannot begin.
-fn check_crossings(garment: &TriangleMesh, projected: &ProjectedAvatar, source: &Skeleton) -> Result<()> {
-    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
-    let found = intersections(garment, Some(&shrunk), usize::MAX)?;
-    let Some(&[_, piece]) = found.pairs.first() else { return Ok(()) };
-    let place = match projected.bones[piece as usize] {
-        Some(bone) => {
-            let [a, b] = source.bones[bone as usize];
-            format!("at the bone between joints {a} and {b}")
-        }
-        None => "between bones that form a cycle".to_string(),
-    };
-    let mut triangles: Vec<u32> = found.pairs.iter().map(|p| p[0]).collect();
-    triangles.sort_unstable();
-    triangles.dedup();
-    let count = triangles.len();
-    let named: Vec<String> = triangles.iter().take(8).map(u32::to_string).collect();
-    Err(Error::new(
-        ErrorKind::NotEnclosed,
-        format!(
-            "garment: the avatar, shrunk onto the source skeleton, pokes through it {place}: through garment triangles \
-             {}{} ({count} in all); move the garment or the skeleton so that the garment is around its bones",
-            named.join(", "),
-            if count > named.len() { ", ..." } else { "" },
-        ),
-    ))
+    let nearest = places.min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.is_some_and(|(_, place, along)| Section::cut(garment, place, along).is_around(place))
 }

@@ -31,6 +31,10 @@ pub struct ProjectedAvatar {
     /// The bone that each triangle of the subdivided mesh collapses onto; `None` where bones form a cycle that the triangle
     /// spans, so that it keeps an area.
     pub bones: Vec<Option<u32>>,
+    /// The caller's triangle that each triangle of the subdivided mesh is a piece of.
+    pub origins: Vec<u32>,
+    /// Where each of the caller's vertices is on the skeleton at t = 0.
+    pub places: Vec<Location>,
 }
 
 #[derive(Clone, Copy)]
@@ -42,7 +46,6 @@ struct Corner {
 
 /// Projects `avatar` (normalised) with its skeleton `target` onto `source`, whose bones `target` shares in order and
 /// direction. Skin weights, where given, decide the joint that a vertex belongs to.
-///
 pub fn project(
     avatar: &TriangleMesh,
     target: &Skeleton,
@@ -50,22 +53,37 @@ pub fn project(
     skin: Option<&SkinWeights>,
 ) -> ProjectedAvatar {
     let graph = BoneGraph::new(source);
-    let corners: Vec<Corner> = avatar
-        .positions
+    let places = avatar.positions.iter().enumerate().map(|(v, &end)| {
+        let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)));
+        Location::Bone { bone, parameter: on_source(parameter, bone, target, source) }
+    });
+    subdivide(avatar, places.collect(), source, &graph)
+}
+
+/// The avatar with its vertices at `places` of a skeleton at t = 0, subdivided so that every triangle collapses onto a
+/// single bone of it. `graph` is that of `skeleton`.
+pub fn subdivide(
+    avatar: &TriangleMesh,
+    places: Vec<Location>,
+    skeleton: &Skeleton,
+    graph: &BoneGraph,
+) -> ProjectedAvatar {
+    let start = |place| match place {
+        Location::Bone { bone, parameter } => skeleton.point_at(bone, parameter),
+        Location::Joint(joint) => skeleton.joints[joint as usize],
+    };
+    let corners: Vec<Corner> = places
         .iter()
-        .enumerate()
-        .map(|(v, &end)| {
-            let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)));
-            let start = source.point_at(bone, on_source(parameter, bone, target, source));
-            Corner { location: Location::Bone { bone, parameter }, start, end }
-        })
+        .zip(&avatar.positions)
+        .map(|(&location, &end)| Corner { location, start: start(location), end })
         .collect();
 
-    let mut out = ProjectedAvatar { shrunk: corners.iter().map(|c| c.start).collect(), ..Default::default() };
+    let shrunk = corners.iter().map(|c| c.start).collect();
+    let mut out = ProjectedAvatar { shrunk, places, ..Default::default() };
     let mut merged = HashMap::new();
     let mut pending = Vec::new();
     let mut paths: [Vec<u32>; 3] = Default::default();
-    for triangle in &avatar.triangles {
+    for (triangle, origin) in avatar.triangles.iter().zip(0..) {
         pending.push(triangle.map(|v| corners[v as usize]));
         while let Some(piece) = pending.pop() {
             for (edge, path) in paths.iter_mut().enumerate() {
@@ -73,14 +91,14 @@ pub fn project(
             }
             let longest = (0..3).rev().max_by_key(|&e| paths[e].len()).unwrap_or(0);
             if paths[longest].is_empty() {
-                out.push(&piece, graph.common_bone(&piece.map(|c| c.location)), &mut merged);
+                out.push(&piece, graph.common_bone(&piece.map(|c| c.location)), origin, &mut merged);
                 continue;
             }
             match (0..3)
                 .find(|&e| paths[e].is_empty() && !paths[(e + 1) % 3].is_empty() && !paths[(e + 2) % 3].is_empty())
             {
-                Some(base) => strip(&piece, base, &paths, source, &mut pending),
-                None => fan(&piece, longest, &paths[longest], source, &mut pending),
+                Some(base) => strip(&piece, base, &paths, skeleton, &mut pending),
+                None => fan(&piece, longest, &paths[longest], skeleton, &mut pending),
             }
         }
     }
@@ -123,23 +141,23 @@ fn on_source(parameter: f64, bone: u32, target: &Skeleton, source: &Skeleton) ->
 const ODD_BONE: f64 = 4.0;
 
 /// The corner at `joint`, the `k`-th of `count` equal parts along the edge from `a` to `b`.
-fn at_joint(a: &Corner, b: &Corner, joint: u32, k: usize, count: usize, source: &Skeleton) -> Corner {
+fn at_joint(a: &Corner, b: &Corner, joint: u32, k: usize, count: usize, skeleton: &Skeleton) -> Corner {
     // Both triangles at an edge must find the same points on it, to the bit, whichever way they walk along it.
     let turned = a.end.to_array() > b.end.to_array();
     let (from, to, k) = if turned { (b.end, a.end, count - k) } else { (a.end, b.end, k) };
     Corner {
         location: Location::Joint(joint),
-        start: source.joints[joint as usize],
+        start: skeleton.joints[joint as usize],
         end: from.lerp(to, k as f64 / count as f64),
     }
 }
 
 /// Replaces edge `edge` of `piece` by a chain over `joints` and fans the pieces to the opposite corner.
-fn fan(piece: &[Corner; 3], edge: usize, joints: &[u32], source: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
+fn fan(piece: &[Corner; 3], edge: usize, joints: &[u32], skeleton: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
     let [a, b, opposite] = [piece[edge], piece[(edge + 1) % 3], piece[(edge + 2) % 3]];
     let mut last = a;
     for (k, &joint) in joints.iter().enumerate() {
-        let next = at_joint(&a, &b, joint, k + 1, joints.len() + 1, source);
+        let next = at_joint(&a, &b, joint, k + 1, joints.len() + 1, skeleton);
         pending.push([last, next, opposite]);
         last = next;
     }
@@ -148,18 +166,18 @@ fn fan(piece: &[Corner; 3], edge: usize, joints: &[u32], source: &Skeleton, pend
 
 /// Cuts `piece`, whose edge `base` passes no joint while the two others do, along the joints that both pass on the way from
 /// the corner opposite to `base`.
-fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], source: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
+fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], skeleton: &Skeleton, pending: &mut Vec<[Corner; 3]>) {
     let [b, c, apex] = [piece[base], piece[(base + 1) % 3], piece[(base + 2) % 3]];
     // From the apex to b, as the edge runs; from the apex to c, against it.
     let (to_b, to_c) = (&paths[(base + 2) % 3], &paths[(base + 1) % 3]);
     let shared = to_b.iter().zip(to_c.iter().rev()).take_while(|(j, k)| j == k).count();
     if shared == 0 {
-        return fan(piece, (base + 2) % 3, to_b, source, pending);
+        return fan(piece, (base + 2) % 3, to_b, skeleton, pending);
     }
     let (mut left, mut right) = (apex, apex);
     for k in 0..shared {
-        let next_left = at_joint(&apex, &b, to_b[k], k + 1, to_b.len() + 1, source);
-        let next_right = at_joint(&apex, &c, to_b[k], k + 1, to_c.len() + 1, source);
+        let next_left = at_joint(&apex, &b, to_b[k], k + 1, to_b.len() + 1, skeleton);
+        let next_right = at_joint(&apex, &c, to_b[k], k + 1, to_c.len() + 1, skeleton);
         pending.push([left, next_left, next_right]);
         if k > 0 {
             pending.push([left, next_right, right]);
@@ -171,7 +189,7 @@ fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], source: &Skele
 }
 
 impl ProjectedAvatar {
-    fn push(&mut self, piece: &[Corner; 3], bone: Option<u32>, merged: &mut HashMap<[u64; 6], u32>) {
+    fn push(&mut self, piece: &[Corner; 3], bone: Option<u32>, origin: u32, merged: &mut HashMap<[u64; 6], u32>) {
         let corners = piece.map(|c| {
             let key = [c.start.x, c.start.y, c.start.z, c.end.x, c.end.y, c.end.z].map(f64::to_bits);
             *merged.entry(key).or_insert_with(|| {
@@ -182,5 +200,6 @@ impl ProjectedAvatar {
         });
         self.triangles.push(corners);
         self.bones.push(bone);
+        self.origins.push(origin);
     }
 }

@@ -9,6 +9,7 @@ use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{NO_DISTANCE, Objective, Shape};
+use super::retreat;
 use super::rounding::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::control::Cancel;
@@ -29,7 +30,7 @@ use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
-use crate::verify::intersections;
+use crate::verify::intersections_unless;
 
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
@@ -86,7 +87,7 @@ impl Problem {
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `InvalidMesh` where the coordinates of the result are too coarse,
-    /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it, and, if the options
+    /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it and cannot be led around it, and, if the options
     /// are strict, `SelfIntersection` where the garment passes through itself; `Cancelled`.
     pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
@@ -105,16 +106,19 @@ impl Problem {
         };
         gather_unused(&mut avatar);
         cancel.check()?;
-        let projected = project(&avatar, &target, &source, inputs.skin);
+        let mut projected = project(&avatar, &target, &source, inputs.skin);
         cancel.check()?;
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         let gaps = Gaps::of(options).widened(inputs.coordinate_error * target_frame.scale, &garment)?;
         if gaps != Gaps::of(options) {
             findings.push(coarse_coordinates(&gaps));
         }
-        let tangled = intersections(&garment, None, usize::MAX)?.pairs;
+        let tangled = intersections_unless(cancel, &garment, None, usize::MAX)?.pairs;
         cancel.check()?;
-        enclosure::check(&garment, &projected, &source)?;
+        let callers = &inputs.weld.triangle_of;
+        let wire = retreat::resolve(&garment, &avatar, &mut projected, &source, callers, cancel, findings)?;
+        cancel.check()?;
+        enclosure::check(&garment, &wire)?;
         cancel.check()?;
 
         let topology = Topology::new(garment.positions.len(), &garment.triangles);

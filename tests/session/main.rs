@@ -3,6 +3,7 @@
 mod assets;
 mod cancel;
 mod memory;
+mod shifted;
 mod small;
 
 #[path = "../support/obj.rs"]

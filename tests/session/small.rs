@@ -173,10 +173,20 @@ fn stepping_gives_the_same_bits_as_running_with_any_number_of_threads() {
     assert_eq!(first, result(5, Some(3)));
 }
 
+/// The bones leave it through its side and come back in: they are led back into it.
 #[test]
-fn a_garment_beside_its_skeleton_is_refused_with_the_place() {
+fn a_sleeve_half_beside_its_arm_comes_out_right() {
     let mut session = session(1.0, DVec3::ZERO);
     session.set_garment(moved(&sleeve(), 1.0, DVec3::new(0.3, 0.0, 0.0)), Precision::F64).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    assert!(session.verify(Precision::F64).unwrap().is_clean());
+}
+
+#[test]
+fn a_garment_that_shuts_the_arm_in_is_refused_with_the_place() {
+    let mut session = session(1.0, DVec3::ZERO);
+    let bag = tube(-0.6, 0.7, |z, _| 0.3 + 0.03 * (12.0 * z).sin(), 16, 20, true);
+    session.set_garment(bag, Precision::F64).unwrap();
     let error = session.prepare().unwrap_err();
     assert_eq!(error.kind, ErrorKind::NotEnclosed);
     assert!(error.message.contains("garment triangles") && error.message.contains("between joints"), "{error}");

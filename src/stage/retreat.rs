@@ -1,0 +1,284 @@
+//! What is done where the avatar, shrunk onto the source skeleton, pokes through the garment.
+//!
+//! The guarantee of Step 2 needs a start without contact, and nothing else of it. So the skeleton is bent into a wire that
+//! stays clear of the garment: aside where a bone leaves through a wall, back where it ends beyond a closed end. Whether it
+//! does is the judge's decision alone.
+
+use glam::DVec3;
+
+use super::enclosure;
+use super::initialize::ProjectedAvatar;
+use super::route::{Route, Scene, Search, around};
+use crate::control::Cancel;
+use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject};
+use crate::input::mesh::TriangleMesh;
+use crate::input::skeleton::{Location, Skeleton};
+use crate::sdf::closest_point::ClosestPoint;
+use crate::verify::intersections_unless;
+
+/// What is tried, one after the other, until nothing between joints has to be pulled back: finely and near, then far, and
+/// last with hardly any clearance.
+const ROUNDS: [Search; 3] = [
+    Search { radius: 0.12, spacing: 0.012, clearance: 2.5e-3 },
+    Search { radius: 0.32, spacing: 0.015, clearance: 2e-3 },
+    Search { radius: 0.08, spacing: 0.008, clearance: 2e-4 },
+];
+/// No more than this share of the bones' length is pulled back: what hangs on the rest would not be dressed.
+const MOST_PULLED: f64 = 0.2;
+/// The garment must be around the wire for this share of it.
+const MOSTLY: f64 = 0.85;
+/// A wire with more joints than this is not tried: the table of ways between them grows with its square.
+const MOST_JOINTS: usize = 8192;
+/// Joints that may be the root, those nearest to the garment's middle.
+const ROOTS: usize = 64;
+/// Garment triangles that an error names.
+const NAMED: usize = 8;
+/// Findings of one error, at most.
+const MOST_FINDINGS: usize = 64;
+
+/// A garment triangle that the shrunk avatar passes through, the bone, and the avatar's triangle.
+struct Poke {
+    garment: u32,
+    bone: Option<u32>,
+    avatar: u32,
+}
+
+/// Moves the start of `projected`, of `avatar` and on `source`, clear of the garment where it is not, and adds what was done
+/// to `findings`. Returns the lines that the start lies on. `callers` has the caller's index of each garment triangle.
+///
+/// # Errors
+/// `NotEnclosed` where that cannot be done, naming bone and triangles, which are also added to `findings`; `Cancelled`.
+pub fn resolve(
+    garment: &TriangleMesh,
+    avatar: &TriangleMesh,
+    projected: &mut ProjectedAvatar,
+    source: &Skeleton,
+    callers: &[u32],
+    cancel: &Cancel,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<[DVec3; 2]>> {
+    let mut pokes = find(garment, projected, cancel)?;
+    pokes.iter_mut().for_each(|poke| poke.garment = callers[poke.garment as usize]);
+    let extents = extents(projected, source);
+    if pokes.is_empty() {
+        let line = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
+        return Ok(extents.iter().zip(0..).map(line).collect());
+    }
+    let Some((route, start)) = search(garment, avatar, projected, source, &pokes, cancel)? else {
+        findings.extend(pokes.iter().take(MOST_FINDINGS).map(|poke| refusal_of(poke, source)));
+        return Err(refusal(&pokes, source));
+    };
+    findings.extend(repairs(&pokes, &route, source));
+    *projected = start;
+    Ok(route.wire.lines(&extents))
+}
+
+fn find(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Poke>> {
+    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
+    let found = intersections_unless(cancel, garment, Some(&shrunk), usize::MAX)?;
+    let poke = |&[garment, piece]: &[u32; 2]| Poke {
+        garment,
+        bone: projected.bones[piece as usize],
+        avatar: projected.origins[piece as usize],
+    };
+    Ok(found.pairs.iter().map(poke).collect())
+}
+
+/// The first wire that pulls no bone back, or else the one that pulls back least.
+fn search(
+    garment: &TriangleMesh,
+    avatar: &TriangleMesh,
+    projected: &ProjectedAvatar,
+    source: &Skeleton,
+    pokes: &[Poke],
+    cancel: &Cancel,
+) -> Result<Option<(Route, ProjectedAvatar)>> {
+    let root = choose_root(garment, source);
+    let cut = cycles(source, root);
+    let scene = Scene {
+        garment,
+        tree: ClosestPoint::new(garment),
+        source,
+        extents: extents(projected, source),
+        cancel,
+        sought: beside_pokes(pokes, source),
+    };
+    let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
+    let mut best: Option<(f64, Route, ProjectedAvatar)> = None;
+    for search in &ROUNDS {
+        let route = scene.route(root, &cut, search);
+        cancel.check()?;
+        let Some(route) = route else { continue };
+        let pulled: f64 = route.pulled.iter().map(|p| p[0]).sum();
+        let better = best.as_ref().is_none_or(|(least, ..)| pulled < *least);
+        if !better || pulled > MOST_PULLED * whole || route.wire.skeleton.joints.len() > MOST_JOINTS {
+            continue;
+        }
+        let start = route.wire.carry(avatar, projected);
+        if find(garment, &start, cancel)?.is_empty()
+            && enclosure::share_around(garment, &route.wire.lines(&scene.extents)) >= MOSTLY
+        {
+            best = Some((pulled, route, start));
+            if pulled == 0.0 {
+                break;
+            }
+        }
+    }
+    Ok(best.map(|(_, route, start)| (route, start)))
+}
+
+fn length(source: &Skeleton, ends: [u32; 2]) -> f64 {
+    let [a, b] = ends.map(|j| source.joints[j as usize]);
+    a.distance(b)
+}
+
+/// The joint that the garment is around most, and among equals the one nearest to its middle.
+fn choose_root(garment: &TriangleMesh, source: &Skeleton) -> u32 {
+    let corners = || garment.triangles.iter().flatten().map(|&v| garment.positions[v as usize]);
+    let middle = corners().sum::<DVec3>() / corners().count().max(1) as f64;
+    let mut joints: Vec<u32> = (0..source.joints.len() as u32).collect();
+    joints.sort_by(|&a, &b| {
+        let distance = |j: u32| source.joints[j as usize].distance_squared(middle);
+        distance(a).total_cmp(&distance(b))
+    });
+    joints.truncate(ROOTS);
+    let score = |&j: &u32| around(garment, source.joints[j as usize]);
+    // The last of equals in the reversed order is the nearest.
+    joints.into_iter().rev().max_by_key(score).unwrap_or(0)
+}
+
+/// The bones without which the skeleton is a tree.
+fn cycles(source: &Skeleton, root: u32) -> Vec<bool> {
+    let mut cut = vec![true; source.bones.len()];
+    let mut at = vec![Vec::new(); source.joints.len()];
+    for (bone, &[a, b]) in source.bones.iter().enumerate() {
+        at[a as usize].push((bone, b));
+        at[b as usize].push((bone, a));
+    }
+    let mut reached = vec![false; at.len()];
+    reached[root as usize] = true;
+    let mut order = vec![root];
+    let mut done = 0;
+    while let Some(&joint) = order.get(done) {
+        done += 1;
+        for &(bone, other) in &at[joint as usize] {
+            if !std::mem::replace(&mut reached[other as usize], true) {
+                cut[bone] = false;
+                order.push(other);
+            }
+        }
+    }
+    cut
+}
+
+/// The least and the largest parameter on each bone.
+fn extents(projected: &ProjectedAvatar, source: &Skeleton) -> Vec<[f64; 2]> {
+    let mut extents = vec![[0.0_f64, 1.0_f64]; source.bones.len()];
+    for place in &projected.places {
+        if let Location::Bone { bone, parameter } = *place {
+            let [low, high] = &mut extents[bone as usize];
+            (*low, *high) = (low.min(parameter), high.max(parameter));
+        }
+    }
+    extents
+}
+
+/// Bones that poke, and those that share a joint with them.
+fn beside_pokes(pokes: &[Poke], source: &Skeleton) -> Vec<bool> {
+    let mut joints = vec![false; source.joints.len()];
+    for bone in pokes.iter().filter_map(|p| p.bone) {
+        source.bones[bone as usize].iter().for_each(|&j| joints[j as usize] = true);
+    }
+    source.bones.iter().map(|ends| ends.iter().any(|&j| joints[j as usize])).collect()
+}
+
+/// What was done, bone by bone; last what was done to cycles.
+fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Finding> {
+    let through = |bone: Option<u32>| {
+        let mut triangles: Vec<u32> = pokes.iter().filter(|p| p.bone == bone).map(|p| p.garment).collect();
+        triangles.sort_unstable();
+        triangles.dedup();
+        triangles.truncate(3);
+        triangles.into_iter().map(|t| Element::triangle(Subject::Garment, t)).collect::<Vec<_>>()
+    };
+    let mut findings = Vec::new();
+    for (bone, &[a, b]) in source.bones.iter().enumerate() {
+        let triangles = through(Some(bone as u32));
+        let [between, beyond] = route.pulled[bone];
+        if triangles.is_empty() && between == 0.0 {
+            continue;
+        }
+        let mut done = Vec::new();
+        if route.offsets[bone] > 0.0 {
+            done.push(format!("it was led aside by up to {:.3}", route.offsets[bone]));
+        }
+        if between > 0.0 {
+            done.push(format!("{between:.3} of its length was pulled back to where it is still inside"));
+        }
+        if beyond > 0.0 {
+            done.push(format!("what goes {beyond:.3} beyond its end was pulled back"));
+        }
+        if done.is_empty() {
+            done.push("a bone beside it was moved".to_string());
+        }
+        let mut elements = vec![Element::bone(Subject::SourceSkeleton, bone as u32)];
+        elements.extend(triangles);
+        let sentence = format!(
+            "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would poke through the garment; {} (the \
+             skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
+            done.join(", and ")
+        );
+        findings.push(Finding::new(FindingKind::AvatarPokes, Severity::Warning, &elements, sentence));
+    }
+    let triangles = through(None);
+    if !triangles.is_empty() {
+        let sentence = "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; \
+                        the cycle was cut open; check the result there";
+        findings.push(Finding::new(FindingKind::AvatarPokes, Severity::Warning, &triangles, sentence));
+    }
+    findings
+}
+
+fn place(bone: Option<u32>, source: &Skeleton) -> String {
+    match bone {
+        Some(bone) => {
+            let [a, b] = source.bones[bone as usize];
+            format!("at the bone between joints {a} and {b}")
+        }
+        None => "between bones that form a cycle".to_string(),
+    }
+}
+
+fn refusal_of(poke: &Poke, source: &Skeleton) -> Finding {
+    let mut elements = vec![Element::triangle(Subject::Garment, poke.garment)];
+    elements.extend(poke.bone.map(|bone| Element::bone(Subject::SourceSkeleton, bone)));
+    elements.push(Element::triangle(Subject::TargetAvatar, poke.avatar));
+    let sentence = format!(
+        "garment: avatar triangle {}, shrunk onto the source skeleton, pokes through triangle {} {}, and no way around it \
+         was found",
+        poke.avatar,
+        poke.garment,
+        place(poke.bone, source)
+    );
+    Finding::new(FindingKind::AvatarPokes, Severity::Error, &elements, sentence)
+}
+
+fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {
+    let mut triangles: Vec<u32> = pokes.iter().map(|p| p.garment).collect();
+    triangles.sort_unstable();
+    triangles.dedup();
+    let count = triangles.len();
+    let named: Vec<String> = triangles.iter().take(NAMED).map(u32::to_string).collect();
+    Error::new(
+        ErrorKind::NotEnclosed,
+        format!(
+            "garment: the avatar, shrunk onto the source skeleton, pokes through it {}: through garment triangles \
+             {}{} ({count} in all), and no way around them was found; move the garment or the skeleton so that the garment \
+             is around its bones",
+            place(pokes.first().and_then(|p| p.bone), source),
+            named.join(", "),
+            if count > named.len() { ", ..." } else { "" },
+        ),
+    )
+}

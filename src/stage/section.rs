@@ -1,0 +1,85 @@
+//! A plane cut through the garment, and whether it goes around a point of that plane.
+
+use glam::{DVec2, DVec3};
+
+use crate::input::mesh::TriangleMesh;
+
+/// Directions around a point, one bit each.
+const DIRECTIONS: u32 = 64;
+/// The garment is around a point where no gap between the directions in which it is seen is wider than this: below half a
+/// turn, which is the narrowest gap for a point beside something convex. A cape still passes.
+const WIDEST_GAP: u32 = 28;
+
+/// The curve in which a plane cuts the garment.
+pub struct Section {
+    origin: DVec3,
+    u: DVec3,
+    v: DVec3,
+    segments: Vec<[DVec2; 2]>,
+}
+
+impl Section {
+    /// Cuts `garment` by the plane through `origin` across `normal`; a normal without length counts as z.
+    pub fn cut(garment: &TriangleMesh, origin: DVec3, normal: DVec3) -> Self {
+        let normal = normal.try_normalize().unwrap_or(DVec3::Z);
+        let (u, v) = normal.any_orthonormal_pair();
+        let mut section = Self { origin, u, v, segments: Vec::new() };
+        for triangle in &garment.triangles {
+            let corners = triangle.map(|v| garment.positions[v as usize] - origin);
+            let heights = corners.map(|c| c.dot(normal));
+            let mut ends = [DVec2::ZERO; 2];
+            let mut count = 0;
+            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                if (heights[i] >= 0.0) != (heights[j] >= 0.0) && count < 2 {
+                    let p = corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j]));
+                    ends[count] = DVec2::new(p.dot(u), p.dot(v));
+                    count += 1;
+                }
+            }
+            if count == 2 {
+                section.segments.push(ends);
+            }
+        }
+        section
+    }
+
+    /// The two directions that span the plane.
+    pub fn axes(&self) -> [DVec3; 2] {
+        [self.u, self.v]
+    }
+
+    /// Whether the garment is around `p`, which lies in the plane.
+    pub fn is_around(&self, p: DVec3) -> bool {
+        let place = DVec2::new((p - self.origin).dot(self.u), (p - self.origin).dot(self.v));
+        let mut seen = 0u64;
+        for &[a, b] in &self.segments {
+            let (a, b) = (a - place, b - place);
+            let turn = a.perp_dot(b);
+            let (from, to) = if turn >= 0.0 { (direction(a), direction(b)) } else { (direction(b), direction(a)) };
+            // Fewer than half of all directions: a segment is never seen under more than half a turn.
+            let width = (to + DIRECTIONS - from) % DIRECTIONS;
+            let bits = if width >= DIRECTIONS / 2 { 1 } else { (2u64 << width) - 1 };
+            seen |= bits.rotate_left(from);
+        }
+        let mut empty = !seen;
+        if seen == 0 {
+            return false;
+        }
+        // Each round takes one direction off every gap.
+        for _ in 0..WIDEST_GAP {
+            empty &= empty.rotate_left(1);
+        }
+        empty == 0
+    }
+}
+
+/// The number of a direction, counted once around. Steps are not of equal angle, but opposite directions are half of the
+/// numbers apart.
+fn direction(p: DVec2) -> u32 {
+    let length = p.x.abs() + p.y.abs();
+    if length == 0.0 {
+        return 0;
+    }
+    let quarter = if p.y >= 0.0 { 1.0 - p.x / length } else { 3.0 + p.x / length };
+    (0.25 * f64::from(DIRECTIONS) * quarter) as u32 % DIRECTIONS
+}
