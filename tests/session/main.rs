@@ -1,6 +1,7 @@
 //! A session from inputs to a verified result.
 
 mod assets;
+mod determinism;
 mod small;
 
 #[path = "../support/obj.rs"]

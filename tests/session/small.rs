@@ -67,7 +67,8 @@ fn moved(mesh: &TriangleMesh, scale: f64, away: DVec3) -> TriangleMesh {
     }
 }
 
-fn session(scale: f64, away: DVec3) -> Session {
+/// A session with the sleeve on the way to the thick arm, which is scaled and away from the origin.
+pub fn session(scale: f64, away: DVec3) -> Session {
     let mut session = Session::new();
     session.set_garment(sleeve(), Precision::F32).unwrap();
     session.set_source_skeleton(arm(1.0, DVec3::ZERO)).unwrap();
