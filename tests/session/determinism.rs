@@ -33,9 +33,9 @@ fn processor_class() -> String {
 
 /// FNV-1a over the bytes of the bits.
 fn hash(bits: &[u64]) -> u64 {
-    bits.iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    bits.iter()
+        .flat_map(|word| word.to_le_bytes())
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
 fn finished_bits(mut session: Session, threads: u32) -> Vec<u64> {
@@ -56,7 +56,9 @@ fn a_retarget_gives_the_pinned_bits_with_any_number_of_threads() {
         Some(&(_, pinned)) => {
             assert_eq!(found, pinned, "the bits have changed; if they should, pin them: (\"{class}\", {found:#018x})")
         }
-        None => eprintln!("skipped: the comparison with pinned bits, for there are none for (\"{class}\", {found:#018x})"),
+        None => {
+            eprintln!("skipped: the comparison with pinned bits, for there are none for (\"{class}\", {found:#018x})")
+        }
     }
 }
 
