@@ -32,7 +32,7 @@ impl Array {
         component: BespokeComponent,
         write: impl Fn(T) -> [u8; N],
     ) -> Self {
-        let count = if width == 0 { 0 } else { numbers.len() / width };
+        let count = numbers.len().checked_div(width).unwrap_or(0);
         let mut bytes = vec![0xA5];
         for (k, element) in numbers.chunks_exact(width.max(1)).enumerate() {
             if k > 0 {

@@ -41,7 +41,7 @@ pub fn run(bytes: &[u8]) {
         program.call(&mut source);
     }
     // Controls outlive their sessions in some programs, and go first in others.
-    let controls_first = program.work % 2 == 0;
+    let controls_first = program.work.is_multiple_of(2);
     if controls_first {
         program.destroy_controls();
     }
