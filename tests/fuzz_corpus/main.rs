@@ -52,7 +52,7 @@ fn mutate(corpus: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
 }
 
 /// Runs the corpus of `target`, then `mutations` more inputs.
-fn replay(target: &str, run: fn(&[u8]), mutations: usize) {
+fn replay(target: &str, mut run: impl FnMut(&[u8]), mutations: usize) {
     let mutations = match std::env::var("FUZZ_INPUTS") {
         Ok(number) => number.parse().expect("FUZZ_INPUTS is a number"),
         Err(_) => mutations,
@@ -70,15 +70,18 @@ fn replay(target: &str, run: fn(&[u8]), mutations: usize) {
 
 #[test]
 fn any_sequence_of_calls_is_answered() {
-    replay("calls", fuzz::calls, 1500);
+    replay("calls", fuzz::calls, 1000);
 }
 
 #[test]
 fn any_memory_is_read_as_it_is_described_or_refused() {
-    replay("buffers", fuzz::buffers, 4000);
+    replay("buffers", fuzz::buffers, 2500);
 }
 
 #[test]
 fn any_garment_comes_out_without_an_intersection_or_is_refused() {
-    replay("meshes", fuzz::meshes, 1500);
+    let mut judged = 0;
+    replay("meshes", |bytes| judged += u32::from(fuzz::meshes(bytes)), 1000);
+    assert!(judged > 0, "no input led to a result");
+    println!("{judged} results were judged");
 }

@@ -22,6 +22,7 @@ pub fn buffers(bytes: &[u8]) {
 }
 
 /// A garment, two skeletons and a body from bytes, and the whole way; what is called done is judged again.
-pub fn meshes(bytes: &[u8]) {
-    meshes::run(bytes);
+/// True where there was something to judge.
+pub fn meshes(bytes: &[u8]) -> bool {
+    meshes::run(bytes)
 }

@@ -13,20 +13,20 @@ use super::caller::Caller;
 use super::shape::{Shape, bones, joints};
 use super::source::Source;
 
-pub fn run(bytes: &[u8]) {
+pub fn run(bytes: &[u8]) -> bool {
     let mut source = Source::new(bytes);
     let scene = Scene::new(&mut source);
     let caller = Caller::new();
     let iterations = source.between(1, 40) as u32;
     caller.set_options(iterations, source.within(0.04, 0.2), source.between(1, 2) as u32);
     if !scene.hand_over(&caller) {
-        return;
+        return false;
     }
     // SAFETY: the session is alive.
     let status = caller.after("prepare", unsafe { bespoke_session_prepare(caller.session) });
     if status != BespokeStatus::Ok {
         assert_eq!(caller.stage(), BespokeStage::Setup as u32, "a session that could not prepare still takes inputs");
-        return;
+        return false;
     }
     let budget = source.below(4) as u32;
     let mut stage = caller.stage();
@@ -35,10 +35,11 @@ pub fn run(bytes: &[u8]) {
         let status = caller.after("step", unsafe { bespoke_session_step(caller.session, budget, 0, &mut stage) });
         if status != BespokeStatus::Ok {
             assert_eq!(stage, BespokeStage::Failed as u32, "{}", caller.message());
-            return;
+            return false;
         }
     }
     scene.judge(&caller);
+    true
 }
 
 /// What is handed in, as the caller stores it.
