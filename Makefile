@@ -1,6 +1,8 @@
 # make        build/retarget and build/libbespoke.so
 # make demo   makes a sample, dresses two bodies in it and says what came out
 # make test   every test
+# make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
+# make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make header writes include/bespoke.h again from the sources
 #
@@ -51,6 +53,25 @@ test: dependencies
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
+
+.PHONY: sanitize
+sanitize: dependencies
+	sh .ci/dependencies valgrind
+	$(MAKE) build/libbespoke.$(SHARED)
+	[ -d $(SAMPLE) ] || cargo run --release --example closet -- $(SAMPLE)
+	CC=$(CC) sh tests/c/sanitize.sh build $(SAMPLE)
+
+# What is found new goes to build/fuzz, and what fails to tests/fuzz/artifacts. A nightly build of its own, so the first
+# run takes minutes longer.
+FUZZ_SECONDS = 60
+FUZZ_TARGETS = calls buffers meshes
+.PHONY: fuzz
+fuzz: dependencies
+	for target in $(FUZZ_TARGETS); do \
+		mkdir -p build/fuzz/$$target && \
+		cargo +nightly fuzz run --fuzz-dir tests/fuzz $$target build/fuzz/$$target tests/fuzz/corpus/$$target -- \
+			-max_total_time=$(FUZZ_SECONDS) -max_len=600 -timeout=120 -rss_limit_mb=4096 || exit 1; \
+	done
 
 .PHONY: pairs
 pairs: build/retarget

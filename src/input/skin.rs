@@ -37,8 +37,13 @@ impl SkinWeights {
     /// ("target skin weights"). Rows of one vertex need not sum to 1.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidWeights`]: the size is not joints times vertices, or a weight is negative or not finite.
+    /// [`ErrorKind::InvalidWeights`]: there are no joints, the size is not joints times vertices, or a weight is negative
+    /// or not finite.
     pub fn from_dense(weights: &[f64], joint_count: usize, vertex_count: usize, what: &str) -> Result<Self> {
+        if joint_count == 0 {
+            // Without rows, no size of the array vouches for the number of vertices.
+            return fail(format!("{what}: there are no joints"));
+        }
         check_size(what, "weights", weights.len(), [joint_count, vertex_count], ["joints", "vertices"])?;
         let mut largest = vec![0.0; vertex_count];
         let mut dominant = vec![None; vertex_count];
@@ -79,9 +84,9 @@ impl SkinWeights {
         check_size(what, "joint indices", joints.len(), [vertex_count, influences], shape)?;
         check_size(what, "weights", weights.len(), [vertex_count, influences], shape)?;
         let mut dominant = Vec::with_capacity(vertex_count);
-        let mut merged: Vec<(u32, f64)> = Vec::with_capacity(influences);
+        let mut own: Vec<(u32, f64)> = Vec::new();
         for (vertex, (js, ws)) in joints.chunks_exact(influences).zip(weights.chunks_exact(influences)).enumerate() {
-            merged.clear();
+            own.clear();
             for (&joint, &weight) in js.iter().zip(ws) {
                 check_weight(what, weight, vertex, joint)?;
                 if weight == 0.0 {
@@ -92,14 +97,13 @@ impl SkinWeights {
                         "{what}: vertex {vertex} has a weight for joint {joint}, the skeleton has {joint_count} joints"
                     ));
                 }
-                match merged.iter_mut().find(|(j, _)| *j == joint) {
-                    Some((_, sum)) => *sum += weight,
-                    None => merged.push((joint, weight)),
-                }
+                own.push((joint, weight));
             }
-            let best = merged.iter().copied().reduce(|best, next| {
-                if next.1 > best.1 || (next.1 == best.1 && next.0 < best.0) { next } else { best }
-            });
+            own.sort_by_key(|&(joint, _)| joint);
+            let sums =
+                own.chunk_by(|a, b| a.0 == b.0).map(|same| (same[0].0, same.iter().map(|&(_, w)| w).sum::<f64>()));
+            // Strictly larger: of equal weights, the lowest joint stays.
+            let best = sums.reduce(|best, next| if next.1 > best.1 { next } else { best });
             dominant.push(best.map(|(joint, _)| joint));
         }
         Ok(Self { joint_count, dominant })

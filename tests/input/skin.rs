@@ -22,6 +22,7 @@ fn dense_rows() {
     };
     assert_eq!(refuse(&weights, 3, 5), "skin: there are 12 weights, but 3 joints times 5 vertices are needed");
     assert!(refuse(&weights, usize::MAX, 4).contains("are needed"));
+    assert_eq!(refuse(&[], 0, usize::MAX / 16), "skin: there are no joints", "and no memory is asked for");
     for (bad, text) in [(-0.5, "-0.5"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
         let mut weights = weights;
         weights[6] = bad;
@@ -41,6 +42,8 @@ fn sparse_influences() {
     assert_eq!(dominant(&skin), [Some(2), Some(1), Some(1), None, Some(1)]);
     let twice = SkinWeights::from_sparse(&[2, 0, 2], &[0.3, 0.4, 0.3], 3, 3, 1, "skin").unwrap();
     assert_eq!(dominant(&twice), [Some(2)]);
+    let none = SkinWeights::from_sparse(&[], &[], usize::MAX / 16, 3, 0, "skin").unwrap();
+    assert_eq!(none.vertex_count(), 0, "influences of no vertex take no memory");
 
     let refuse = |joints: &[u32], weights: &[f64], influences, vertices| {
         SkinWeights::from_sparse(joints, weights, influences, 3, vertices, "skin").unwrap_err().message

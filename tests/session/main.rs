@@ -2,6 +2,7 @@
 
 mod assets;
 mod cancel;
+mod determinism;
 mod memory;
 mod shifted;
 mod small;

@@ -77,6 +77,7 @@ pub fn moved(mesh: &TriangleMesh, scale: f64, away: DVec3) -> TriangleMesh {
     }
 }
 
+/// A session with the sleeve on the way to the thick arm, which is scaled and away from the origin.
 pub fn session(scale: f64, away: DVec3) -> Session {
     let mut session = Session::new();
     session.set_garment(sleeve(), Precision::F32).unwrap();

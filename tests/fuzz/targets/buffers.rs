@@ -1,0 +1,4 @@
+//! Arbitrary memory, sizes and structs.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bespoke_fuzz::buffers(bytes));

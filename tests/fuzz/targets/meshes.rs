@@ -1,0 +1,6 @@
+//! Random garments on random bodies, all the way.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    bespoke_fuzz::meshes(bytes);
+});

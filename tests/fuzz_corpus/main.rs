@@ -1,0 +1,87 @@
+//! The fuzz targets without a fuzzer: the committed corpus, then mutations of it from a fixed seed.
+//!
+//! Always the same inputs, so a failure here is a failure everywhere. The input under way is kept in
+//! `CARGO_TARGET_TMPDIR`, where it is found after a crash. `FUZZ_INPUTS` sets the number of mutations; `make fuzz` goes
+//! on from here with a fuzzer that looks at the code it reaches.
+
+#[path = "../fuzz/src/lib.rs"]
+mod fuzz;
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::fs;
+use std::path::Path;
+
+use support::Random;
+
+/// Longest input.
+const LONGEST: usize = 600;
+
+fn corpus(target: &str) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(target);
+    let mut paths: Vec<_> = fs::read_dir(&folder)
+        .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
+        .map(|entry| entry.expect("the corpus can be listed").path())
+        .collect();
+    paths.sort();
+    assert!(!paths.is_empty(), "the corpus of {target} is empty");
+    paths.iter().map(|path| fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))).collect()
+}
+
+/// Some of the bytes of one or two inputs of the corpus, with changes.
+fn mutate(corpus: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+    let mut below = |n: usize| (random.unit() * n as f64) as usize;
+    let mut bytes = corpus[below(corpus.len())].clone();
+    if below(3) == 0 {
+        let other = &corpus[below(corpus.len())];
+        bytes.truncate(below(bytes.len() + 1));
+        bytes.extend(&other[below(other.len() + 1)..]);
+    }
+    for _ in 0..1 + below(8) {
+        let place = below(bytes.len() + 1);
+        match below(4) {
+            0 => bytes.insert(place, below(256) as u8),
+            1 if place < bytes.len() => drop(bytes.remove(place)),
+            2 if place < bytes.len() => bytes[place] ^= 1 << below(8),
+            _ if place < bytes.len() => bytes[place] = below(256) as u8,
+            _ => bytes.extend((0..1 + below(32)).map(|_| below(256) as u8)),
+        }
+    }
+    bytes.truncate(LONGEST);
+    bytes
+}
+
+/// Runs the corpus of `target`, then `mutations` more inputs.
+fn replay(target: &str, mut run: impl FnMut(&[u8]), mutations: usize) {
+    let mutations = match std::env::var("FUZZ_INPUTS") {
+        Ok(number) => number.parse().expect("FUZZ_INPUTS is a number"),
+        Err(_) => mutations,
+    };
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fuzz-{target}"));
+    let corpus = corpus(target);
+    let mut random = Random::new(1);
+    let more: Vec<_> = (0..mutations).map(|_| mutate(&corpus, &mut random)).collect();
+    for bytes in corpus.iter().chain(&more) {
+        fs::write(&kept, bytes).unwrap_or_else(|error| panic!("{}: {error}", kept.display()));
+        run(bytes);
+    }
+    fs::remove_file(&kept).expect("the last input can be removed");
+}
+
+#[test]
+fn any_sequence_of_calls_is_answered() {
+    replay("calls", fuzz::calls, 1000);
+}
+
+#[test]
+fn any_memory_is_read_as_it_is_described_or_refused() {
+    replay("buffers", fuzz::buffers, 2500);
+}
+
+#[test]
+fn any_garment_comes_out_without_an_intersection_or_is_refused() {
+    let mut judged = 0;
+    replay("meshes", |bytes| judged += u32::from(fuzz::meshes(bytes)), 1000);
+    assert!(judged > 0, "no input led to a result");
+    println!("{judged} results were judged");
+}
