@@ -44,6 +44,8 @@ fn main() -> ExitCode {
                     if count == 1 {
                         println!("{outcome:#?}");
                     }
+                    // As it goes, for a soak that somebody watches or stops.
+                    eprintln!("{}", outcome.line());
                     outcomes.lock().unwrap_or_else(|e| e.into_inner()).push(outcome);
                 }
             });

@@ -38,6 +38,16 @@ impl Outcome {
         outcome
     }
 
+    /// All about it in one line.
+    pub fn line(&self) -> String {
+        let ([garment, avatar], flaws) = (self.size, &self.recipe.flaws);
+        let ended = self.error.as_ref().map_or("Done".to_string(), |e| format!("{:?}: {}", e.kind, e.message));
+        format!(
+            "SEED={} ({garment} and {avatar} vertices, flaws {flaws:?}, {:.1} s, {} iterations) {ended}",
+            self.recipe.seed, self.seconds, self.iterations
+        )
+    }
+
     pub fn is_crash(&self) -> bool {
         self.error.as_ref().is_some_and(|e| e.kind == ErrorKind::Internal)
     }

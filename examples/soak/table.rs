@@ -43,11 +43,6 @@ fn median_and_worst(values: impl Iterator<Item = f64>) -> [f64; 2] {
 
 fn list<'a>(what: &str, outcomes: impl Iterator<Item = &'a Outcome>) {
     for o in outcomes {
-        let message = o.error.as_ref().map_or("", |e| &e.message);
-        let ([garment, avatar], flaws) = (o.size, &o.recipe.flaws);
-        println!(
-            "{what}: make soak SEED={} ({garment} and {avatar} vertices, flaws {flaws:?}, {:.1} s, {} iterations) {message}",
-            o.recipe.seed, o.seconds, o.iterations
-        );
+        println!("{what}: make soak {}", o.line());
     }
 }
