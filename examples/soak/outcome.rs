@@ -18,6 +18,8 @@ pub struct Outcome {
     pub intersections: u64,
     pub seconds: f64,
     pub iterations: u32,
+    /// Whether the fit ended by its tolerance and not by the limit of iterations.
+    pub converged: bool,
     /// Vertices of garment and avatar.
     pub size: [usize; 2],
 }
@@ -27,7 +29,8 @@ impl Outcome {
         let scene = Scene::new(&recipe);
         let size = [scene.garment.positions.len(), scene.avatar.positions.len()];
         let clock = Instant::now();
-        let mut outcome = Self { recipe, error: None, intersections: 0, seconds: 0.0, iterations: 0, size };
+        let mut outcome =
+            Self { recipe, error: None, intersections: 0, seconds: 0.0, iterations: 0, converged: false, size };
         let ran = catch_unwind(AssertUnwindSafe(|| run(&scene, &mut outcome)));
         outcome.seconds = clock.elapsed().as_secs_f64();
         match ran {
@@ -59,6 +62,7 @@ fn run(scene: &Scene, outcome: &mut Outcome) -> Result<(), Error> {
     let ended = session.run();
     let report = session.report();
     outcome.iterations = report.inflate.iterations + report.fit.iterations;
+    outcome.converged = report.converged;
     ended?;
     let positions = session.garment_positions()?.into_iter().map(|p| scene.precision.round(p)).collect();
     let result = TriangleMesh { positions, triangles: scene.garment.triangles.clone() };

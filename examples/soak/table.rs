@@ -21,6 +21,7 @@ pub fn print(outcomes: &[Outcome]) -> bool {
     println!("\n| {} retargets | |\n| --- | --- |", outcomes.len());
     println!("| intersections | {intersections} |\n| crashes | {crashes} |");
     println!("| results in spite of flaws | {} |", done.iter().filter(|o| !o.recipe.flaws.is_empty()).count());
+    println!("| fits that the limit of iterations ended | {} |", done.iter().filter(|o| !o.converged).count());
     let [median, worst] = median_and_worst(done.iter().map(|o| o.seconds));
     println!("| seconds, median and worst | {median:.2} and {worst:.2} |");
     let [median, worst] = median_and_worst(done.iter().map(|o| f64::from(o.iterations)));
@@ -29,6 +30,7 @@ pub fn print(outcomes: &[Outcome]) -> bool {
     list("intersections", outcomes.iter().filter(|o| o.intersections > 0));
     list("crashed", outcomes.iter().filter(|o| o.is_crash()));
     list("sound, but without a result", outcomes.iter().filter(refused));
+    list("did not converge", done.iter().copied().filter(|o| !o.converged && o.recipe.flaws.is_empty()));
     let mut slow: Vec<&Outcome> = outcomes.iter().filter(|o| o.seconds > 10.0).collect();
     slow.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
     list("over 10 seconds", slow.into_iter());

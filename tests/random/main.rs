@@ -20,9 +20,9 @@ fn config(cases: u32) -> Config {
     Config {
         cases,
         failure_persistence: Some(Box::new(FileFailurePersistence::Direct(regressions))),
-        rng_seed: match std::env::var("PROPTEST_RNG_SEED").ok().and_then(|s| s.parse().ok()) {
-            Some(seed) => RngSeed::Fixed(seed),
-            None => RngSeed::Fixed(3),
+        rng_seed: match Config::default().rng_seed {
+            RngSeed::Random => RngSeed::Fixed(3),
+            chosen => chosen,
         },
         // Scenes take a second: a handful of attempts at a simpler one, not thousands.
         max_shrink_iters: 20,
