@@ -129,7 +129,7 @@ fn run(scene: &Scene) -> Result<()> {
 }
 
 proptest! {
-    #![proptest_config(config(300))]
+    #![proptest_config(config(200))]
 
     #[test]
     fn bad_meshes_are_told(seed in 0u64..8, bad in bad(), precise in any::<bool>()) {
