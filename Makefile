@@ -4,6 +4,7 @@
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
+# make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make header writes include/bespoke.h again from the sources
 #
 # As root, `demo` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
@@ -76,6 +77,11 @@ fuzz: dependencies
 .PHONY: pairs
 pairs: build/retarget
 	sh examples_c/pairs.sh build/retarget "$(ASSETS)" build/pairs --threads 2
+
+# COUNT and FIRST: how many, from which seed on.
+.PHONY: soak
+soak:
+	cargo run --release --example soak -- $(if $(SEED),--seed $(SEED),--count $(or $(COUNT),300) --first $(or $(FIRST),1))
 
 .PHONY: header
 header:

@@ -17,6 +17,8 @@ const LEVELS: u32 = 4;
 /// makes the barrier stiffer.
 const FREE: f64 = 0.3;
 const SMALL_PROMISE: f64 = 0.05;
+/// An objective below this is none: the garment is as it was designed, and every fraction of the objective is rounding.
+const NOTHING: f64 = 1e-9;
 /// Iterations after which the barrier becomes stiffer in any case.
 const PATIENCE: u32 = 6;
 
@@ -50,7 +52,7 @@ impl Settling {
     }
 
     /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
-    /// model still promises, is below the tolerance times the objective; or no step decreases it any more.
+    /// model still promises, is below the tolerance times the objective (or [`NOTHING`]); or no step decreases it any more.
     ///
     /// # Errors
     /// `Internal` from the solver.
@@ -75,7 +77,7 @@ impl Settling {
             return Ok(false);
         }
         let Some(step) = step else { return Ok(true) };
-        self.calm = if step.decrement <= options.tolerance * step.after { self.calm + 1 } else { 0 };
+        self.calm = if step.decrement <= options.tolerance * step.after.max(NOTHING) { self.calm + 1 } else { 0 };
         Ok(self.calm >= CALM)
     }
 }

@@ -13,7 +13,7 @@ fn point_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// Squared distance by ternary search over a family of segments or points: a convex function of one parameter.
-fn searched(kind: Kind, x: &[DVec3; 4]) -> f64 {
+pub fn searched(kind: Kind, x: &[DVec3; 4]) -> f64 {
     let at = |s: f64| match kind {
         Kind::PointTriangle => point_segment(x[0], x[1].lerp(x[2], s), x[1].lerp(x[3], s)),
         Kind::EdgeEdge => point_segment(x[0].lerp(x[1], s), x[2], x[3]),

@@ -4,6 +4,7 @@ mod bvh;
 mod candidates;
 mod ccd;
 mod distance;
+mod hard_queries;
 mod mollifier;
 mod pairs;
 mod scene;

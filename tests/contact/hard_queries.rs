@@ -1,0 +1,237 @@
+//! The queries that continuous collision detection is known to get wrong, judged by a distance found by search and by exact
+//! predicates on densely sampled positions: neither shares anything with the answer.
+
+use bespoke::contact::Kind;
+use bespoke::contact::ccd::pair_step;
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::verify::intersections;
+use glam::{DMat3, DVec3};
+
+use crate::distance::searched;
+use crate::pairs::{KINDS, SIZE, interior};
+use crate::support::Random;
+
+const FLOOR: f64 = 1e-5;
+
+fn moved(x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> [DVec3; 4] {
+    std::array::from_fn(|i| x[i] + time * v[i])
+}
+
+fn distance(kind: Kind, x: &[DVec3; 4]) -> f64 {
+    // The search wants its own place near 0: it subtracts nothing.
+    let base = x[1];
+    searched(kind, &x.map(|p| p - base)).sqrt()
+}
+
+/// Whether the primitives touch, exactly; points and edges are triangles without area.
+fn touch(kind: Kind, x: &[DVec3; 4]) -> bool {
+    let first = kind.first_count() as u32;
+    let mesh = |corners| TriangleMesh { positions: x.to_vec(), triangles: vec![corners] };
+    let second = if first == 1 { [1, 2, 3] } else { [2, 3, 3] };
+    intersections(&mesh([0, first - 1, first - 1]), Some(&mesh(second)), 0).unwrap().count > 0
+}
+
+/// Asserts that the pair keeps its target and never touches up to the answer, which is returned. Coordinates are rounded to
+/// `ulp`.
+fn judge(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, ulp: f64, tally: &mut Tally) -> f64 {
+    let answer = pair_step(kind, x, v, floor, 1.0);
+    let what = || format!("{kind:?} {x:?} {v:?} floor {floor:e}, answer {answer:e}");
+    let first = distance(kind, x);
+    let target = floor + 0.1 * (first - floor);
+    let slack = 4.0 * ulp + 1e-6 * (target - floor);
+    assert!(answer > 0.0 && answer <= 1.0, "{}", what());
+    let mut last = first;
+    for k in 1..=60 {
+        let now = moved(x, v, answer * f64::from(k) / 60.0);
+        last = distance(kind, &now);
+        assert!(last >= target - slack, "{}: {last:e} < {target:e} at {k}", what());
+        assert!(k % 15 != 0 || ulp > 0.1 * target || !touch(kind, &now), "{}: touches at {k}", what());
+    }
+    if answer == 1.0 {
+        tally.free += 1;
+    } else if last <= target + 0.025 * (first - floor) + slack {
+        tally.stopped += 1;
+    } else {
+        tally.early += 1;
+    }
+    answer
+}
+
+/// How queries ended: the whole way, near the target, or before that since the advances were used up.
+#[derive(Debug, Default)]
+struct Tally {
+    free: usize,
+    stopped: usize,
+    early: usize,
+}
+
+impl Tally {
+    /// At least so many ended each way, and hardly any early.
+    fn check(&self, free: usize, stopped: usize) {
+        println!("{self:?}");
+        assert!(self.free >= free && self.stopped >= stopped, "{self:?}");
+        assert!(20 * self.early <= self.stopped, "{self:?}");
+    }
+}
+
+fn rotation(random: &mut Random) -> DMat3 {
+    let x = random.vector().normalize();
+    let y = x.cross(random.vector()).normalize();
+    DMat3::from_cols(x, y, x.cross(y))
+}
+
+#[test]
+fn nearly_parallel_edges_slide() {
+    let mut random = Random::new(21);
+    let mut tally = Tally::default();
+    for k in 0..1500 {
+        let turn = rotation(&mut random);
+        let gap = FLOOR + 10f64.powi(-3 - k % 6);
+        let angle = if k % 7 == 0 { 0.0 } else { 10f64.powi(-1 - k % 13) };
+        let offset = 2.0 * SIZE * random.signed();
+        let end = SIZE * DVec3::new(1.0, angle * random.signed(), 0.0);
+        let lift = DVec3::new(offset, 0.0, gap);
+        let x = [lift, lift + end, DVec3::ZERO, SIZE * DVec3::X].map(|p| turn * p);
+        // Along each other, a little apart or together, and a little of a turn.
+        let closing = gap * random.signed();
+        let slide = turn * DVec3::new(4.0 * SIZE * random.signed(), 1e-3 * SIZE * random.signed(), closing);
+        let twist = turn * (DVec3::Z * 0.2 * closing.abs() * random.signed());
+        let v = [slide, slide + twist, DVec3::ZERO, DVec3::ZERO];
+        judge(Kind::EdgeEdge, &x, &v, FLOOR, 1e-17, &mut tally);
+    }
+    tally.check(300, 100);
+}
+
+#[test]
+fn edges_that_turn_through_the_parallel_position() {
+    let mut random = Random::new(22);
+    let mut tally = Tally::default();
+    for k in 0..600 {
+        let gap = FLOOR + 10f64.powi(-3 - k % 5);
+        // From one side of parallel to the other, at one height, or sinking onto the edge below.
+        let sink = if k % 2 == 0 { 0.0 } else { -2.0 * gap * random.unit() };
+        let swing = SIZE * DVec3::Y * (0.5 + random.unit());
+        let half = SIZE * DVec3::X;
+        let lift = gap * DVec3::Z;
+        let x = [lift - half - swing, lift + half + swing, -half, half];
+        let fall = sink * DVec3::Z;
+        let v = [2.0 * swing + fall, -2.0 * swing + fall, DVec3::ZERO, DVec3::ZERO];
+        let turn = rotation(&mut random);
+        let answer = judge(Kind::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), FLOOR, 1e-17, &mut tally);
+        assert!(sink != 0.0 || answer == 1.0, "no motion towards each other: {answer}");
+    }
+    tally.check(300, 100);
+}
+
+#[test]
+fn a_point_in_the_plane_of_its_triangle() {
+    let mut random = Random::new(23);
+    let mut tally = Tally::default();
+    let mut hits = 0;
+    for k in 0..1000 {
+        let turn = rotation(&mut random);
+        let flat = |random: &mut Random| SIZE * DVec3::new(random.signed(), random.signed(), 0.0);
+        let corners = [flat(&mut random), flat(&mut random), flat(&mut random)];
+        let point = if k % 3 == 0 {
+            // Just beside an edge.
+            let side = (corners[1] - corners[0]).cross(DVec3::Z).normalize();
+            let inward = side.dot(corners[2] - corners[0]).signum();
+            corners[0].lerp(corners[1], random.unit()) - inward * side * (FLOOR + 10f64.powi(-4 - k % 6))
+        } else {
+            3.0 * flat(&mut random)
+        };
+        let x = [point, corners[0], corners[1], corners[2]].map(|p| turn * p);
+        if distance(Kind::PointTriangle, &x) <= 1.01 * FLOOR {
+            continue;
+        }
+        let v = [4.0 * flat(&mut random), 0.1 * flat(&mut random), DVec3::ZERO, DVec3::ZERO].map(|p| turn * p);
+        let answer = judge(Kind::PointTriangle, &x, &v, FLOOR, 1e-17, &mut tally);
+        // In the plane, the dense samples alone tell whether it hits.
+        let met = (0..=500).any(|k| distance(Kind::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= FLOOR);
+        assert!(!met || answer < 1.0);
+        hits += usize::from(met);
+    }
+    tally.check(100, hits.max(100));
+}
+
+#[test]
+fn primitives_without_extent_meet_as_what_they_are() {
+    let mut random = Random::new(24);
+    let mut tally = Tally::default();
+    for k in 0..200 {
+        let turn = rotation(&mut random);
+        let gap = 10f64.powi(-2 - k % 5);
+        let (s, d) = (0.2 + 0.6 * random.unit(), turn * DVec3::Z);
+        let [a, b] = [turn * (-s * SIZE * DVec3::X), turn * ((1.0 - s) * SIZE * DVec3::X)];
+        let p = (FLOOR + gap) * d;
+        let fall = -2.0 * gap * d;
+        // A point against an edge, against a point, and in both forms of a pair; the gap is closed at half time, and
+        // nine tenths of it may be.
+        let cases = [
+            (Kind::EdgeEdge, [p, p, a, b], 2),
+            (Kind::EdgeEdge, [p + a, p + b, DVec3::ZERO, DVec3::ZERO], 2),
+            (Kind::EdgeEdge, [p, p, DVec3::ZERO, DVec3::ZERO], 2),
+            (Kind::PointTriangle, [p, a, b, a], 1),
+            (Kind::PointTriangle, [p, a, b, a.lerp(b, random.unit())], 1),
+            (Kind::PointTriangle, [p, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], 1),
+        ];
+        for (kind, x, falling) in cases {
+            let v = std::array::from_fn(|i| if i < falling { fall } else { DVec3::ZERO });
+            let answer = judge(kind, &x, &v, FLOOR, 1e-17, &mut tally);
+            assert!((answer - 0.45).abs() < 0.011, "{kind:?} {x:?}: {answer}");
+        }
+    }
+    tally.check(0, 1000);
+}
+
+#[test]
+fn gaps_of_a_thousandth_of_a_millionth_and_less() {
+    let mut random = Random::new(25);
+    let mut tally = Tally::default();
+    for kind in KINDS {
+        for gap in [1e-9, 1e-10, 1e-11, 1e-12] {
+            for k in 0..150 {
+                // Near 0, where the coordinates have digits for such a gap, and with a floor as low as the gap makes it.
+                let place = interior(kind, 0.0, &mut random);
+                let centre = place.iter().sum::<DVec3>() / 4.0;
+                let mut x = place.map(|p| p - centre);
+                let n = match kind {
+                    Kind::PointTriangle => (x[2] - x[1]).cross(x[3] - x[1]),
+                    Kind::EdgeEdge => (x[1] - x[0]).cross(x[3] - x[2]),
+                };
+                let lift = gap * n.normalize();
+                x[..kind.first_count()].iter_mut().for_each(|p| *p += lift);
+                let floor = 0.25 * gap * f64::from(k % 2);
+                let first = distance(kind, &x);
+                if first < 0.5 * gap {
+                    continue;
+                }
+                let speed = if k % 3 == 0 { SIZE } else { 3.0 * gap };
+                let v: [DVec3; 4] = std::array::from_fn(|_| speed * random.vector());
+                judge(kind, &x, &v, floor, 1e-17, &mut tally);
+            }
+        }
+    }
+    tally.check(100, 300);
+}
+
+#[test]
+fn large_coordinates_cost_digits_but_no_safety() {
+    let mut random = Random::new(26);
+    let mut tally = Tally::default();
+    for kind in KINDS {
+        for away in [1e2, 1e4, 1e6] {
+            let ulp = away * f64::EPSILON;
+            for k in 0..200 {
+                let shift = away * random.vector();
+                let gap = FLOOR + (1e4 * ulp).max(10f64.powi(-3 - k % 4));
+                let place = interior(kind, gap, &mut random);
+                let x = place.map(|p| p + shift);
+                let ride = if k % 2 == 0 { 100.0 * random.vector() } else { DVec3::ZERO };
+                let v: [DVec3; 4] = std::array::from_fn(|_| ride + 0.2 * SIZE * random.vector());
+                judge(kind, &x, &v, FLOOR, ulp.max(1e-14), &mut tally);
+            }
+        }
+    }
+    tally.check(100, 200);
+}

@@ -1,0 +1,92 @@
+//! The exact verifier looks at a session after every step.
+
+use std::collections::BTreeSet;
+
+use bespoke::control::Stage;
+use bespoke::error::Result;
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::session::Session;
+use bespoke::stage::problem::Problem;
+use bespoke::verify::intersections;
+
+use crate::scene::Scene;
+
+type Pairs = BTreeSet<[u32; 2]>;
+
+/// Knows which pairs of triangles intersect at the start; no other pair ever may.
+pub struct Judge<'a> {
+    pub scene: &'a Scene,
+    pub problem: Problem,
+    pub garment: Pairs,
+    pub avatar: Pairs,
+}
+
+fn pairs(a: &TriangleMesh, b: Option<&TriangleMesh>) -> Pairs {
+    intersections(a, b, usize::MAX).expect("finite meshes").pairs.into_iter().collect()
+}
+
+impl<'a> Judge<'a> {
+    /// # Errors
+    /// Where the session refuses the scene in `prepare`.
+    pub fn new(scene: &'a Scene) -> Result<Self> {
+        let problem = scene.problem()?;
+        let mut judge = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
+        let start = judge.source_positions();
+        judge.avatar = judge.against_avatar(start, 0.0);
+        Ok(judge)
+    }
+
+    /// The garment as designed, normalised.
+    fn source_positions(&self) -> TriangleMesh {
+        let ours = |&p| self.problem.source_frame.normalise(self.scene.source_space.position_to_ours(p));
+        TriangleMesh {
+            positions: self.scene.garment.positions.iter().map(ours).collect(),
+            triangles: self.scene.garment.triangles.clone(),
+        }
+    }
+
+    /// Pairs of a normalised garment and the projected avatar at `t`, subdivided as the solver has it.
+    fn against_avatar(&self, garment: TriangleMesh, t: f64) -> Pairs {
+        let projected = &self.problem.projected;
+        let ends = projected.start.iter().zip(&projected.end);
+        let body = TriangleMesh {
+            positions: ends.map(|(a, b)| a.lerp(*b, t)).collect(),
+            triangles: projected.triangles.clone(),
+        };
+        pairs(&garment, Some(&body))
+    }
+
+    /// The garment as it is now against itself and the avatar at its present t: a sentence where a new pair intersects.
+    pub fn look(&self, session: &Session) -> std::result::Result<(), String> {
+        let positions = session.garment_positions().map_err(|e| format!("not readable: {e}"))?;
+        let now = TriangleMesh { positions, triangles: self.scene.garment.triangles.clone() };
+        let t = session.report().t;
+        let place = format!("{:?} at t = {t}", session.stage());
+        let new: Vec<_> = pairs(&now, None).difference(&self.garment).copied().collect();
+        if !new.is_empty() {
+            return Err(format!("{place}: garment triangles {new:?} intersect, which did not at the start"));
+        }
+        let new: Vec<_> = if t < 1.0 {
+            let ours = |&p| self.problem.target_frame.normalise(self.scene.target_space.position_to_ours(p));
+            let garment = TriangleMesh { positions: now.positions.iter().map(ours).collect(), ..now };
+            self.against_avatar(garment, t).difference(&self.avatar).copied().collect()
+        } else {
+            pairs(&now, Some(&self.scene.avatar)).into_iter().collect()
+        };
+        if new.is_empty() { Ok(()) } else { Err(format!("{place}: garment and avatar triangles {new:?} intersect")) }
+    }
+
+    /// The result as a caller reads it.
+    pub fn look_at_result(&self, session: &Session) -> std::result::Result<(), String> {
+        assert_eq!(session.stage(), Stage::Done);
+        let round = |p| self.scene.precision.round(p);
+        let positions = session.garment_positions().map_err(|e| e.message)?.into_iter().map(round).collect();
+        let result = TriangleMesh { positions, triangles: self.scene.garment.triangles.clone() };
+        let new: Vec<_> = pairs(&result, None).difference(&self.garment).copied().collect();
+        let poking = pairs(&result, Some(&self.scene.avatar));
+        if new.is_empty() && poking.is_empty() {
+            return Ok(());
+        }
+        Err(format!("the result intersects: garment {new:?}, garment and avatar {poking:?}"))
+    }
+}

@@ -1,0 +1,93 @@
+//! After every single step, nothing intersects that did not at the start.
+
+use bespoke::control::Stage;
+use bespoke::error::ErrorKind;
+use bespoke::session::{Budget, Session};
+use glam::DVec3;
+use proptest::prelude::*;
+
+use super::{config, flawed, sound};
+use crate::judge::Judge;
+use crate::scene::{Recipe, Scene};
+
+/// Steps of a scene of any kind that are looked at: most scenes need fewer.
+const MOST: u32 = 150;
+
+/// Steps one iteration at a time, each judged, to the end or to `most` of them; the session as it is then.
+fn step_by_step(scene: &Scene, most: u32) -> Result<(Session, Option<ErrorKind>), String> {
+    let mut session = scene.session().map_err(|e| e.message)?;
+    if let Err(error) = session.prepare() {
+        return Ok((session, Some(error.kind)));
+    }
+    let judge = Judge::new(scene).map_err(|e| format!("the session prepares what the problem refuses: {e}"))?;
+    judge.look(&session)?;
+    for _ in 0..most {
+        let reached = session.step(Budget { iterations: 1, milliseconds: 0 });
+        judge.look(&session)?;
+        match reached {
+            Ok(Stage::Done) => {
+                judge.look_at_result(&session)?;
+                return Ok((session, None));
+            }
+            Ok(_) => {}
+            Err(error) => return Ok((session, Some(error.kind))),
+        }
+    }
+    Ok((session, None))
+}
+
+proptest! {
+    #![proptest_config(config(14))]
+
+    /// A sound scene comes out, and every step on its way is clean.
+    #[test]
+    fn of_a_sound_scene(recipe in sound()) {
+        let (session, error) = step_by_step(&Scene::new(&recipe), u32::MAX).map_err(TestCaseError::fail)?;
+        prop_assert_eq!(error, None);
+        prop_assert_eq!(session.stage(), Stage::Done);
+    }
+
+    /// Whatever is wrong with a scene: no step makes it worse, and what stops it is not this library.
+    #[test]
+    fn of_a_flawed_scene(recipe in flawed()) {
+        let (_, error) = step_by_step(&Scene::new(&recipe), MOST).map_err(TestCaseError::fail)?;
+        prop_assert_ne!(error, Some(ErrorKind::Internal));
+    }
+}
+
+/// The judge itself: it must see what a step must not do.
+#[test]
+fn the_judge_sees_a_garment_through_itself_and_through_the_body() {
+    let scene = Scene::new(&Recipe::sound(1));
+    let mut session = scene.session().unwrap();
+    session.prepare().unwrap();
+    assert_eq!(Judge::new(&scene).unwrap().look(&session), Ok(()));
+    // Two vertices have changed their numbers, which makes a clean garment, but not with the positions of the first.
+    let mut other = scene.clone();
+    let last = other.garment.positions.len() as u32 - 1;
+    other.garment.positions.swap(0, last as usize);
+    let swapped = |v: u32| {
+        if v == 0 {
+            last
+        } else if v == last {
+            0
+        } else {
+            v
+        }
+    };
+    other.garment.triangles.iter_mut().for_each(|t| *t = t.map(swapped));
+    let message = Judge::new(&other).unwrap().look(&session).unwrap_err();
+    assert!(message.contains("garment triangles"), "{message}");
+    // The result, and a blade through its middle.
+    session.run().unwrap();
+    let mut other = scene.clone();
+    let result = session.garment_positions().unwrap();
+    let middle = result.iter().sum::<DVec3>() / result.len() as f64;
+    let reach = 2.0 * result.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
+    let first = other.avatar.positions.len() as u32;
+    other.avatar.positions.extend([DVec3::ONE, DVec3::new(-1.0, 1.0, -1.0), -DVec3::ONE].map(|d| middle + reach * d));
+    other.avatar.triangles.push([first, first + 1, first + 2]);
+    let judge = Judge { scene: &other, ..Judge::new(&scene).unwrap() };
+    let message = judge.look(&session).unwrap_err();
+    assert!(message.contains("garment and avatar triangles"), "{message}");
+}
