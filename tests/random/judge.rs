@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use bespoke::contact::Kind;
 use bespoke::control::Stage;
 use bespoke::error::Result;
 use bespoke::input::mesh::TriangleMesh;
@@ -13,7 +14,7 @@ use crate::scene::Scene;
 
 type Pairs = BTreeSet<[u32; 2]>;
 
-/// Knows which pairs of triangles intersect at the start; no other pair ever may.
+/// Knows which pairs of triangles intersect at the start, or touch but for rounding; no other pair ever may.
 pub struct Judge<'a> {
     pub scene: &'a Scene,
     pub problem: Problem,
@@ -25,6 +26,20 @@ fn pairs(a: &TriangleMesh, b: Option<&TriangleMesh>) -> Pairs {
     intersections(a, b, usize::MAX).expect("finite meshes").pairs.into_iter().collect()
 }
 
+/// Smallest distance of a corner of one triangle from the other, or of two sides.
+fn distance(mesh: &TriangleMesh, pair: [u32; 2]) -> f64 {
+    let [s, t] = pair.map(|t| mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]));
+    let mut nearest = f64::INFINITY;
+    for i in 0..3 {
+        let sides = (0..3).map(|j| (Kind::EdgeEdge, [s[i], s[(i + 1) % 3], t[j], t[(j + 1) % 3]]));
+        let corners = [[s[i], t[0], t[1], t[2]], [t[i], s[0], s[1], s[2]]].map(|x| (Kind::PointTriangle, x));
+        for (kind, x) in sides.chain(corners) {
+            nearest = nearest.min(kind.separation(&x).squared.sqrt());
+        }
+    }
+    nearest
+}
+
 impl<'a> Judge<'a> {
     /// # Errors
     /// Where the session refuses the scene in `prepare`.
@@ -32,6 +47,13 @@ impl<'a> Judge<'a> {
         let problem = scene.problem()?;
         let mut judge = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
         let start = judge.source_positions();
+        let objective = judge.problem.begin(&scene.options, &mut Vec::new())?;
+        for &pair in objective.tangle().triangle_pairs() {
+            let pair = pair.map(|t| judge.problem.weld.triangle_of[t as usize]);
+            let touches = distance(&start, pair) < 2e-12;
+            assert!(judge.garment.contains(&pair) || touches, "triangles {pair:?} are let off, but are apart");
+            judge.garment.insert(pair);
+        }
         judge.avatar = judge.against_avatar(start, 0.0);
         Ok(judge)
     }

@@ -207,17 +207,6 @@ fn a_garment_far_beside_its_skeleton_is_refused() {
     }
 }
 
-#[test]
-fn a_garment_through_itself_is_refused_with_the_triangles() {
-    let mut session = session(1.0, DVec3::ZERO);
-    let mut garment = sleeve();
-    garment.positions[45] = garment.positions[245] + DVec3::new(0.001, 0.0, 0.0);
-    session.set_garment(garment, Precision::F64).unwrap();
-    let error = session.prepare().unwrap_err();
-    assert_eq!(error.kind, ErrorKind::SelfIntersection);
-    assert!(error.message.contains("pairs of triangles"), "{error}");
-}
-
 /// Two layers nearer than the separation floor: the floor gives way, the promise does not.
 #[test]
 fn layers_nearer_than_the_floor_stay_apart() {

@@ -10,11 +10,15 @@ mod garment;
 mod setting;
 mod skeleton;
 
+use std::sync::Arc;
+
+use bespoke::control::Cancel;
 use bespoke::error::Result;
 use bespoke::input::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::input::space::Space;
+use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use bespoke::stage::problem::{Inputs, Problem};
@@ -159,9 +163,11 @@ impl Scene {
             joints: skeleton.joints.iter().map(|&p| space.position_to_ours(p)).collect(),
             bones: skeleton.bones.clone(),
         };
+        let (weld, _) = Weld::new(&self.garment);
         Problem::new(
             &Inputs {
-                garment: &mesh(&self.source_space, &self.garment),
+                garment: &mesh(&self.source_space, &weld.mesh),
+                weld: Arc::new(weld.clone()),
                 source_skeleton: &skeleton(&self.source_space, &self.source_skeleton),
                 avatar: &mesh(&self.target_space, &self.avatar),
                 target_skeleton: &skeleton(
@@ -170,9 +176,12 @@ impl Scene {
                 ),
                 skin: self.skin.as_ref(),
                 source_avatar: self.source_avatar.as_ref().map(|body| mesh(&self.source_space, body)).as_ref(),
-                fit_weights: self.fit_weights.as_deref(),
+                fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
+                coordinate_error: 0.0,
             },
             &self.options,
+            &Cancel::new(),
+            &mut Vec::new(),
         )
     }
 }
