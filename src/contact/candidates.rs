@@ -25,24 +25,28 @@ pub enum Class {
     Garment,
     /// The avatar.
     Avatar,
+    /// Itself, at triangles that pass through each other from the start (see [`Tangle`]).
+    Tangled,
 }
 
-/// What the four runs of a [`CandidateSet`] hold, in order.
-const RUNS: [(Kind, Class); 4] = [
+/// What the runs of a [`CandidateSet`] hold, in order.
+const RUNS: [(Kind, Class); 6] = [
     (Kind::PointTriangle, Class::Garment),
     (Kind::EdgeEdge, Class::Garment),
     (Kind::PointTriangle, Class::Avatar),
     (Kind::EdgeEdge, Class::Avatar),
+    (Kind::PointTriangle, Class::Tangled),
+    (Kind::EdgeEdge, Class::Tangled),
 ];
 
-/// Pairs of primitives in the combined numbering of [`Bodies`], sorted into four runs by kind and class.
+/// Pairs of primitives in the combined numbering of [`Bodies`], sorted into runs by kind and class.
 ///
 /// The four vertices of a pair differ. Of an edge-edge pair with the avatar, the first edge is the garment's.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CandidateSet {
     pairs: Vec<[u32; 4]>,
     /// Where each run ends in `pairs`.
-    ends: [usize; 4],
+    ends: [usize; RUNS.len()],
 }
 
 /// Pairs of one kind and class.
@@ -59,7 +63,7 @@ pub struct Run<'a> {
 }
 
 impl CandidateSet {
-    /// The set of the given pairs.
+    /// The set of the given pairs, nothing being tangled.
     pub fn new(
         garment_point_triangle: &[[u32; 4]],
         garment_edge_edge: &[[u32; 4]],
@@ -70,7 +74,7 @@ impl CandidateSet {
         let runs = [garment_point_triangle, garment_edge_edge, avatar_point_triangle, avatar_edge_edge];
         for (run, pairs) in runs.into_iter().enumerate() {
             set.pairs.extend_from_slice(pairs);
-            set.ends[run] = set.pairs.len();
+            set.ends[run..].fill(set.pairs.len());
         }
         set
     }
@@ -105,7 +109,7 @@ impl CandidateSet {
 
     /// The part of each run that lies in `range`, without empty ones.
     pub fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Run<'_>> {
-        (0..4).filter_map(move |run| {
+        (0..RUNS.len()).filter_map(move |run| {
             let start = if run == 0 { 0 } else { self.ends[run - 1] };
             let (first, end) = (start.max(range.start), self.ends[run].min(range.end));
             let (kind, class) = RUNS[run];
@@ -276,17 +280,18 @@ impl BroadPhase {
         );
 
         out.pairs.clear();
+        let tangle = &self.tangle;
         for (run, (kind, class)) in RUNS.into_iter().enumerate() {
-            let pieces = if class == Class::Garment { &*self_pieces } else { &*avatar_pieces };
+            let pieces = if class == Class::Avatar { &*avatar_pieces } else { &*self_pieces };
             for piece in pieces {
                 let found = match kind {
                     Kind::PointTriangle => &piece.point_triangle,
                     Kind::EdgeEdge => &piece.edge_edge,
                 };
-                if class == Class::Avatar || self.tangle.is_empty() {
+                if class == Class::Avatar || (class == Class::Garment && tangle.is_empty()) {
                     out.pairs.extend_from_slice(found);
-                } else {
-                    out.pairs.extend(found.iter().filter(|&&pair| !self.tangle.is_free(kind, pair)));
+                } else if !tangle.is_empty() {
+                    out.pairs.extend(found.iter().filter(|&&pair| tangle.class(kind, pair) == Some(class)));
                 }
             }
             out.ends[run] = out.pairs.len();

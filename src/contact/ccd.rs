@@ -16,7 +16,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::{Bodies, Configuration, Step};
-use super::candidates::CandidateSet;
+use super::candidates::{CandidateSet, Class};
 use super::distance::Kind;
 
 /// The fraction of its gap above the floor that a pair keeps in one step.
@@ -34,8 +34,8 @@ const MAX_ADVANCES: usize = 256;
 /// Pairs a thread takes at once.
 const CHUNK: usize = 1024;
 
-/// The largest part of `step`, at most `limit`, during which every candidate keeps more than `floor` plus a tenth of
-/// its initial gap above the floor. 0 if a pair at or below the floor approaches.
+/// The largest part of `step`, at most `limit`, during which every candidate keeps more than the `floor` of its class plus a
+/// tenth of its initial gap above it. 0 if a pair at or below the floor approaches.
 ///
 /// The same bits for any number of threads.
 pub fn max_step(
@@ -43,7 +43,7 @@ pub fn max_step(
     candidates: &CandidateSet,
     at: Configuration<'_>,
     step: &Step<'_>,
-    floor: f64,
+    floor: impl Fn(Class) -> f64,
     limit: f64,
 ) -> f64 {
     // The smallest answer so far, shared to cut other pairs off. A pair advances by a sequence of times that does not
@@ -53,6 +53,7 @@ pub fn max_step(
     // non-negative numbers are ordered as the numbers are.
     let shared = AtomicU64::new(limit.max(0.0).to_bits());
     for run in candidates.runs(0..candidates.len()) {
+        let floor = floor(run.class);
         run.pairs.par_chunks(CHUNK).for_each(|chunk| {
             for &pair in chunk {
                 let bound = f64::from_bits(shared.load(Ordering::Relaxed));

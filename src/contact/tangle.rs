@@ -4,9 +4,13 @@
 //! meet. A pair of such primitives is *free* where every pair of triangles that it belongs to is tangled already, and
 //! guarded otherwise. So triangles that are apart have all their primitives guarded and stay apart, while tangled ones may
 //! move through each other, and come apart where nothing else is in the way. A tangle only ever gets smaller.
+//!
+//! A guarded pair that also belongs to tangled triangles lies where the surface passes through itself. It cannot be asked to
+//! keep the distance that other pairs keep, and is a class of its own ([`Class::Tangled`]).
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
+use super::candidates::Class;
 use super::distance::Kind;
 use super::surface::Surface;
 
@@ -15,9 +19,9 @@ use super::surface::Surface;
 pub struct Tangle {
     /// The lower index first, in ascending order.
     triangle_pairs: Vec<[u32; 2]>,
-    /// Free pairs in the form that [`canonical`] gives them.
-    free: HashSet<[u32; 4]>,
-    /// For each vertex, whether a free pair has it.
+    /// The pairs of primitives of tangled triangles, in the form that [`canonical`] gives them; true where they are free.
+    held: HashMap<[u32; 4], bool>,
+    /// For each vertex, whether a tangled triangle has it.
     concerned: Vec<bool>,
 }
 
@@ -28,7 +32,7 @@ impl Tangle {
         sorted.sort_unstable();
         sorted.dedup();
         let mut tangle = Self { triangle_pairs: sorted, ..Self::default() };
-        tangle.find_free(surface);
+        tangle.find_held(surface);
         tangle
     }
 
@@ -47,40 +51,50 @@ impl Tangle {
         self.triangle_pairs.binary_search(&[s.min(t), s.max(t)]).is_ok()
     }
 
-    /// Whether a pair of garment primitives, as the broad phase has it, is let off.
+    /// The class of a pair of garment primitives, as the broad phase has it; none where it is free.
     #[inline]
-    pub fn is_free(&self, kind: Kind, pair: [u32; 4]) -> bool {
-        pair.iter().all(|&v| self.concerned[v as usize]) && self.free.contains(&canonical(kind, pair))
+    pub fn class(&self, kind: Kind, pair: [u32; 4]) -> Option<Class> {
+        if self.is_empty() || !pair.iter().all(|&v| self.concerned[v as usize]) {
+            return Some(Class::Garment);
+        }
+        match self.held.get(&canonical(kind, pair)) {
+            None => Some(Class::Garment),
+            Some(false) => Some(Class::Tangled),
+            Some(true) => None,
+        }
     }
 
-    fn find_free(&mut self, surface: &Surface) {
+    fn find_held(&mut self, surface: &Surface) {
         self.concerned = vec![false; surface.vertex_count];
-        if self.is_empty() {
-            return;
-        }
         let around = Around::new(surface, self.triangle_pairs.iter().flatten().copied());
-        let mut free = HashSet::new();
+        let mut held = HashMap::new();
         for &[s, t] in &self.triangle_pairs {
             for (kind, pair) in primitive_pairs(surface, s, t) {
-                let key = canonical(kind, pair);
-                if !free.contains(&key) && around.all_triangle_pairs(surface, kind, pair, |s, t| self.contains(s, t)) {
-                    free.insert(key);
-                    pair.iter().for_each(|&v| self.concerned[v as usize] = true);
-                }
+                pair.iter().for_each(|&v| self.concerned[v as usize] = true);
+                held.entry(canonical(kind, pair))
+                    .or_insert_with(|| around.all_triangle_pairs(surface, kind, pair, |s, t| self.contains(s, t)));
             }
         }
-        self.free = free;
+        self.held = held;
     }
 }
 
-/// The pairs of triangles of `surface` that hold the given pair of primitives, the lower index first.
-pub fn triangle_pairs_of(surface: &Surface, kind: Kind, pair: [u32; 4]) -> Vec<[u32; 2]> {
-    let all = 0..surface.triangles.len() as u32;
+/// The pairs of triangles of `surface` that hold any of the given pairs of primitives, the lower index first, in ascending
+/// order.
+pub fn triangle_pairs_of(surface: &Surface, pairs: &[(Kind, [u32; 4])]) -> Vec<[u32; 2]> {
+    if pairs.is_empty() {
+        return Vec::new();
+    }
+    let around = Around::new(surface, 0..surface.triangles.len() as u32);
     let mut found = Vec::new();
-    Around::new(surface, all).all_triangle_pairs(surface, kind, pair, |s, t| {
-        found.push([s.min(t), s.max(t)]);
-        true
-    });
+    for &(kind, pair) in pairs {
+        around.all_triangle_pairs(surface, kind, pair, |s, t| {
+            found.push([s.min(t), s.max(t)]);
+            true
+        });
+    }
+    found.sort_unstable();
+    found.dedup();
     found
 }
 

@@ -19,6 +19,10 @@ use crate::memory::bytes;
 /// Candidates a thread takes at once.
 const CHUNK: usize = 2048;
 
+/// d-hat of tangled pairs in d-hat of the garment. Where the surface passes through itself there is no room for more. The
+/// barrier's force at a given part of d-hat grows with the cube of d-hat, so these pairs weigh more.
+const TANGLED_SHARE: f64 = 1.0 / 16.0;
+
 /// The shape of the barrier. Lengths are in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarrierSettings {
@@ -28,22 +32,35 @@ pub struct BarrierSettings {
     pub dhat_avatar: f64,
     /// Distance that no pair may reach.
     pub floor: f64,
+    /// The same for tangled pairs.
+    pub tangled_floor: f64,
     /// Factor on the pairs with the avatar.
     pub avatar_weight: f64,
 }
 
 impl Default for BarrierSettings {
     fn default() -> Self {
-        Self { dhat_self: 0.002, dhat_avatar: 0.002, floor: 1e-5, avatar_weight: 1.0 }
+        Self { dhat_self: 0.002, dhat_avatar: 0.002, floor: 1e-5, tangled_floor: 1e-5, avatar_weight: 1.0 }
     }
 }
 
 impl BarrierSettings {
+    /// Distance below which a class repels.
     #[inline]
-    fn dhat(&self, class: Class) -> f64 {
+    pub fn dhat(&self, class: Class) -> f64 {
         match class {
             Class::Garment => self.dhat_self,
             Class::Avatar => self.dhat_avatar,
+            Class::Tangled => TANGLED_SHARE * self.dhat_self,
+        }
+    }
+
+    /// Distance that no pair of a class may reach.
+    #[inline]
+    pub fn floor(&self, class: Class) -> f64 {
+        match class {
+            Class::Garment | Class::Avatar => self.floor,
+            Class::Tangled => self.tangled_floor,
         }
     }
 
@@ -52,6 +69,7 @@ impl BarrierSettings {
         match class {
             Class::Garment => 1.0,
             Class::Avatar => self.avatar_weight,
+            Class::Tangled => TANGLED_SHARE.powi(-3),
         }
     }
 }
@@ -61,10 +79,12 @@ impl BarrierSettings {
 pub struct Activity {
     /// Number of pairs closer than their d-hat.
     pub count: usize,
-    /// Smallest distance of the garment from itself, infinite if none is below d-hat.
+    /// Smallest distance of the garment from itself but for tangled pairs, infinite if none is below d-hat.
     pub min_distance_self: f64,
     /// Smallest distance of the garment from the avatar, infinite if none is below d-hat.
     pub min_distance_avatar: f64,
+    /// Smallest distance of a tangled pair, infinite if none is below its d-hat.
+    pub min_distance_tangled: f64,
 }
 
 /// The contact term: the barrier summed over a set of candidates.
@@ -153,7 +173,7 @@ impl Barrier {
     }
 
     fn activity_in(&self, at: Configuration<'_>, range: Range<usize>, mut found: impl FnMut(usize)) -> Activity {
-        let mut nearest = [f64::INFINITY; 2];
+        let mut nearest = [f64::INFINITY; 3];
         let mut count = 0;
         self.each_close(at, range, |close| {
             found(close.index);
@@ -161,8 +181,8 @@ impl Barrier {
             let nearest = &mut nearest[close.class as usize];
             *nearest = nearest.min(close.separation.squared);
         });
-        let [own, avatar] = nearest.map(f64::sqrt);
-        Activity { count, min_distance_self: own, min_distance_avatar: avatar }
+        let [min_distance_self, min_distance_avatar, min_distance_tangled] = nearest.map(f64::sqrt);
+        Activity { count, min_distance_self, min_distance_avatar, min_distance_tangled }
     }
 
     /// Calls `visit` with each candidate in `range` that is closer than its d-hat, in order.
@@ -218,13 +238,19 @@ struct ClosePair {
 }
 
 impl Activity {
-    const NONE: Self = Self { count: 0, min_distance_self: f64::INFINITY, min_distance_avatar: f64::INFINITY };
+    const NONE: Self = Self {
+        count: 0,
+        min_distance_self: f64::INFINITY,
+        min_distance_avatar: f64::INFINITY,
+        min_distance_tangled: f64::INFINITY,
+    };
 
     fn merged(self, other: &Self) -> Self {
         Self {
             count: self.count + other.count,
             min_distance_self: self.min_distance_self.min(other.min_distance_self),
             min_distance_avatar: self.min_distance_avatar.min(other.min_distance_avatar),
+            min_distance_tangled: self.min_distance_tangled.min(other.min_distance_tangled),
         }
     }
 }
@@ -253,10 +279,10 @@ impl Energy for Barrier {
 
     /// Infinite if a candidate is at or below the floor.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        let floor = self.settings.floor * self.settings.floor;
         let mut sum = 0.0;
         self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
             let dhat = self.settings.dhat(class);
+            let floor = self.settings.floor(class).powi(2);
             let big_d = separation.squared - floor;
             if big_d <= 0.0 {
                 // Not through the mollifier, which may be zero.
@@ -275,9 +301,9 @@ impl Energy for Barrier {
 
     /// Pairs at or below the floor, where the value is infinite, have none.
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        let floor = self.settings.floor * self.settings.floor;
         self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
             let dhat = self.settings.dhat(class);
+            let floor = self.settings.floor(class).powi(2);
             let big_d = separation.squared - floor;
             if big_d <= 0.0 {
                 return;

@@ -250,7 +250,8 @@ impl Work {
         report.terms = terms
             .iter()
             .zip(values)
-            .map(|(term, &value)| TermReport { name: term.energy.name(), value, weight: term.weight })
+            // The sum of no elements is -0.
+            .map(|(term, &value)| TermReport { name: term.energy.name(), value: value + 0.0, weight: term.weight })
             .collect();
     }
 }

@@ -124,36 +124,34 @@ impl Objective {
             }
             pairs.extend(touching);
         }
-        self.fit_floor(at, 0.0);
+        self.fit_floors(at, [0.0; 2]);
     }
 
     /// Goes on from `previous`, an objective of the same garment: with its tangle and its floor.
     pub fn take_over(&mut self, previous: &Objective) {
         self.broad_phase.set_tangle(previous.broad_phase.tangle().clone());
-        self.set_floor(previous.floor());
+        self.set_floors(previous.floors());
     }
 
     /// Triangles of the garment that touch within rounding and are not tangled.
     fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
         let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
-        let surface = &self.bodies.garment.surface;
-        near.filter(|&(_, class, _)| class == Class::Garment)
-            .flat_map(|(kind, _, pair)| triangle_pairs_of(surface, kind, pair))
-            .collect()
+        let own = near.filter(|&(_, class, _)| class != Class::Avatar).map(|(kind, _, pair)| (kind, pair));
+        triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
     }
 
-    /// What has come apart is guarded from now on, and the floor follows the smallest distance, up to that of the gaps. To be
+    /// What has come apart is guarded from now on, and the floors follow the smallest distances, up to that of the gaps. To be
     /// called after each accepted step. True where the barrier has changed.
     ///
     /// # Errors
     /// `InvalidMesh` where a vertex is not finite.
     pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
-        let floor = self.floor();
+        let before = self.floors();
         let released = self.release(at)?;
-        if released || floor < self.gaps.floor {
-            self.fit_floor(at, floor);
+        if released || before[0] < self.gaps.floor || !self.tangle().is_empty() {
+            self.fit_floors(at, before);
         }
-        Ok(released || self.floor() != floor)
+        Ok(released || self.floors() != before)
     }
 
     fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
@@ -182,13 +180,17 @@ impl Objective {
         }
     }
 
-    /// Sets the floor to that of the gaps, or below the smallest distance that is guarded at `at`; but not below `lowest`,
-    /// which is known to be below all of them, unless it is not.
-    fn fit_floor(&mut self, at: Configuration<'_>, lowest: f64) {
+    /// Sets the floors as high as the gaps ask for and what is guarded at `at` allows; but not below `before`, which was
+    /// below all distances, unless something newly guarded is nearer than that.
+    fn fit_floors(&mut self, at: Configuration<'_>, before: [f64; 2]) {
         let near = self.barrier.activity(at);
-        let nearest = near.min_distance_self.min(near.min_distance_avatar);
-        let floor = (FLOOR_SHARE * nearest).min(self.gaps.floor);
-        self.set_floor(if nearest > lowest { floor.max(lowest) } else { floor });
+        let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_tangled];
+        let wanted = [self.gaps.floor, self.gaps.floor.min(FLOOR_SHARE * self.barrier.settings().dhat(Class::Tangled))];
+        let [floor, tangled_floor] = std::array::from_fn(|k| {
+            let fitting = (FLOOR_SHARE * nearest[k]).min(wanted[k]);
+            if nearest[k] > before[k] { fitting.max(before[k].min(wanted[k])) } else { fitting }
+        });
+        self.set_floors([floor, tangled_floor]);
     }
 
     /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
@@ -202,13 +204,19 @@ impl Objective {
         self.gaps
     }
 
-    /// The distance that no guarded pair falls below.
+    /// The distance that no pair falls below, but for the tangled ones.
     pub fn floor(&self) -> f64 {
         self.barrier.settings().floor
     }
 
-    fn set_floor(&mut self, floor: f64) {
-        let settings = BarrierSettings { floor, ..*self.barrier.settings() };
+    /// That, and the same for the tangled pairs.
+    fn floors(&self) -> [f64; 2] {
+        let settings = self.barrier.settings();
+        [settings.floor, settings.tangled_floor]
+    }
+
+    fn set_floors(&mut self, [floor, tangled_floor]: [f64; 2]) {
+        let settings = BarrierSettings { floor, tangled_floor, ..*self.barrier.settings() };
         if settings != *self.barrier.settings() {
             self.barrier.set_settings(settings);
         }
@@ -294,7 +302,7 @@ impl Model for Objective {
         if self.cancel.is_requested() || self.lacks_room() {
             return 0.0;
         }
-        let floor = self.barrier.settings().floor;
-        ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest)
+        let settings = self.barrier.settings();
+        ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, |class| settings.floor(class), longest)
     }
 }

@@ -224,11 +224,11 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         for threads in [1, 2, 4] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             for _ in 0..5 {
-                let answer = pool.install(|| max_step(&scene.bodies, &set, at, &step, FLOOR, 1.0));
+                let answer = pool.install(|| max_step(&scene.bodies, &set, at, &step, |_| FLOOR, 1.0));
                 assert_eq!(answer.to_bits(), least.to_bits());
             }
         }
-        assert_eq!(max_step(&scene.bodies, &set, at, &step, FLOOR, 0.5 * least), 0.5 * least);
+        assert_eq!(max_step(&scene.bodies, &set, at, &step, |_| FLOOR, 0.5 * least), 0.5 * least);
         cut += usize::from(least < 1.0);
         for k in 0..=50 {
             assert!(smallest(&scene, &set, at, &step, least * k as f64 / 50.0) > FLOOR);
@@ -238,7 +238,7 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
     let scene = Scene::random(0, 0.1);
     let at = Configuration { x: &scene.x, t: 0.0 };
     let step = Step { dx: &scene.dx, dt: 0.0 };
-    assert_eq!(max_step(&scene.bodies, &CandidateSet::default(), at, &step, FLOOR, 0.7), 0.7);
+    assert_eq!(max_step(&scene.bodies, &CandidateSet::default(), at, &step, |_| FLOOR, 0.7), 0.7);
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn inflating_sphere_stops_inside_the_shell() {
     let mut out = CandidateSet::default();
     let mut broad_phase = BroadPhase::new(&bodies);
     broad_phase.candidates(&bodies, at, Some(&step), 1e-3, 1e-3, &mut out);
-    let answer = max_step(&bodies, &out, at, &step, FLOOR, 1.0);
+    let answer = max_step(&bodies, &out, at, &step, |_| FLOOR, 1.0);
     // The vertices of both meet at 0.4; a tenth of the gap is kept.
     assert!(answer > 0.35 && answer < 0.4, "{answer}");
     broad_phase.candidates(&bodies, Configuration { x: &shell, t: answer }, None, 1e-3, 0.1, &mut out);

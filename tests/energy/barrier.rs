@@ -13,7 +13,7 @@ use crate::support::Random;
 const SIZE: f64 = 0.03;
 const T: f64 = 0.6;
 const SETTINGS: BarrierSettings =
-    BarrierSettings { dhat_self: 0.004, dhat_avatar: 0.008, floor: 1e-5, avatar_weight: 0.3 };
+    BarrierSettings { dhat_self: 0.004, dhat_avatar: 0.008, floor: 1e-5, tangled_floor: 1e-6, avatar_weight: 0.3 };
 
 /// Who owns the two primitives of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
