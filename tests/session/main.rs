@@ -6,6 +6,7 @@ mod determinism;
 mod memory;
 mod shifted;
 mod small;
+mod tangled;
 
 #[path = "../support/obj.rs"]
 mod obj;

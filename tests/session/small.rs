@@ -110,12 +110,10 @@ fn the_sleeve_grows_with_the_arm_and_comes_out_in_the_arms_space() {
     assert!(report.min_distance_avatar > 1e-5 && report.terms.iter().all(|t| t.value.is_finite()));
 }
 
-/// The promise of Step 2, looked at by the judge after every step: garment and avatar at t, and the garment itself.
-#[test]
-fn no_iterate_of_the_inflation_intersects() {
-    let (garment, avatar, skeleton) = (sleeve(), thick_arm(), arm(1.0, DVec3::ZERO));
-    let options = Options::default();
-    let (weld, _) = Weld::new(&garment);
+/// The problem of dressing the thick arm in `garment`.
+pub fn problem(garment: &TriangleMesh) -> Problem {
+    let (weld, _) = Weld::new(garment);
+    let (avatar, skeleton) = (thick_arm(), arm(1.0, DVec3::ZERO));
     let inputs = Inputs {
         garment: &weld.mesh,
         weld: Arc::new(weld.clone()),
@@ -127,8 +125,14 @@ fn no_iterate_of_the_inflation_intersects() {
         fit_weights: None,
         coordinate_error: 0.0,
     };
-    let mut findings = Vec::new();
-    let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut findings).unwrap();
+    Problem::new(&inputs, &Options::default(), &Cancel::new(), &mut Vec::new()).unwrap()
+}
+
+/// The promise of Step 2, looked at by the judge after every step: garment and avatar at t, and the garment itself.
+#[test]
+fn no_iterate_of_the_inflation_intersects() {
+    let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
+    let problem = problem(&garment);
     let mut objective = problem.begin(&options, &mut findings).unwrap();
     assert!(findings.is_empty() && objective.floor() == options.separation_floor, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };

@@ -1,6 +1,7 @@
 //! One session whose caller's memory is anything at all.
 
 use std::ffi::c_void;
+use std::mem::offset_of;
 
 use bespoke::capi::control::{BespokeProgress, bespoke_session_read_progress};
 use bespoke::capi::inputs::*;
@@ -292,7 +293,8 @@ fn space(
 
 /// Structs that the library fills: what is beyond the size that the caller gives stays as it is.
 fn filled_structs(caller: &Caller, source: &mut Source) {
-    fn fill<T>(source: &mut Source, call: impl FnOnce(*mut T) -> BespokeStatus) {
+    /// `first` is the size that the struct had at first, which an old program still gives.
+    fn fill<T>(source: &mut Source, first: usize, call: impl FnOnce(*mut T) -> BespokeStatus) {
         let size = match source.byte() {
             0..128 => size_of::<T>(),
             128.. => usize::from(source.byte()) * 4,
@@ -301,15 +303,19 @@ fn filled_structs(caller: &Caller, source: &mut Source) {
         let mut bytes = vec![GUARD; room + 64];
         bytes[..4].copy_from_slice(&(size as u32).to_le_bytes());
         let status = call(bytes.as_mut_ptr().cast());
-        assert_eq!(status == BespokeStatus::Ok, size >= size_of::<T>());
+        assert_eq!(status == BespokeStatus::Ok, size >= first);
         assert_eq!(bytes[..4], (size as u32).to_le_bytes(), "struct_size stays");
         assert!(bytes[room..].iter().all(|&b| b == GUARD), "bytes beyond struct_size were written");
     }
     // SAFETY: the session is alive, each struct as large as it says; none of them needs an alignment.
     unsafe {
-        fill::<BespokeOptions>(source, |to| bespoke_options_read_defaults(to));
-        fill::<BespokeProgress>(source, |to| bespoke_session_read_progress(caller.session, to));
-        fill::<BespokeReport>(source, |to| {
+        fill::<BespokeOptions>(source, offset_of!(BespokeOptions, memory_limit), |to| {
+            bespoke_options_read_defaults(to)
+        });
+        fill::<BespokeProgress>(source, size_of::<BespokeProgress>(), |to| {
+            bespoke_session_read_progress(caller.session, to)
+        });
+        fill::<BespokeReport>(source, offset_of!(BespokeReport, memory_bytes), |to| {
             caller.after("read_report", bespoke_session_read_report(caller.session, to))
         });
         let mut energy: BespokeEnergy = std::mem::zeroed();

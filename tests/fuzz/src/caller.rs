@@ -3,6 +3,9 @@
 use std::ffi::CStr;
 
 use bespoke::capi::control::{BespokeProgress, bespoke_session_read_progress};
+use bespoke::capi::diagnostics::{
+    BespokeDiagnostic, BespokeDiagnosticKind, BespokeSeverity, bespoke_session_read_diagnostics,
+};
 use bespoke::capi::options::{BespokeOptions, bespoke_session_set_options};
 use bespoke::capi::results::{bespoke_session_read_avatar_vertices, bespoke_session_read_garment_vertices};
 use bespoke::capi::running::BespokeStage;
@@ -105,8 +108,37 @@ pub unsafe fn after(session: *const BespokeSession, call: &str, status: BespokeS
             assert_eq!(!points.is_empty(), is_past_setup, "{call}: what was read does not fit the stage");
             assert!(points.iter().all(|x| x.is_finite()), "{call}: a coordinate that is not finite was read");
         }
+        diagnostics(session);
     }
     status
+}
+
+/// What can be said of a session is well formed.
+///
+/// # Safety
+/// `session` is alive.
+unsafe fn diagnostics(session: *const BespokeSession) {
+    // SAFETY: all fields are numbers, for which zero is a value.
+    let mut list: [BespokeDiagnostic; 8] = unsafe { std::mem::zeroed() };
+    let mut count = usize::MAX;
+    // SAFETY: the session is alive, and there is room for as many as said.
+    let status = unsafe { bespoke_session_read_diagnostics(session, list.as_mut_ptr(), list.len(), &mut count) };
+    known("read_diagnostics", status, BespokeStatus::Ok);
+    for (k, diagnostic) in list.iter().enumerate() {
+        assert_eq!(diagnostic.kind != 0, k < count, "as many as there are, or as fit, are written");
+        assert!(diagnostic.kind <= BespokeDiagnosticKind::ResultIntersection as u32);
+        assert!(diagnostic.severity <= BespokeSeverity::Error as u32);
+        let used = diagnostic.element_count as usize;
+        assert!(used <= diagnostic.elements.len());
+        for (k, element) in diagnostic.elements.iter().enumerate() {
+            assert_eq!(element.subject != 0, k < used);
+        }
+        // SAFETY: the bytes of an array of characters.
+        let sentence =
+            unsafe { std::slice::from_raw_parts(diagnostic.sentence.as_ptr().cast(), diagnostic.sentence.len()) };
+        let sentence = CStr::from_bytes_until_nul(sentence).expect("a zero byte ends a sentence");
+        assert!(sentence.to_str().is_ok_and(|text| text.is_empty() == (k >= count)));
+    }
 }
 
 /// # Safety
@@ -162,6 +194,11 @@ unsafe fn read(session: *const BespokeSession, read_vertices: ReadVertices, is_d
     if unsafe { stage(session) } == BespokeStage::Setup as u32 {
         known("read_vertices", status, BespokeStatus::InvalidState);
         return Vec::new();
+    }
+    if status == BespokeStatus::NotVerified {
+        // SAFETY: the session is alive.
+        assert_eq!(unsafe { stage(session) }, BespokeStage::Done as u32, "only a result can fail to be good");
+        return vec![0.0];
     }
     known("read_vertices", status, BespokeStatus::Ok);
     let mut doubles = vec![0f64; if is_double { 3 * count } else { 0 }];
