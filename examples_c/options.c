@@ -26,11 +26,12 @@ const char *const options_usage =
     "  --voxel D               resolution of the distance field (0.01; the skeleton is 2 long)\n"
     "  --tolerance X           the fit ends where what a step still promises is below this part of the objective (1e-3)\n"
     "  --printed-surface       the surface term as printed in the paper, which makes scaling cost something\n"
+    "  --strict                refuse a garment that intersects itself, instead of letting those triangles off\n"
     "  --threads N             0: all cores (0)\n"
     "  --memory-limit MB       give up where more memory would be needed (no limit)\n"
     "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
-    "  --report FILE           a JSON file with times, iterations, energies, distances and counts\n"
-    "  --quiet                 no progress on standard output\n"
+    "  --report FILE           a JSON file with times, iterations, energies, distances, counts and diagnostics\n"
+    "  --quiet                 no progress on standard output, no warnings\n"
     "  --help, --version\n"
     "\n"
     "OBJ files are read with 32-bit coordinates. The output is the garment's file with moved vertices: order, faces,\n"
@@ -80,6 +81,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         bool *place;
     } flags[] = {
         {"--printed-surface", &options->printed_surface},
+        {"--strict", &options->strict},
         {"--quiet", &options->quiet},
         {"--help", &options->help},
         {"-h", &options->help},

@@ -31,6 +31,7 @@ typedef struct Options {
     double threads;
     double memory_limit;
     bool printed_surface;
+    bool strict;
     bool quiet;
     bool help;
     bool version;

@@ -2,6 +2,8 @@
 
 #include "report.h"
 
+#include "diagnostics.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <sys/resource.h>
@@ -72,13 +74,19 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
     write_number(file, "separation_floor", report.separation_floor, ",\n");
     fprintf(file, "  \"converged\": %s,\n", report.is_converged != 0 ? "true" : "false");
     fprintf(file, "  \"verified\": %s,\n", report.is_verified != 0 ? "true" : "false");
-    fprintf(file, "  \"intersections\": { \"garment_garment\": %" PRIu64 ", \"garment_avatar\": %" PRIu64 " },\n",
-            report.garment_intersections, report.avatar_intersections);
+    fprintf(file,
+            "  \"intersections\": { \"garment_garment\": %" PRIu64 ", \"garment_avatar\": %" PRIu64
+            ", \"garment_garment_at_start\": %" PRIu64 " },\n",
+            report.garment_intersections, report.avatar_intersections, report.garment_intersections_at_start);
     fprintf(file, "  \"garment\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.garment_vertices,
             report.garment_triangles);
     fprintf(file, "  \"avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.avatar_vertices,
             report.avatar_triangles);
-    fprintf(file, "  \"subdivided_avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " }\n}\n",
+    fprintf(file, "  \"subdivided_avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n  \"diagnostics\": ",
             report.subdivided_avatar_vertices, report.subdivided_avatar_triangles);
+    if (!diagnostics_write(session, file, message)) {
+        return false;
+    }
+    fputs("\n}\n", file);
     return true;
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "bespoke.h"
+#include "diagnostics.h"
 #include "obj.h"
 #include "numbers.h"
 #include "options.h"
@@ -161,6 +162,7 @@ static bool set_options(Run *run) {
         .voxel = magnitude(given->voxel),
         .tolerance = magnitude(given->tolerance),
         .memory_limit = given->memory_limit > 0.0 ? (uint64_t)(1e6 * given->memory_limit) : 0,
+        .strict = given->strict ? 1 : 0,
         .surface_form = given->printed_surface ? BESPOKE_SURFACE_FORM_PRINTED : BESPOKE_SURFACE_FORM_SIMILARITY,
     };
     return succeeded(run, bespoke_session_set_options(run->session, &options), NULL);
@@ -296,6 +298,9 @@ static bool dress(Run *run) {
     }
     const bool good = set_inputs(run) && work(run);
     end_progress_line(run);
+    if (good && !run->options->quiet) {
+        diagnostics_print(run->session, stderr);
+    }
     return good && write_outputs(run);
 }
 

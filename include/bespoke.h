@@ -1231,11 +1231,10 @@ void bespoke_control_destroy(struct BespokeControl *control);
  Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
 
  `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
- garment, also where they do not fit. State: PREPARED or later. With DONE it is verified, in the precision in which the
- garment was set; the first time that it is read in the other one, it is verified in that as well. Otherwise it is a
- preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
- NOT_VERIFIED (DONE, but not good in this precision; nothing is written), CANCELLED, BUSY, INTERNAL. Threads: any, one
- at a time.
+ garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision; otherwise it
+ is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
+ NOT_VERIFIED (DONE, but good in the precision only in which the garment was set; nothing is written), BUSY, INTERNAL.
+ Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession *session,
                                                     const struct BespokeBuffer *points,
