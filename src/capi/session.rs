@@ -2,6 +2,7 @@
 
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::capi::status::BespokeStatus;
@@ -19,6 +20,8 @@ pub struct BespokeSession {
     /// Reached without the session's lock.
     pub(super) control: Arc<Control>,
     panics: Arc<PanicLog>,
+    /// A call has failed by a defect without a panic.
+    is_defective: AtomicBool,
 }
 
 impl BespokeSession {
@@ -38,13 +41,22 @@ pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session
         return BespokeStatus::InvalidArgument;
     };
     // The lock is taken inside, so that a panic poisons it.
-    let inside = || match handle.session.try_lock() {
-        Ok(mut session) => Some(work(&mut session)),
-        Err(TryLockError::WouldBlock) => None,
-        Err(TryLockError::Poisoned(_)) => Some(Err(Error::new(
+    let refused = || {
+        Some(Err(Error::new(
             ErrorKind::Internal,
             "an earlier call failed inside the library, so this session can only be destroyed",
-        ))),
+        )))
+    };
+    let inside = || match handle.session.try_lock() {
+        Ok(_) if handle.is_defective.load(Ordering::Relaxed) => refused(),
+        Ok(mut session) => {
+            let outcome = work(&mut session);
+            let is_defect = outcome.as_ref().is_err_and(|error| error.kind == ErrorKind::Internal);
+            handle.is_defective.store(is_defect, Ordering::Relaxed);
+            Some(outcome)
+        }
+        Err(TryLockError::WouldBlock) => None,
+        Err(TryLockError::Poisoned(_)) => refused(),
     };
     let outcome = recorded(&handle.panics, || catch_unwind(AssertUnwindSafe(inside)));
     let error = match outcome {
@@ -74,7 +86,13 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
         let session = Session::new();
         let (control, panics) = (session.control(), session.panics());
         let (session, message) = (Mutex::new(session), Mutex::default());
-        Box::into_raw(Box::new(BespokeSession { session, message, control, panics }))
+        Box::into_raw(Box::new(BespokeSession {
+            session,
+            message,
+            control,
+            panics,
+            is_defective: AtomicBool::new(false),
+        }))
     };
     let made = recorded(&Arc::default(), || catch_unwind(make));
     // SAFETY: not null, and the caller vouches for room for one pointer.

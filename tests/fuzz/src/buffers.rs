@@ -219,10 +219,9 @@ fn dense_skin(caller: &Caller, source: &mut Source) {
 fn sparse_skin(caller: &Caller, source: &mut Source) {
     let influences = source.size();
     let (joints, mut weights) = (Any::new(source, influences, false), Any::new(source, influences, true));
-    if source.one_in(2) && weights.view.count > joints.view.count {
-        // Fewer elements of the same memory, so that both have as many.
+    if source.one_in(2) && weights.view.count > joints.view.count && !weights.is_bad {
+        // Fewer elements of the same memory, so that both have as many. A bad view has no memory for any.
         weights.view.count = joints.view.count;
-        weights.is_bad = false;
     }
     let (set, joint_count) = (bespoke_session_set_target_skin_influences, source.size());
     // SAFETY: the session is alive and the views tell the truth, or have to be refused.
