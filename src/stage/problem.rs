@@ -210,10 +210,10 @@ impl Problem {
         let mut objective = Objective::new(self.shape.clone(), None, self.bodies(avatar), self.gaps, options);
         objective.begin(at, &self.tangled);
         let tangled = objective.tangle().triangle_pairs();
+        self.report_tangle(tangled, options.strict, findings);
         if options.strict && !tangled.is_empty() {
             return Err(self.intersects_itself(tangled));
         }
-        self.report_tangle(tangled, findings);
         let near = objective.activity(at);
         if near.min_distance_avatar < NO_DISTANCE {
             return Err(Error::new(
@@ -251,16 +251,19 @@ impl Problem {
         Ok(objective)
     }
 
-    fn report_tangle(&self, tangled: &[[u32; 2]], findings: &mut Vec<Finding>) {
+    fn report_tangle(&self, tangled: &[[u32; 2]], strict: bool, findings: &mut Vec<Finding>) {
         let finding = |pair: &[u32; 2]| {
             let how = if self.tangled.binary_search(pair).is_ok() { "intersect" } else { "touch within rounding" };
             let [s, t] = pair.map(|t| self.weld.triangle_of[t as usize]);
             let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
-            let sentence = format!(
-                "garment: triangles {s} and {t} {how} before anything has moved; they are let off until they come apart, and \
-                 may still {how} in the result"
-            );
-            Finding::new(FindingKind::SelfIntersection, Severity::Warning, &elements, sentence)
+            let (severity, fate) = match strict {
+                true => (Severity::Error, "which the option strict refuses"),
+                false => {
+                    (Severity::Warning, "so they are let off until they come apart, and may still do so in the result")
+                }
+            };
+            let sentence = format!("garment: triangles {s} and {t} {how} before anything has moved, {fate}");
+            Finding::new(FindingKind::SelfIntersection, severity, &elements, sentence)
         };
         describe(findings, tangled, finding, "pairs of garment triangles intersect before anything has moved");
     }

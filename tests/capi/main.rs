@@ -3,6 +3,7 @@ mod arguments;
 mod caller;
 mod cancel;
 mod control;
+mod diagnostics;
 mod faults;
 mod header;
 mod meshes;

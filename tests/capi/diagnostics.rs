@@ -1,0 +1,111 @@
+//! What a caller is told about its inputs, element by element.
+
+use std::ffi::CStr;
+use std::mem::size_of;
+use std::ptr::null_mut;
+
+use bespoke::capi::diagnostics::*;
+use bespoke::capi::options::bespoke_session_set_options;
+use bespoke::capi::running::*;
+use bespoke::capi::session::bespoke_session_reset;
+use bespoke::capi::status::BespokeStatus::{InvalidArgument, SelfIntersection};
+
+use crate::caller::{Caller, no_options, points, triangles};
+
+fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
+    let mut list = vec![0u64; room * size_of::<BespokeDiagnostic>() / 8];
+    let mut count = usize::MAX;
+    // SAFETY: the session is alive, and there is room for as many as said.
+    caller.accepted(unsafe {
+        bespoke_session_read_diagnostics(caller.session, list.as_mut_ptr().cast(), room, &mut count)
+    });
+    let written = room.min(count);
+    // SAFETY: as many were written; the words are aligned as the struct is.
+    (unsafe { std::slice::from_raw_parts(list.as_ptr().cast::<BespokeDiagnostic>(), written) }.to_vec(), count)
+}
+
+fn sentence(diagnostic: &BespokeDiagnostic) -> &str {
+    // SAFETY: a zero byte ends the sentence.
+    unsafe { CStr::from_ptr(diagnostic.sentence.as_ptr()) }.to_str().expect("UTF-8")
+}
+
+/// The sample with each triangle's corners as vertices of its own, one triangle twice, a vertex that nothing uses, and a
+/// blade through two walls.
+fn caller() -> (Caller, [u32; 4]) {
+    let (caller, sample) = Caller::with_sample();
+    let (whole, faces) = &sample.garment;
+    let mut positions: Vec<[f32; 3]> = faces.iter().flatten().map(|&v| whole[v as usize]).collect();
+    let mut corners: Vec<[u32; 3]> = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let double = corners.len() as u32;
+    corners.push(corners[7]);
+    let blade = corners.len() as u32;
+    let at = positions.len() as u32;
+    let [a, b, c] = faces[20].map(|v| whole[v as usize]);
+    let middle: [f32; 3] = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
+    let near = |f: f32, g: f32| [f * middle[0] + g, f * middle[1] - g, middle[2] + g];
+    positions.extend([near(0.98, 0.001), near(1.02, 0.002), near(1.02, -0.002)]);
+    corners.push([at, at + 1, at + 2]);
+    let unused = positions.len() as u32;
+    positions.push([9.0, 9.0, 9.0]);
+    caller.accepted(caller.set_garment(&points(&positions), &triangles(&corners)));
+    (caller, [7, double, blade, unused])
+}
+
+#[test]
+fn every_flaw_is_named_by_the_callers_own_indices() {
+    let (caller, [original, double, blade, unused]) = caller();
+    assert_eq!(read(&caller, 4).1, 0, "nothing is known before prepare");
+    // SAFETY: the session is alive.
+    caller.accepted(unsafe { bespoke_session_prepare(caller.session) });
+    let (list, count) = read(&caller, 1000);
+    assert_eq!(list.len(), count);
+    let of = |kind: BespokeDiagnosticKind| list.iter().filter(move |d| d.kind == kind as u32);
+    let elements = |d: &BespokeDiagnostic| -> Vec<(u32, u32, u32)> {
+        d.elements[..d.element_count as usize].iter().map(|e| (e.subject, e.kind, e.index)).collect()
+    };
+    let garment = BespokeSubject::Garment as u32;
+    let triangle = |index| (garment, BespokeElementKind::Triangle as u32, index);
+    let vertex = |index| (garment, BespokeElementKind::Vertex as u32, index);
+
+    let split: Vec<_> = of(BespokeDiagnosticKind::SplitVertices).collect();
+    assert_eq!((split.len(), split[0].severity), (1, BespokeSeverity::Note as u32));
+    let twice: Vec<_> = of(BespokeDiagnosticKind::DuplicateTriangle).collect();
+    assert_eq!(twice.len(), 1);
+    assert!(elements(twice[0]).contains(&triangle(double)) && elements(twice[0]).contains(&triangle(original)));
+    assert!(of(BespokeDiagnosticKind::UnusedVertex).any(|d| elements(d) == [vertex(unused)]));
+    let crossing: Vec<_> = of(BespokeDiagnosticKind::SelfIntersection).collect();
+    assert!(!crossing.is_empty());
+    for d in crossing {
+        assert_eq!((d.severity, d.element_count), (BespokeSeverity::Warning as u32, 2));
+        assert!(elements(d).contains(&triangle(blade)), "{}", sentence(d));
+        for (_, _, index) in elements(d) {
+            assert!(sentence(d).contains(&index.to_string()), "{}", sentence(d));
+        }
+    }
+    assert!(list.iter().all(|d| !sentence(d).is_empty() && d.reserved == 0));
+
+    let (few, all) = read(&caller, 2);
+    assert_eq!((few.len(), all), (2, count));
+    assert_eq!(sentence(&few[1]), sentence(&list[1]));
+    // SAFETY: the session is alive; a null list with a capacity is refused.
+    let refused = unsafe { bespoke_session_read_diagnostics(caller.session, null_mut(), 3, null_mut()) };
+    caller.refused(refused, InvalidArgument, &["diagnostics", "null"]);
+    // SAFETY: the session is alive.
+    caller.accepted(unsafe { bespoke_session_reset(caller.session) });
+    assert_eq!(read(&caller, 4).1, 0, "reset forgets them");
+}
+
+/// Where prepare fails, what it found can be read all the same.
+#[test]
+fn a_failed_prepare_leaves_its_diagnostics() {
+    let (caller, _) = caller();
+    let options = bespoke::capi::options::BespokeOptions { strict: 1, ..no_options() };
+    // SAFETY: the session is alive and the options are good.
+    caller.accepted(unsafe { bespoke_session_set_options(caller.session, &options) });
+    // SAFETY: the session is alive.
+    caller.refused(unsafe { bespoke_session_prepare(caller.session) }, SelfIntersection, &["strict", "triangles"]);
+    let (list, _) = read(&caller, 1000);
+    let crossing = |d: &&BespokeDiagnostic| d.kind == BespokeDiagnosticKind::SelfIntersection as u32;
+    assert!(list.iter().filter(crossing).count() > 0);
+    assert!(list.iter().filter(crossing).all(|d| d.severity == BespokeSeverity::Error as u32));
+}
