@@ -170,7 +170,7 @@ static void to_the_end(const Scene *scene) {
         free(read_garment(session, &count));
         CHECK(count == scene->garment.points.count);
     }
-    BespokeIntersections found = {1, 1};
+    BespokeIntersections found = {1, 1, 1};
     accepted(session, bespoke_session_verify(session, BESPOKE_COMPONENT_F32, &found));
     CHECK(found.garment_garment == 0 && found.garment_avatar == 0);
     BespokeReport report;
