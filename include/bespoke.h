@@ -91,11 +91,11 @@ enum BespokeStatus
    */
   BESPOKE_STATUS_INVALID_WEIGHTS = 5,
   /*
-   The garment intersects itself at the start.
+   The garment intersects itself at the start, and the options are strict.
    */
   BESPOKE_STATUS_SELF_INTERSECTION = 6,
   /*
-   The garment does not enclose its skeleton.
+   The garment does not enclose its skeleton, and no way inside it was found.
    */
   BESPOKE_STATUS_NOT_ENCLOSED = 7,
   /*
@@ -1135,10 +1135,12 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 
 /*
  Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
- PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
+ PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
+ be read with bespoke_session_read_diagnostics, also where it fails.
 
- State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
- INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, MEMORY_LIMIT,
+ State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
+ small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
+ topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
  CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
@@ -1169,9 +1171,9 @@ BespokeStatus bespoke_session_run(struct BespokeSession *session);
  Counts the intersections of the vertices as they would be read now, with exact predicates.
 
  `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
- none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by
- a request that no call has answered yet; the stage stays), BUSY, INTERNAL; `*intersections` is written with OK only.
- Threads: any, one at a time.
+ none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
+ INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
+ INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
  */
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
                                      uint32_t component,

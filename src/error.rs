@@ -15,7 +15,7 @@ pub enum ErrorKind {
     InvalidSkeleton,
     /// Skin or fit weights have the wrong shape or hold bad values.
     InvalidWeights,
-    /// The garment intersects itself at the start.
+    /// The garment intersects itself at the start, and the options are strict.
     SelfIntersection,
     /// The garment does not enclose the skeleton: the avatar, shrunk onto its bones, pokes through it.
     NotEnclosed,

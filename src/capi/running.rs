@@ -44,10 +44,12 @@ impl From<Stage> for BespokeStage {
 }
 
 /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
-/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set.
+/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
+/// be read with bespoke_session_read_diagnostics, also where it fails.
 ///
-/// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_MESH,
-/// INVALID_SKELETON (another topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION, NOT_ENCLOSED, MEMORY_LIMIT,
+/// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
+/// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
+/// topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
 /// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -> BespokeStatus {
@@ -112,9 +114,9 @@ pub struct BespokeIntersections {
 /// Counts the intersections of the vertices as they would be read now, with exact predicates.
 ///
 /// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
-/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors: INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by
-/// a request that no call has answered yet; the stage stays), BUSY, INTERNAL; `*intersections` is written with OK only.
-/// Threads: any, one at a time.
+/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
+/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
+/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_verify(
     session: *const BespokeSession,

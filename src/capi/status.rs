@@ -20,9 +20,9 @@ pub enum BespokeStatus {
     InvalidSkeleton = 4,
     /// Skin or fit weights have the wrong shape or hold bad values.
     InvalidWeights = 5,
-    /// The garment intersects itself at the start.
+    /// The garment intersects itself at the start, and the options are strict.
     SelfIntersection = 6,
-    /// The garment does not enclose its skeleton.
+    /// The garment does not enclose its skeleton, and no way inside it was found.
     NotEnclosed = 7,
     /// The avatar could not be inflated to its full size without an intersection.
     InflationStalled = 8,
