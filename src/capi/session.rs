@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::capi::status::BespokeStatus;
+use crate::capi::text;
 use crate::control::Control;
 use crate::error::{Error, ErrorKind, Result};
 use crate::panics::{PanicLog, recorded};
@@ -163,10 +164,7 @@ pub unsafe extern "C" fn bespoke_session_last_message(
         unsafe { needed.write(message.len() + 1) };
     }
     if capacity > 0 {
-        let mut length = message.len().min(capacity - 1);
-        while !message.is_char_boundary(length) {
-            length -= 1;
-        }
+        let length = text::cut(&message, capacity - 1).len();
         // SAFETY: `length < capacity`, and the caller vouches for `capacity` bytes.
         unsafe {
             std::ptr::copy_nonoverlapping(message.as_ptr().cast::<c_char>(), buffer, length);
