@@ -114,16 +114,7 @@ impl Objective {
     /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
     /// together with what touches within rounding. Lowers the floor below all that is guarded.
     pub fn begin(&mut self, at: Configuration<'_>, tangled: &[[u32; 2]]) {
-        let mut pairs = tangled.to_vec();
-        loop {
-            self.broad_phase.set_tangle(Tangle::new(&self.bodies.garment.surface, &pairs));
-            self.settle(at);
-            let touching = self.touching(at);
-            if touching.is_empty() {
-                break;
-            }
-            pairs.extend(touching);
-        }
+        self.entangle(at, tangled.to_vec(), |_, _| true);
         self.fit_floors(at, [0.0; 2]);
     }
 
@@ -133,7 +124,7 @@ impl Objective {
         self.set_floors(previous.floors());
     }
 
-    /// Triangles of the garment that touch within rounding and are not tangled.
+    /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
     fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
         let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
         let own = near.filter(|&(_, class, _)| class != Class::Avatar).map(|(kind, _, pair)| (kind, pair));
@@ -161,22 +152,28 @@ impl Objective {
         }
         let triangles = self.bodies.garment.surface.triangles.clone();
         let mesh = TriangleMesh { positions: at.x.to_vec(), triangles };
-        let mut pairs = intersecting(&mesh, before.triangle_pairs())?;
+        let pairs = intersecting(&mesh, before.triangle_pairs())?;
         if pairs.len() == before.triangle_pairs().len() {
             return Ok(false);
         }
         let before = before.clone();
+        // What is apart by no more than rounding stays let off, and nothing is let off anew.
+        self.entangle(at, pairs, |s, t| before.contains(s, t));
+        Ok(self.tangle().triangle_pairs().len() < before.triangle_pairs().len())
+    }
+
+    /// Makes a tangle of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
+    fn entangle(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
         loop {
-            let tangle = Tangle::new(&self.bodies.garment.surface, &pairs);
-            let count = tangle.triangle_pairs().len();
-            self.broad_phase.set_tangle(tangle);
+            self.broad_phase.set_tangle(Tangle::new(&self.bodies.garment.surface, &pairs));
             self.settle(at);
-            // What is apart by no more than rounding stays let off, and nothing is let off anew.
-            pairs.extend(self.touching(at).into_iter().filter(|&[s, t]| before.contains(s, t)));
-            let all = Tangle::new(&self.bodies.garment.surface, &pairs).triangle_pairs().len();
-            if all == count {
-                return Ok(count < before.triangle_pairs().len());
+            let tangle = self.tangle();
+            let joins = |&[s, t]: &[u32; 2]| may(s, t) && !tangle.contains(s, t);
+            let joining: Vec<[u32; 2]> = self.touching(at).into_iter().filter(joins).collect();
+            if joining.is_empty() {
+                return;
             }
+            pairs.extend(joining);
         }
     }
 

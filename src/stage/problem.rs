@@ -87,8 +87,8 @@ impl Problem {
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `InvalidMesh` where the coordinates of the result are too coarse,
-    /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it and cannot be led around it, and, if the options
-    /// are strict, `SelfIntersection` where the garment passes through itself; `Cancelled`.
+    /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it and cannot be led
+    /// around it, `Cancelled`.
     pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
