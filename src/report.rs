@@ -1,5 +1,7 @@
 //! What a session has measured about itself.
 
+use crate::solver::profile::Profile;
+
 /// A term of the objective at the end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermReport {
@@ -12,7 +14,7 @@ pub struct TermReport {
 }
 
 /// Work of one stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageReport {
     /// Wall seconds.
     pub seconds: f64,
@@ -22,8 +24,8 @@ pub struct StageReport {
     pub factorisations: u32,
     /// Symbolic factorisations.
     pub analyses: u32,
-    /// Seconds in assembly, in linear algebra, in broad phase and continuous collision detection, in line search.
-    pub kernels: [f64; 4],
+    /// Where the time went.
+    pub profile: Profile,
 }
 
 /// Intersecting pairs of triangles, counted by the exact verifier. The garment is welded: triangles that share a corner's
@@ -63,6 +65,10 @@ pub struct Report {
     pub verify_seconds: f64,
     /// Seconds until the distance field was built, beside the inflation.
     pub field_seconds: f64,
+    /// Seconds that Step 3 waited for the distance field.
+    pub field_wait_seconds: f64,
+    /// Wall seconds from the beginning of Step 1 to t = 1, the first garment on the whole avatar; 0 before that.
+    pub feasible_seconds: f64,
     /// The terms of the objective at the present configuration.
     pub terms: Vec<TermReport>,
     /// Smallest distance between garment primitives that d-hat still sees; infinite where there is none.

@@ -97,8 +97,8 @@ pub struct BespokeWork {
     pub reserved: u32,
 }
 
-impl From<StageReport> for BespokeWork {
-    fn from(stage: StageReport) -> Self {
+impl From<&StageReport> for BespokeWork {
+    fn from(stage: &StageReport) -> Self {
         Self {
             seconds: stage.seconds,
             iterations: stage.iterations,
@@ -192,9 +192,9 @@ pub unsafe extern "C" fn bespoke_session_read_report(
             let filled = BespokeReport {
                 struct_size: size_of::<BespokeReport>() as u32,
                 threads: own.threads as u32,
-                prepare: own.prepare.into(),
-                inflate: own.inflate.into(),
-                fit: own.fit.into(),
+                prepare: (&own.prepare).into(),
+                inflate: (&own.inflate).into(),
+                fit: (&own.fit).into(),
                 verify_seconds: own.verify_seconds,
                 field_seconds: own.field_seconds,
                 t: own.t,

@@ -1,7 +1,7 @@
 //! What exists between `prepare` and `reset`: the problem, its present state, and the step of the paper under way.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::fault::Fault;
 use super::field_task::FieldTask;
@@ -14,7 +14,7 @@ use crate::options::Options;
 use crate::panics::PanicLog;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
-use crate::solver::newton::{Counters, Model, Newton, State};
+use crate::solver::newton::{Model, Newton, State};
 use crate::stage::fit::Settling;
 use crate::stage::inflate::Inflation;
 use crate::stage::objective::Objective;
@@ -51,6 +51,8 @@ pub(super) struct Work {
     is_narrow: bool,
     /// What was measured so far.
     pub(super) report: Report,
+    /// Step 1 began then.
+    begun: Instant,
     /// Bytes of the inputs and the problem.
     held: u64,
     /// Bytes of the distance field, as estimated.
@@ -93,7 +95,7 @@ impl Work {
         stop.check()?;
         let held = held + problem.memory();
         let room = limit.beside(held + expected + objective.memory());
-        let newton = Newton::within(room, state.x.len(), &objective.terms())?.watching(stop.clone());
+        let mut newton = Newton::within(room, state.x.len(), &objective.terms())?.watching(stop.clone());
         objective.watch(stop.clone());
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
@@ -104,7 +106,7 @@ impl Work {
             threads,
             ..Report::default()
         };
-        report.prepare.seconds = clock.elapsed().as_secs_f64();
+        report.prepare.collect(&mut newton, &mut objective, clock);
         let (problem, step) = (Arc::new(problem), Step::Inflate(Inflation::default()));
         let tangled = objective.tangle().triangle_pairs().into();
         let options = inputs.options.clone();
@@ -124,6 +126,7 @@ impl Work {
             widened,
             is_narrow,
             report,
+            begun: clock,
             context,
         };
         work.look_at_memory()?;
@@ -149,7 +152,6 @@ impl Work {
             self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, &self.options));
         }
         let options = &self.options;
-        let before = self.newton.counters;
         let (stage, ended) = match &mut self.step {
             Step::Inflate(inflation) => {
                 check_limit(inflation.iterations, options, "inflation", self.state.t)?;
@@ -166,12 +168,14 @@ impl Work {
             self.newton.forget_values();
         }
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
-        part.add(&before, &self.newton.counters, clock.elapsed());
+        part.iterations += 1;
+        part.collect(&mut self.newton, &mut self.objective, clock);
         self.describe();
         self.look_at_memory()?;
         match (stage, ended) {
             (_, false) => Ok(stage),
             (Stage::Inflate, true) => {
+                self.report.feasible_seconds = self.begun.elapsed().as_secs_f64();
                 self.begin_fit()?;
                 Ok(Stage::Fit)
             }
@@ -191,6 +195,7 @@ impl Work {
         let clock = Instant::now();
         let (field, seconds) = self.field.wait()?;
         self.report.field_seconds = seconds;
+        self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
         let field = Arc::new(field);
         self.distance = Some(field.clone());
         let mut objective = self.problem.fit_objective(field, &self.state.x, options)?;
@@ -203,8 +208,7 @@ impl Work {
         self.newton = newton.watching(self.context.stop.clone());
         self.objective.limit_pairs(self.room().beside(self.newton.memory()));
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
-        self.report.fit.seconds += clock.elapsed().as_secs_f64();
-        self.report.fit.analyses += 1;
+        self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
     }
 
@@ -267,14 +271,13 @@ fn check_limit(iterations: u32, options: &Options, what: &str, t: f64) -> Result
 }
 
 impl StageReport {
-    fn add(&mut self, before: &Counters, after: &Counters, elapsed: Duration) {
-        self.seconds += elapsed.as_secs_f64();
-        self.iterations += 1;
-        self.factorisations += after.factorisations - before.factorisations;
-        self.analyses += after.analyses - before.analyses;
-        let parts = |c: &Counters| [c.assembly, c.linear, c.admission, c.line_search];
-        for ((slot, a), b) in self.kernels.iter_mut().zip(parts(after)).zip(parts(before)) {
-            *slot += (a - b).as_secs_f64();
-        }
+    /// Adds the work of solver and objective that no stage has, and the time since `clock`.
+    fn collect(&mut self, newton: &mut Newton, objective: &mut Objective, clock: Instant) {
+        self.seconds += clock.elapsed().as_secs_f64();
+        let counters = std::mem::take(&mut newton.counters);
+        self.factorisations += counters.factorisations;
+        self.analyses += counters.analyses;
+        self.profile += &counters.profile;
+        self.profile += &objective.take_profile();
     }
 }

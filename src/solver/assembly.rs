@@ -3,11 +3,14 @@
 //! Elements are dealt in fixed chunks to a fixed number of lanes, each with arrays of its own, which are then added
 //! in order: the sums have the same bits whatever the number of threads.
 
+use std::time::{Duration, Instant};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Term;
 use super::pattern::{PairCollector, Pattern};
+use super::profile::Profile;
 use crate::control::Cancel;
 use crate::energy::{Configuration, Direction, Sink};
 use crate::memory::bytes;
@@ -42,6 +45,8 @@ struct Lane {
     t_gradient: f64,
     t_hessian: f64,
     missing: PairCollector,
+    /// Time in each term.
+    times: Vec<Duration>,
 }
 
 /// A lane while it receives one term.
@@ -132,21 +137,27 @@ impl System {
     /// Evaluates all the derivatives of `terms` at `at`. Returns the pairs of vertices that the pattern lacks; where
     /// there are any, the Hessian is incomplete.
     pub fn assemble(&mut self, pattern: &Pattern, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
-        let chunks: Vec<(Term<'_>, usize)> = terms
-            .iter()
-            .filter(|term| term.weight != 0.0)
-            .flat_map(|&term| (0..term.energy.len()).step_by(CHUNK).map(move |start| (term, start)))
+        let chunks: Vec<(usize, usize)> = (0..terms.len())
+            .filter(|&term| terms[term].weight != 0.0)
+            .flat_map(|term| (0..terms[term].energy.len()).step_by(CHUNK).map(move |start| (term, start)))
             .collect();
         self.lanes.resize_with(LANES, Lane::default);
         let cancel = &self.cancel;
         self.lanes.par_iter_mut().enumerate().for_each(|(index, lane)| {
             lane.clear(pattern);
-            for &(Term { energy, weight }, start) in chunks.iter().skip(index).step_by(LANES) {
+            lane.times.clear();
+            lane.times.resize(terms.len(), Duration::ZERO);
+            let mut clock = Instant::now();
+            for &(term, start) in chunks.iter().skip(index).step_by(LANES) {
                 if cancel.is_requested() {
                     return;
                 }
+                let Term { energy, weight } = terms[term];
                 let range = start..(start + CHUNK).min(energy.len());
                 energy.derivatives(at, range, &mut LaneSink { lane, pattern, weight });
+                let now = Instant::now();
+                lane.times[term] += now - clock;
+                clock = now;
             }
         });
         self.add_lanes(pattern);
@@ -155,6 +166,15 @@ impl System {
             missing.append(&mut lane.missing);
         }
         missing
+    }
+
+    /// Adds the times that `terms` took in the last assembly, which was of them.
+    pub fn note_times(&self, terms: &[Term<'_>], profile: &mut Profile) {
+        for lane in &self.lanes {
+            for (term, &time) in terms.iter().zip(&lane.times).filter(|(_, time)| !time.is_zero()) {
+                profile.term(term.energy.name()).derivatives += time;
+            }
+        }
     }
 
     /// Bytes that it holds.
@@ -208,9 +228,14 @@ impl Lane {
     }
 }
 
-/// The value of each term, unweighted, in the order of `terms`.
-pub fn values(terms: &[Term<'_>], at: Configuration<'_>) -> Vec<f64> {
-    terms.iter().map(|term| if term.weight == 0.0 { 0.0 } else { value(term, at) }).collect()
+/// The value of each term, unweighted, in the order of `terms`. Their times are added to `profile`.
+pub fn values(terms: &[Term<'_>], at: Configuration<'_>, profile: &mut Profile) -> Vec<f64> {
+    let mut timed = |term: &Term<'_>| {
+        let (value, time) = value(term, at);
+        profile.term(term.energy.name()).values += time;
+        value
+    };
+    terms.iter().map(|term| if term.weight == 0.0 { 0.0 } else { timed(term) }).collect()
 }
 
 /// The objective with these values of its terms.
@@ -218,12 +243,16 @@ pub fn weighted(terms: &[Term<'_>], values: &[f64]) -> f64 {
     terms.iter().zip(values).map(|(term, v)| if *v == 0.0 { 0.0 } else { term.weight * v }).sum()
 }
 
-fn value(term: &Term<'_>, at: Configuration<'_>) -> f64 {
+fn value(term: &Term<'_>, at: Configuration<'_>) -> (f64, Duration) {
     const VALUE_CHUNK: usize = 1024;
     let count = term.energy.len();
-    let parts: Vec<f64> = (0..count.div_ceil(VALUE_CHUNK))
+    let parts: Vec<(f64, Duration)> = (0..count.div_ceil(VALUE_CHUNK))
         .into_par_iter()
-        .map(|k| term.energy.value(at, k * VALUE_CHUNK..((k + 1) * VALUE_CHUNK).min(count)))
+        .map(|k| {
+            let clock = Instant::now();
+            let part = term.energy.value(at, k * VALUE_CHUNK..((k + 1) * VALUE_CHUNK).min(count));
+            (part, clock.elapsed())
+        })
         .collect();
-    parts.into_iter().sum()
+    (parts.iter().map(|part| part.0).sum(), parts.iter().map(|part| part.1).sum())
 }

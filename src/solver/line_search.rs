@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::profile::Profile;
 use super::{Term, assembly};
 use crate::control::Cancel;
 use crate::energy::Configuration;
@@ -23,8 +24,8 @@ pub struct Found {
 }
 
 /// Finds a fraction of the step from `at` along (`dx`, `dt`), at most `longest`, that decreases the objective enough.
-/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success. `None` where
-/// there is no such fraction, or once `cancel` is set.
+/// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success. The
+/// terms' times are added to `profile`. `None` where there is no such fraction, or once `cancel` is set.
 #[allow(clippy::too_many_arguments)]
 pub fn backtrack(
     terms: &[Term<'_>],
@@ -36,6 +37,7 @@ pub fn backtrack(
     longest: f64,
     trial: &mut Vec<DVec3>,
     cancel: &Cancel,
+    profile: &mut Profile,
 ) -> Option<Found> {
     let mut fraction = longest;
     for _ in 0..CUTS {
@@ -44,7 +46,7 @@ pub fn backtrack(
         }
         trial.clear();
         trial.extend(at.x.iter().zip(dx).map(|(&x, &d)| x + fraction * d));
-        let values = assembly::values(terms, Configuration { x: trial, t: at.t + fraction * dt });
+        let values = assembly::values(terms, Configuration { x: trial, t: at.t + fraction * dt }, profile);
         let there = assembly::weighted(terms, &values);
         if there <= value + SUFFICIENT * fraction * slope {
             return Some(Found { fraction, objective: there, values });

@@ -8,6 +8,7 @@ pub mod cholesky;
 pub mod line_search;
 pub mod newton;
 pub mod pattern;
+pub mod profile;
 
 use crate::energy::Energy;
 

@@ -8,7 +8,7 @@
 //!
 //! so that a caller may choose how far t goes: from the bordered system, or along a path.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use glam::DVec3;
 
@@ -17,6 +17,7 @@ use super::assembly::{self, System};
 use super::cholesky::Factor;
 use super::line_search::backtrack;
 use super::pattern::{PairCollector, Pattern};
+use super::profile::Profile;
 use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::error::{Error, ErrorKind, Result};
@@ -49,7 +50,7 @@ pub trait Model {
 }
 
 /// What the solver has done, for reports.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Counters {
     /// Linear systems assembled.
     pub assemblies: u32,
@@ -57,14 +58,8 @@ pub struct Counters {
     pub factorisations: u32,
     /// Symbolic factorisations.
     pub analyses: u32,
-    /// Time in assembly.
-    pub assembly: Duration,
-    /// Time in factorisation and solves.
-    pub linear: Duration,
-    /// Time in the model's `admit`: broad phase and continuous collision detection.
-    pub admission: Duration,
-    /// Time in the line search.
-    pub line_search: Duration,
+    /// Time of all that but for the model's part, [`Model::admit`].
+    pub profile: Profile,
 }
 
 /// The result of one accepted step.
@@ -122,13 +117,16 @@ impl Newton {
     /// # Errors
     /// As [`Self::new`], and `MemoryLimit`; so may [`Self::linearise`] from then on.
     pub fn within(limit: MemoryLimit, vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
+        let clock = Instant::now();
         let mut pairs = PairCollector::default();
         for term in terms {
             term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
         }
         let pattern = Pattern::new(vertex_count, pairs);
+        let factor = Factor::analyse_within(limit.beside(System::memory_for(&pattern)), &pattern)?;
+        let profile = Profile { analysis: clock.elapsed(), ..Profile::default() };
         Ok(Self {
-            factor: Factor::analyse_within(limit.beside(System::memory_for(&pattern)), &pattern)?,
+            factor,
             limit,
             pattern,
             system: System::default(),
@@ -137,7 +135,7 @@ impl Newton {
             trial: Vec::new(),
             values: None,
             cancel: Cancel::new(),
-            counters: Counters { analyses: 1, ..Counters::default() },
+            counters: Counters { analyses: 1, profile, ..Counters::default() },
         })
     }
 
@@ -164,37 +162,46 @@ impl Newton {
     /// # Errors
     /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `Cancelled`.
     pub fn linearise(&mut self, terms: &[Term<'_>], at: Configuration<'_>, border: bool) -> Result<()> {
-        let clock = Instant::now();
-        self.counters.assemblies += 1;
-        let missing = self.system.assemble(&self.pattern, terms, at);
+        let missing = self.assemble(terms, at);
         self.cancel.check()?;
         if !missing.is_empty() {
+            let clock = Instant::now();
             self.pattern = self.pattern.extended(missing);
             // The old factor stays until there is a new one.
             let held = System::memory_for(&self.pattern) + self.factor.memory();
             self.factor = Factor::analyse_within(self.limit.beside(held), &self.pattern)?;
             self.cancel.check()?;
             self.counters.analyses += 1;
-            self.counters.assemblies += 1;
-            self.system.assemble(&self.pattern, terms, at);
+            self.counters.profile.analysis += clock.elapsed();
+            self.assemble(terms, at);
         }
-        self.counters.assembly += clock.elapsed();
         self.cancel.check()?;
 
         let clock = Instant::now();
         self.factorise()?;
+        self.counters.profile.factorisation += clock.elapsed();
         self.cancel.check()?;
+        let clock = Instant::now();
         self.response.clear();
         self.response.extend(self.system.gradient.iter().map(|g| -g));
         if border {
             self.response.extend(self.system.border.iter().map(|b| -b));
         }
         self.factor.solve(&mut self.response, if border { 2 } else { 1 });
-        self.counters.linear += clock.elapsed();
+        self.counters.profile.solve += clock.elapsed();
         if self.response.iter().any(|v| !v.is_finite()) {
             return Err(Error::new(ErrorKind::Internal, "the linear solve gave a value that is not finite"));
         }
         Ok(())
+    }
+
+    fn assemble(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
+        let clock = Instant::now();
+        let missing = self.system.assemble(&self.pattern, terms, at);
+        self.counters.assemblies += 1;
+        self.counters.profile.assembly += clock.elapsed();
+        self.system.note_times(terms, &mut self.counters.profile);
+        missing
     }
 
     fn factorise(&mut self) -> Result<()> {
@@ -272,7 +279,7 @@ impl Newton {
 
     /// The value of each term at `at`, the present state, unweighted.
     pub fn values(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> &[f64] {
-        self.values.get_or_insert_with(|| assembly::values(terms, at))
+        self.values.get_or_insert_with(|| assembly::values(terms, at, &mut self.counters.profile))
     }
 
     /// To be called where the state or the energies were changed by others since the last step: what is remembered of
@@ -294,9 +301,7 @@ impl Newton {
     pub fn advance(&mut self, model: &mut dyn Model, state: &mut State, dt: f64) -> Result<f64> {
         self.linearise(&model.terms(), state.configuration(), true)?;
         let kept = self.aim(dt);
-        let clock = Instant::now();
         let fraction = model.admit(state.configuration(), &self.dx, kept * dt, 1.0);
-        self.counters.admission += clock.elapsed();
         self.cancel.check()?;
         for (x, d) in state.x.iter_mut().zip(&self.dx) {
             *x += fraction * *d;
@@ -319,19 +324,19 @@ impl Newton {
         let dt = kept * wanted;
         let slope = self.slope(dt);
 
-        let clock = Instant::now();
         let longest = model.admit(state.configuration(), &self.dx, dt, 1.0);
-        self.counters.admission += clock.elapsed();
         self.cancel.check()?;
 
         let clock = Instant::now();
         let terms = model.terms();
         let start = state.configuration();
-        let before = self.values.take().unwrap_or_else(|| assembly::values(&terms, start));
+        let profile = &mut self.counters.profile;
+        let before = self.values.take().unwrap_or_else(|| assembly::values(&terms, start, profile));
         let before = assembly::weighted(&terms, &before);
-        let found = backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel);
+        let found =
+            backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel, profile);
+        profile.line_search += clock.elapsed();
         self.cancel.check()?;
-        self.counters.line_search += clock.elapsed();
         Ok(found.map(|found| {
             std::mem::swap(&mut state.x, &mut self.trial);
             state.t += found.fraction * dt;

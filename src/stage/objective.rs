@@ -1,6 +1,7 @@
 //! The objective of Steps 2 and 3 (Eqs. 6 and 7) and the contact that bounds every step on it.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::DVec3;
 
@@ -21,6 +22,7 @@ use crate::memory::MemoryLimit;
 use crate::options::Options;
 use crate::solver::Term;
 use crate::solver::newton::Model;
+use crate::solver::profile::Profile;
 use crate::verify::intersecting;
 
 /// Where something is nearer than the separation floor, the floor becomes this fraction of its distance.
@@ -55,6 +57,8 @@ pub struct Objective {
     barrier_weight: f64,
     gaps: Gaps,
     cancel: Cancel,
+    /// Time in contact since it was last taken.
+    profile: Profile,
 }
 
 impl Objective {
@@ -78,6 +82,7 @@ impl Objective {
             barrier_weight: weights.inflation_barrier_weight,
             gaps,
             cancel: Cancel::new(),
+            profile: Profile::default(),
         };
         objective.limit_pairs(MemoryLimit::new(weights.memory_limit));
         objective
@@ -104,6 +109,11 @@ impl Objective {
         self.terms().iter().map(|term| term.energy.memory()).sum::<u64>()
             + self.bodies.memory()
             + self.broad_phase.memory()
+    }
+
+    /// The time that broad phase and continuous collision detection took since this was last called.
+    pub fn take_profile(&mut self) -> Profile {
+        std::mem::take(&mut self.profile)
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
@@ -268,7 +278,9 @@ impl Objective {
 
     fn find_pairs(&mut self, at: Configuration<'_>, step: Option<&Step<'_>>) {
         let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();
+        let clock = Instant::now();
         self.broad_phase.candidates(&self.bodies, at, step, dhat_self, dhat_avatar, self.barrier.candidates_mut());
+        self.profile.broad_phase += clock.elapsed();
     }
 }
 
@@ -300,6 +312,10 @@ impl Model for Objective {
             return 0.0;
         }
         let settings = self.barrier.settings();
-        ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, |class| settings.floor(class), longest)
+        let floor = |class| settings.floor(class);
+        let clock = Instant::now();
+        let fraction = ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest);
+        self.profile.ccd += clock.elapsed();
+        fraction
     }
 }

@@ -4,6 +4,7 @@ mod assets;
 mod cancel;
 mod determinism;
 mod memory;
+mod profile;
 mod shifted;
 mod small;
 mod tangled;
