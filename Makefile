@@ -5,6 +5,7 @@
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
+# make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
 # As root, `demo` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
@@ -82,6 +83,12 @@ pairs: build/retarget
 .PHONY: soak
 soak:
 	cargo run --release --example soak -- $(if $(SEED),--seed $(SEED),--count $(or $(COUNT),300) --first $(or $(FIRST),1))
+
+# BENCH: pipeline or kernels, and its options (pipeline --help lists them); both without.
+.PHONY: bench
+bench: dependencies
+	$(if $(BENCH),,cargo bench --bench kernels)
+	cargo bench --bench $(or $(firstword $(BENCH)),pipeline) -- $(wordlist 2,$(words $(BENCH)),$(BENCH))
 
 .PHONY: header
 header:

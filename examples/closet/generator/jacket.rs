@@ -29,8 +29,8 @@ pub struct Jacket {
     pub no_fit: Vec<u32>,
 }
 
-/// Designs a jacket for a body. `seed` varies the puffs.
-pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
+/// Designs a jacket for a body. `seed` varies the puffs; `coarseness` multiplies the edge lengths.
+pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64, coarseness: f64) -> Jacket {
     let mut random = Random::new(seed);
     let j = &skeleton.joints;
     let hem = j[LEGS[0][0]].z - 0.050;
@@ -79,7 +79,7 @@ pub fn jacket(skeleton: &Skeleton, body: &Field, seed: u64) -> Jacket {
     }));
     let edge_length = |p: DVec3| {
         let beside = ((p.x.abs() - 0.02) / 0.06).clamp(0.0, 1.0);
-        if p.y < 0.0 { ZIP_EDGE + (EDGE - ZIP_EDGE) * beside } else { EDGE }
+        coarseness * if p.y < 0.0 { ZIP_EDGE + (EDGE - ZIP_EDGE) * beside } else { EDGE }
     };
     let bounds = cloth.bounds();
     let mesh =

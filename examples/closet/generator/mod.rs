@@ -60,14 +60,12 @@ pub struct Sample {
 
 /// Models a sample. The result depends on `kind` alone.
 pub fn sample(kind: Kind) -> Sample {
+    if kind == Kind::Jacket {
+        return jacket(1.0);
+    }
     let (proportions, build) = shape(kind);
     let skeleton = proportions.skeleton();
     let solid = body::body(&skeleton, &build);
-    if kind == Kind::Jacket {
-        let jacket = jacket::jacket(&skeleton, &solid, SEED);
-        let (mesh, texture, no_fit) = (jacket.mesh, jacket.texture, jacket.no_fit);
-        return Sample { mesh, skeleton, skin: Vec::new(), texture, no_fit };
-    }
     let mut mesh = body_mesh(&skeleton, &build, &solid);
     let mut skin = skin::skin(&mesh, &solid);
     if kind == Kind::Creature {
@@ -81,6 +79,16 @@ pub fn sample(kind: Kind) -> Sample {
         }
     }
     Sample { mesh, skeleton, skin, texture: Texture::default(), no_fit: Vec::new() }
+}
+
+/// Models the jacket with its edge lengths times `coarseness`.
+pub fn jacket(coarseness: f64) -> Sample {
+    let (proportions, build) = shape(Kind::Jacket);
+    let skeleton = proportions.skeleton();
+    let solid = body::body(&skeleton, &build);
+    let jacket = jacket::jacket(&skeleton, &solid, SEED, coarseness);
+    let (mesh, texture, no_fit) = (jacket.mesh, jacket.texture, jacket.no_fit);
+    Sample { mesh, skeleton, skin: Vec::new(), texture, no_fit }
 }
 
 /// Coarse on trunk and limbs, fine on the face and the hands.
