@@ -38,6 +38,15 @@ pub struct BarrierSettings {
     pub avatar_weight: f64,
 }
 
+/// How the barrier changes along a path in a parameter s: logarithmic rates per unit of s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Narrowing {
+    /// Rate of `dhat_avatar`.
+    pub dhat_avatar: f64,
+    /// Rate of the weight by which the whole term is multiplied.
+    pub weight: f64,
+}
+
 impl Default for BarrierSettings {
     fn default() -> Self {
         Self { dhat_self: 0.002, dhat_avatar: 0.002, floor: 1e-5, tangled_floor: 1e-5, avatar_weight: 1.0 }
@@ -98,12 +107,13 @@ pub struct Barrier {
     settings: BarrierSettings,
     /// Candidates that were closer than d-hat at the last refresh, ascending.
     active: Vec<u32>,
+    narrowing: Option<Narrowing>,
 }
 
 impl Barrier {
     /// A barrier without candidates.
     pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
-        Self { bodies, candidates: CandidateSet::default(), settings, active: Vec::new() }
+        Self { bodies, candidates: CandidateSet::default(), settings, active: Vec::new(), narrowing: None }
     }
 
     /// The bodies in contact.
@@ -133,6 +143,28 @@ impl Barrier {
     pub fn set_settings(&mut self, settings: BarrierSettings) {
         self.active.clear();
         self.settings = settings;
+    }
+
+    /// From now on the border of the Hessian is not that of t, which must stand still, but that of s: the mixed
+    /// derivatives by the vertices and s. `None` makes it that of t again.
+    pub fn set_narrowing(&mut self, narrowing: Option<Narrowing>) {
+        self.narrowing = narrowing;
+    }
+
+    /// The speed of a pair's distance along s at constant force, negated: its component of the border, by h. With f = db/dd,
+    /// `-dd/ds = (df/ds + f dln w/ds) / (df/dd)`.
+    #[inline]
+    fn drift(&self, class: Class, big_d: f64, dhat: f64, floor: f64, [d, g, h]: [f64; 3]) -> f64 {
+        let Some(rates) = self.narrowing else { return 0.0 };
+        if h <= 0.0 {
+            return 0.0;
+        }
+        let by_dhat = if class == Class::Avatar { rates.dhat_avatar } else { 0.0 };
+        let big_dhat = dhat * dhat - floor;
+        let (q, ln) = ((big_d - big_dhat) / big_d, (big_d / big_dhat).ln());
+        let slope = 2.0 * (ln + q + (big_d - big_dhat) / big_dhat);
+        let by_s = 2.0 * d * self.settings.weight(class) * slope * 2.0 * dhat * dhat * by_dhat;
+        (by_s + g * rates.weight) / h
     }
 
     /// Finds the pairs that are active at `at`, for [`Energy::stencils`].
@@ -209,11 +241,11 @@ impl Barrier {
     }
 
     /// Hands on `g a` and `h a a^T`, where `a` has the given component at each vertex of the pair: zero components are
-    /// left out, and those of the avatar are turned into one along t.
+    /// left out, and those of the avatar are turned into one along t, to which `drift` is added.
     #[inline]
-    fn emit(&self, pair: [u32; 4], components: [DVec3; 4], g: f64, h: f64, sink: &mut dyn Sink) {
+    fn emit(&self, pair: [u32; 4], components: [DVec3; 4], drift: f64, [g, h]: [f64; 2], sink: &mut dyn Sink) {
         let n = self.bodies.garment_count();
-        let (mut vertices, mut kept, mut count, mut t) = ([0; 4], [DVec3::ZERO; 4], 0, 0.0);
+        let (mut vertices, mut kept, mut count, mut t) = ([0; 4], [DVec3::ZERO; 4], 0, drift);
         for (i, c) in pair.into_iter().zip(components) {
             if i as usize >= n {
                 t += c.dot(self.bodies.avatar.motion[i as usize - n]);
@@ -316,9 +348,10 @@ impl Energy for Barrier {
             let d = separation.squared.sqrt();
             let normal = separation.vector / d;
             let (g, h) = (2.0 * d * db, 2.0 * db + 4.0 * separation.squared * ddb);
-            self.emit(pair, separation.weights.map(|w| w * normal), m * g, m * h.max(0.0), sink);
+            let drift = self.drift(class, big_d, dhat, floor, [d, g, h]);
+            self.emit(pair, separation.weights.map(|w| w * normal), drift, [m * g, m * h.max(0.0)], sink);
             if let Some(slope) = slope {
-                self.emit(pair, slope, b, 0.0, sink);
+                self.emit(pair, slope, 0.0, [b, 0.0], sink);
             }
         });
     }

@@ -299,14 +299,29 @@ impl Newton {
     /// # Errors
     /// As [`Self::linearise`].
     pub fn advance(&mut self, model: &mut dyn Model, state: &mut State, dt: f64) -> Result<f64> {
+        let taken = self.follow(model, state, dt, true)?;
+        state.t += taken * dt;
+        Ok(taken)
+    }
+
+    /// The same along another path, in a parameter s of the energies by which they hand on the border: the response to an
+    /// advance of s by `ds` at fixed t. It is the caller who then moves the energies on by the fraction returned.
+    ///
+    /// # Errors
+    /// As [`Self::linearise`].
+    pub fn accompany(&mut self, model: &mut dyn Model, state: &mut State, ds: f64) -> Result<f64> {
+        self.follow(model, state, ds, false)
+    }
+
+    fn follow(&mut self, model: &mut dyn Model, state: &mut State, advance: f64, moves_t: bool) -> Result<f64> {
         self.linearise(&model.terms(), state.configuration(), true)?;
-        let kept = self.aim(dt);
-        let fraction = model.admit(state.configuration(), &self.dx, kept * dt, 1.0);
+        let kept = self.aim(advance);
+        let dt = if moves_t { kept * advance } else { 0.0 };
+        let fraction = model.admit(state.configuration(), &self.dx, dt, 1.0);
         self.cancel.check()?;
         for (x, d) in state.x.iter_mut().zip(&self.dx) {
             *x += fraction * *d;
         }
-        state.t += fraction * kept * dt;
         self.values = None;
         Ok(fraction * kept)
     }

@@ -1,8 +1,17 @@
 //! Step 3: the garment settles on the avatar at its full size (section 3.6, Eq. 7).
 //!
-//! The barrier begins as Step 2 left it, wide and soft, and becomes narrow and stiff while the garment settles: a stiff
-//! barrier under a garment that is still far from its balance leaves no room for a step.
+//! The barrier begins as wide as Step 2 left it, and softer: under a stiff one, a garment that is still far from its
+//! balance has no room for a step. Then it becomes narrow and stiff along a path in a parameter s,
+//!
+//! ```text
+//! dhat(s) = dhat(0)^(1-s) dhat(1)^s,    weight(s) = weight(0)^(1-s) weight(1)^s,
+//! ```
+//!
+//! on which one factorisation gives the answer `dx = p0 + ds p1` of the garment to an advance of s. The pairs in contact
+//! move with the barrier and stay in contact. (Narrowed at once, the barrier loses them, and finds each again by
+//! running into it.) Newton's method at s = 1 has the last word.
 
+use crate::energy::barrier::Narrowing;
 use crate::error::Result;
 use crate::options::Options;
 use crate::solver::newton::{Newton, State};
@@ -11,44 +20,68 @@ use super::objective::Objective;
 
 /// The iterations that must pass the test one after the other.
 const CALM: u32 = 2;
-/// Stages of the barrier between Step 2's and its own.
-const LEVELS: u32 = 4;
-/// A step that takes at least this fraction of its direction, or promises less than [`SMALL_PROMISE`] of the objective,
-/// makes the barrier stiffer.
-const FREE: f64 = 0.3;
-const SMALL_PROMISE: f64 = 0.05;
 /// An objective below this is none: the garment is as it was designed, and every fraction of the objective is rounding.
 const NOTHING: f64 = 1e-9;
-/// Iterations after which the barrier becomes stiffer in any case.
-const PATIENCE: u32 = 6;
+/// The weight of the barrier at s = 0 as a fraction of Step 2's.
+const SOFTNESS: f64 = 0.1;
+/// The path begins where the squared Newton decrement is below this fraction of the objective, or after so many steps.
+const EASED: f64 = 0.02;
+const PATIENCE: u32 = 12;
+/// The first advance along the path, and the largest.
+const FIRST_ADVANCE: f64 = 0.25;
+const LARGEST_ADVANCE: f64 = 0.5;
+/// An advance that would be shorter than this is none: the rest of the path is jumped.
+const SMALLEST_ADVANCE: f64 = 1e-3;
 
 /// The state of the descent.
-#[derive(Default)]
 pub struct Settling {
-    calm: u32,
-    level: u32,
-    at_level: u32,
+    phase: Phase,
     /// Iterations so far.
     pub iterations: u32,
 }
 
-impl Settling {
-    /// Begins with the barrier that Step 2 ended with.
-    pub fn begin(objective: &mut Objective, state: &State, options: &Options) -> Self {
-        let settling = Self::default();
-        settling.set_barrier(objective, state, options);
-        settling
+enum Phase {
+    /// Newton's method with the barrier at s = 0, for so many steps.
+    Ease(u32),
+    /// Along the path.
+    Narrow { s: f64, advance: f64 },
+    /// Newton's method with the barrier at s = 1; so many steps have passed the test.
+    Settle(u32),
+}
+
+/// The ends of the path: d-hat towards the avatar and weight of the barrier.
+struct Path {
+    dhat: [f64; 2],
+    weight: [f64; 2],
+}
+
+impl Path {
+    fn new(objective: &Objective, options: &Options) -> Self {
+        let gaps = objective.gaps();
+        Self {
+            dhat: [gaps.inflation_dhat, gaps.dhat],
+            weight: [SOFTNESS * options.inflation_barrier_weight, options.barrier_weight],
+        }
     }
 
-    fn set_barrier(&self, objective: &mut Objective, state: &State, options: &Options) {
-        let share = f64::from(self.level) / f64::from(LEVELS);
-        let between = |from: f64, to: f64| if self.level == LEVELS { to } else { from * (to / from).powf(share) };
-        let gaps = objective.gaps();
-        objective.set_contact(
-            between(gaps.inflation_dhat, gaps.dhat),
-            between(options.inflation_barrier_weight, options.barrier_weight),
-        );
+    /// Sets the barrier of `objective` at `s`.
+    fn set(&self, s: f64, objective: &mut Objective, state: &State) {
+        let between = |[from, to]: [f64; 2]| if s == 1.0 { to } else { from * (to / from).powf(s) };
+        objective.set_contact(between(self.dhat), between(self.weight));
         objective.settle(state.configuration());
+    }
+
+    fn rates(&self) -> Narrowing {
+        let rate = |[from, to]: [f64; 2]| (to / from).ln();
+        Narrowing { dhat_avatar: rate(self.dhat), weight: rate(self.weight) }
+    }
+}
+
+impl Settling {
+    /// Begins where Step 2 ended.
+    pub fn begin(objective: &mut Objective, state: &State, options: &Options) -> Self {
+        Path::new(objective, options).set(0.0, objective, state);
+        Self { phase: Phase::Ease(0), iterations: 0 }
     }
 
     /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
@@ -64,20 +97,43 @@ impl Settling {
         options: &Options,
     ) -> Result<bool> {
         self.iterations += 1;
-        self.at_level += 1;
-        let step = newton.descend(objective, state, false)?;
-        if self.level < LEVELS {
-            let ripe = step.is_none_or(|s| s.fraction >= FREE || s.decrement <= SMALL_PROMISE * s.after);
-            if ripe || self.at_level >= PATIENCE {
-                self.level += 1;
-                self.at_level = 0;
-                self.set_barrier(objective, state, options);
-                newton.forget_values();
+        match &mut self.phase {
+            Phase::Ease(steps) => {
+                *steps += 1;
+                let step = newton.descend(objective, state, false)?;
+                if *steps >= PATIENCE || step.is_none_or(|s| s.decrement <= EASED * s.after.max(NOTHING)) {
+                    self.phase = Phase::Narrow { s: 0.0, advance: FIRST_ADVANCE };
+                }
             }
-            return Ok(false);
+            Phase::Narrow { s, advance } => {
+                let path = Path::new(objective, options);
+                objective.set_narrowing(Some(path.rates()));
+                let ds = advance.min(1.0 - *s);
+                let taken = newton.accompany(objective, state, ds);
+                objective.set_narrowing(None);
+                let taken = taken?;
+                *s += taken * ds;
+                if taken >= 0.99 {
+                    *advance = (1.5 * *advance).min(LARGEST_ADVANCE);
+                } else if taken < 0.5 {
+                    *advance *= 0.5;
+                }
+                if 1.0 - *s < SMALLEST_ADVANCE || *advance < SMALLEST_ADVANCE {
+                    *s = 1.0;
+                }
+                let at = *s;
+                path.set(at, objective, state);
+                newton.forget_values();
+                if at == 1.0 {
+                    self.phase = Phase::Settle(0);
+                }
+            }
+            Phase::Settle(calm) => {
+                let Some(step) = newton.descend(objective, state, false)? else { return Ok(true) };
+                *calm = if step.decrement <= options.tolerance * step.after.max(NOTHING) { *calm + 1 } else { 0 };
+                return Ok(*calm >= CALM);
+            }
         }
-        let Some(step) = step else { return Ok(true) };
-        self.calm = if step.decrement <= options.tolerance * step.after.max(NOTHING) { self.calm + 1 } else { 0 };
-        Ok(self.calm >= CALM)
+        Ok(false)
     }
 }

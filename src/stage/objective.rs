@@ -10,7 +10,7 @@ use crate::contact::tangle::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Step, Tangle, ccd};
 use crate::control::Cancel;
 use crate::energy::attachment::Attachment;
-use crate::energy::barrier::{Activity, Barrier, BarrierSettings};
+use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::inflation::Inflation;
@@ -239,6 +239,11 @@ impl Objective {
     pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
         self.barrier_weight = weight;
+    }
+
+    /// Makes the border of the linear system that of a narrowing barrier (see [`Barrier::set_narrowing`]), or that of t.
+    pub fn set_narrowing(&mut self, narrowing: Option<Narrowing>) {
+        self.barrier.set_narrowing(narrowing);
     }
 
     /// The drive on t, where there is one.

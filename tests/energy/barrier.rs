@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use bespoke::contact::distance::Separation;
 use bespoke::contact::{Avatar, Bodies, CandidateSet, Garment, Kind, Surface, mollifier};
-use bespoke::energy::barrier::{Barrier, BarrierSettings};
+use bespoke::energy::barrier::{Barrier, BarrierSettings, Narrowing};
 use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use glam::DVec3;
 
@@ -344,4 +344,42 @@ fn pattern_and_statistics_follow_refresh_and_ranges_add_up() {
     barrier.set_settings(BarrierSettings { dhat_avatar: 0.1, ..SETTINGS });
     assert!(pattern(&barrier).is_empty());
     assert!(barrier.refresh(at).count > activity.count);
+}
+
+/// The border of a narrowing barrier against differences of the gradient along s.
+#[test]
+fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
+    let rates = Narrowing { dhat_avatar: -1.6, weight: 3.0 };
+    let mut compared = 0;
+    for (seed, fraction) in [(8, 0.3), (9, 0.6), (10, 0.95)] {
+        cases(seed, fraction, false, |mut case, _| {
+            let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
+            if case.kind == Kind::EdgeEdge && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0 {
+                return;
+            }
+            let n = 3 * case.x.len();
+            let mut gradient_at = |s: f64| {
+                let dhat_avatar = SETTINGS.dhat_avatar * (rates.dhat_avatar * s).exp();
+                case.barrier.set_settings(BarrierSettings { dhat_avatar, ..SETTINGS });
+                let gradient = dense(&case.barrier, &case.x, T).gradient;
+                gradient.iter().map(|g| g * (rates.weight * s).exp()).collect::<Vec<_>>()
+            };
+            let step = 1e-6;
+            let (after, before) = (gradient_at(step), gradient_at(-step));
+            case.barrier.set_settings(SETTINGS);
+            // The part of t, which stands still on that path, is in both.
+            let of_t = dense(&case.barrier, &case.x, T).hessian;
+            case.barrier.set_narrowing(Some(rates));
+            let both = dense(&case.barrier, &case.x, T).hessian;
+            let numeric: Vec<f64> = (0..n).map(|i| (after[i] - before[i]) / (2.0 * step)).collect();
+            let scale = numeric.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            assert!(scale > 0.0, "nothing to compare");
+            for i in 0..n {
+                let border = both[i][n] - of_t[i][n];
+                assert!((border - numeric[i]).abs() < 1e-5 * scale, "entry {i}: {border:e}, numeric {:e}", numeric[i]);
+            }
+            compared += 1;
+        });
+    }
+    assert!(compared > 300, "{compared}");
 }
