@@ -47,7 +47,7 @@ fn folders(parent: &Path) -> Vec<PathBuf> {
     folders
 }
 
-/// What a caller of the library has in memory.
+/// What a caller of the library has in memory, in 32 bits.
 pub struct Inputs {
     /// As in the file.
     pub garment: TriangleMesh,
@@ -64,10 +64,13 @@ pub struct Inputs {
 impl Inputs {
     /// Reads the files of `case`. Panics on a mesh that is none.
     pub fn read(case: &Case) -> Result<Self, Failure> {
-        let garment = read_mesh(&case.garment.join("garment.obj"));
-        let avatar = read_mesh(&case.avatar.join("avatar.obj"));
-        let (source, target) =
+        let mut garment = read_mesh(&case.garment.join("garment.obj"));
+        let mut avatar = read_mesh(&case.avatar.join("avatar.obj"));
+        let (mut source, mut target) =
             (read_skeleton(&case.garment.join("skeleton.obj")), read_skeleton(&case.avatar.join("skeleton.obj")));
+        for points in [&mut garment.positions, &mut avatar.positions, &mut source.joints, &mut target.joints] {
+            points.iter_mut().for_each(|p| *p = Precision::F32.round(*p));
+        }
         let skin = match fs::read_to_string(case.avatar.join("skin.txt")) {
             Ok(text) => {
                 let weights: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;

@@ -30,5 +30,8 @@ pub fn measure(case: &Case, setup: Setup) -> Result<Measurement, String> {
     if !output.status.success() {
         return Err(format!("{}: failed, {}", case.name(), output.status));
     }
-    serde_json::from_slice(&output.stdout).map_err(|e| format!("{}: {e}", case.name()))
+    let measured: Measurement = serde_json::from_slice(&output.stdout).map_err(|e| format!("{}: {e}", case.name()))?;
+    let Measurement { seconds, f, iterations: [inflate, fit], .. } = measured;
+    eprintln!("    {seconds:.2} s, F {f:.0}, {inflate} + {fit} iterations");
+    Ok(measured)
 }

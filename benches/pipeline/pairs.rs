@@ -166,8 +166,6 @@ fn print_tight(pairs: &[Pair]) {
         ])
     };
     let rows: Vec<_> = pairs.iter().filter_map(row).collect();
-    if !rows.is_empty() {
-        let head = ["case", "objective", "tight", "above", "iterations of tight"];
-        table::print("The objective against that of a tight tolerance", 1, &head, &rows);
-    }
+    let head = ["case", "objective", "tight", "above", "iterations of tight"];
+    table::print("The objective against that of a tight tolerance", 1, &head, &rows);
 }

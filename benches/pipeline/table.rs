@@ -1,7 +1,10 @@
 //! Tables of text that are Markdown as well.
 
-/// Prints a table: the first `words` columns to the left, numbers to the right.
+/// Prints a table, where it has rows: the first `words` columns to the left, numbers to the right.
 pub fn print(title: &str, words: usize, head: &[&str], rows: &[Vec<String>]) {
+    if rows.is_empty() {
+        return;
+    }
     let head: Vec<String> = head.iter().map(|&cell| cell.into()).collect();
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).chain(&head[column..=column]);
