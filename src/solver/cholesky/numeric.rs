@@ -1,0 +1,284 @@
+//! The factorisation itself: fronts from the leaves of the tree to its root.
+//!
+//! A front is the matrix's entries in the columns of a supernode and what the children leave to it. Its columns are
+//! factorised; what is left of its rows waits in the work space for the parent. Sums have the order of the children, so
+//! that it does not matter who does what when.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::kernel::{GROUP, Panel, STEP, padded, subtract_product, update_diagonal, update_len, update_start};
+use super::plan::{Node, Plan};
+use crate::control::Cancel;
+use crate::solver::pattern::Pattern;
+
+/// Fewest products that are worth asking whether another thread has time.
+const SHARE: usize = 250_000;
+
+/// One factorisation on its way.
+pub(super) struct Factorisation<'a> {
+    pub plan: &'a Plan,
+    pub pattern: &'a Pattern,
+    /// The matrix.
+    pub matrix: &'a [f64],
+    pub cancel: &'a Cancel,
+    /// Whether a pivot was not positive.
+    pub failed: AtomicBool,
+}
+
+/// What the children of a node left to it.
+#[derive(Clone, Copy)]
+pub(super) struct Left<'a> {
+    work: &'a [f64],
+    /// Where `work` begins in the work space.
+    start: usize,
+}
+
+impl<'a> Left<'a> {
+    #[inline]
+    fn update(self, child: &Node) -> &'a [f64] {
+        &self.work[child.update.start - self.start..][..update_len(child.rows)]
+    }
+
+    /// Right-hand side `column` of a child.
+    #[inline]
+    pub(super) fn vector(self, child: &Node, column: usize) -> &'a [f64] {
+        &self.work[child.update.start - self.start + column * child.ld..][..child.ld]
+    }
+}
+
+impl Factorisation<'_> {
+    /// Does the last task and all before it. False where the matrix is not positive definite, or on request.
+    pub(super) fn run(self, values: &mut [f64], work: &mut [f64]) -> bool {
+        if let Some(last) = self.plan.tasks.len().checked_sub(1) {
+            self.task(last, values, work);
+        }
+        !self.is_over()
+    }
+
+    fn is_over(&self) -> bool {
+        self.failed.load(Ordering::Relaxed) || self.cancel.is_requested()
+    }
+
+    /// `values` and `work` are the task's parts, with those before.
+    fn task(&self, t: usize, values: &mut [f64], work: &mut [f64]) {
+        let task = &self.plan.tasks[t];
+        let first_value = self.plan.panels(task).start;
+        if !task.before.is_empty() {
+            rayon::scope(|scope| {
+                let (mut values, mut at) = (&mut *values, first_value);
+                let parts = Parts::new(&mut *work, task.region.clone());
+                for (&b, work) in task.before.iter().zip(parts.cut(self.plan, &task.before)) {
+                    let len = self.plan.panels(&self.plan.tasks[b]).end - at;
+                    let (part, rest) = std::mem::take(&mut values).split_at_mut(len);
+                    (values, at) = (rest, at + len);
+                    scope.spawn(move |_| self.task(b, part, work));
+                }
+            });
+        }
+        for s in task.nodes.clone() {
+            if self.is_over() {
+                return;
+            }
+            let node = &self.plan.nodes[s];
+            let panel = &mut values[node.panel - first_value..][..node.panel_len()];
+            let region = &mut work[node.region.start - task.region.start..][..node.region.len()];
+            if !self.front(s, panel, region) {
+                self.failed.store(true, Ordering::Relaxed);
+            }
+        }
+    }
+
+    fn front(&self, s: usize, panel: &mut [f64], region: &mut [f64]) -> bool {
+        let node = &self.plan.nodes[s];
+        let (left, update) = divided(node, region);
+        panel.fill(0.0);
+        self.scatter(s, panel);
+        for child in self.plan.children(s) {
+            extend_panel(node, panel, child, left.update(child), self.plan.places(child));
+        }
+        if !factorise_panel(node, panel) {
+            return false;
+        }
+        let groups = padded(node.rows).div_ceil(GROUP);
+        self.update(s, panel, left, 0..groups, &mut update[..update_len(node.rows)]);
+        true
+    }
+
+    /// The matrix's own entries.
+    fn scatter(&self, s: usize, panel: &mut [f64]) {
+        let node = &self.plan.nodes[s];
+        let (ld, col_ptr) = (node.ld, self.pattern.col_ptr());
+        for k in 0..node.columns / 3 {
+            let v = self.plan.vertex_at[node.first / 3 + k];
+            for (c, from) in self.pattern.diagonal(v).into_iter().enumerate() {
+                let to = (3 * k + c) * (ld + 1);
+                panel[to..to + 3 - c].copy_from_slice(&self.matrix[from..from + 3 - c]);
+            }
+        }
+        for block in self.plan.blocks(s) {
+            let (j, target) = (3 * block.column as usize, block.target as usize);
+            for c in 0..3 {
+                let from = col_ptr[j + c] as usize + 3 - c + 3 * block.place as usize;
+                let column = &self.matrix[from..from + 3];
+                if block.transposed {
+                    for (r, value) in column.iter().enumerate() {
+                        panel[target + r * ld + c] = *value;
+                    }
+                } else {
+                    panel[target + c * ld..][..3].copy_from_slice(column);
+                }
+            }
+        }
+    }
+
+    /// Groups `groups` of the update matrix, which are `update`.
+    fn update(&self, s: usize, panel: &[f64], left: Left<'_>, groups: Range<usize>, update: &mut [f64]) {
+        let node = &self.plan.nodes[s];
+        if groups.len() > 1 && update.len() * node.columns > SHARE {
+            // Columns to the left are longer.
+            let middle = groups.start + (groups.len() * 2).div_ceil(5);
+            let start = |group: usize| update_start(node.rows, group * GROUP / 8);
+            let (first, second) = update.split_at_mut(start(middle) - start(groups.start));
+            rayon::join(
+                || self.update(s, panel, left, groups.start..middle, first),
+                || self.update(s, panel, left, middle..groups.end, second),
+            );
+            return;
+        }
+        let mut rest = update;
+        for group in groups {
+            let columns = group * GROUP..(group * GROUP + GROUP).min(padded(node.rows));
+            let (start, end) = (update_start(node.rows, columns.start / 8), update_start(node.rows, columns.end / 8));
+            let (update, others) = rest.split_at_mut(end - start);
+            rest = others;
+            update.fill(0.0);
+            for child in self.plan.children(s) {
+                extend_update(node, group, update, start, child, left.update(child), self.plan.places(child));
+            }
+            subtract_product(update, node.rows, group, panel, node.ld, node.columns, node.columns);
+        }
+    }
+}
+
+/// The work space of a task, which those before it have shares of.
+pub(super) struct Parts<'a> {
+    work: &'a mut [f64],
+    region: Range<usize>,
+}
+
+impl<'a> Parts<'a> {
+    pub(super) fn new(work: &'a mut [f64], region: Range<usize>) -> Self {
+        Self { work, region }
+    }
+
+    /// The regions of `tasks`, which follow one another up or down.
+    pub(super) fn cut(mut self, plan: &Plan, tasks: &[usize]) -> Vec<&'a mut [f64]> {
+        tasks
+            .iter()
+            .map(|&t| {
+                let wanted = plan.tasks[t].region.clone();
+                let work = std::mem::take(&mut self.work);
+                if wanted.start == self.region.start {
+                    let (part, rest) = work.split_at_mut(wanted.len());
+                    (self.work, self.region.start) = (rest, wanted.end);
+                    part
+                } else {
+                    let (rest, part) = work.split_at_mut(wanted.start - self.region.start);
+                    (self.work, self.region.end) = (rest, wanted.start);
+                    part
+                }
+            })
+            .collect()
+    }
+}
+
+/// What the children left in the region of `node`, and the place for its own update matrix.
+pub(super) fn divided<'a>(node: &Node, region: &'a mut [f64]) -> (Left<'a>, &'a mut [f64]) {
+    let len = node.update.len();
+    if node.update.start == node.region.start {
+        let (update, work) = region.split_at_mut(len);
+        (Left { work, start: node.update.end }, update)
+    } else {
+        let (work, update) = region.split_at_mut(region.len() - len);
+        (Left { work, start: node.region.start }, update)
+    }
+}
+
+/// Adds column `j` of an update matrix, from its diagonal down, to the column that `to` returns rows of.
+#[inline(always)]
+fn add_column(from: &[f64], j: usize, places: &[u32], above: usize, to: &mut [f64]) {
+    let b = j / 3;
+    let (top, below) = from.split_at(3 - j % 3);
+    let row = 3 * places[b] as usize + j % 3 - above;
+    for (to, value) in to[row..].iter_mut().zip(top) {
+        *to += value;
+    }
+    for (place, value) in places[b + 1..].iter().zip(below.as_chunks::<3>().0) {
+        let row = 3 * *place as usize - above;
+        let to = &mut to[row..row + 3];
+        to[0] += value[0];
+        to[1] += value[1];
+        to[2] += value[2];
+    }
+}
+
+/// Adds the columns of a child's update matrix that belong to the panel of `node`.
+fn extend_panel(node: &Node, panel: &mut [f64], child: &Node, update: &[f64], places: &[u32]) {
+    let own = places.partition_point(|&place| 3 * (place as usize) < node.columns);
+    for j in 0..3 * own {
+        let column = 3 * places[j / 3] as usize + j % 3;
+        let from = &update[update_diagonal(child.rows, j)..][..child.rows - j];
+        add_column(from, j, places, 0, &mut panel[column * node.ld..][..node.ld]);
+    }
+}
+
+/// Adds those that belong to a group of the update matrix of `node`, whose scalars begin at `start`.
+fn extend_update(
+    node: &Node,
+    group: usize,
+    to: &mut [f64],
+    start: usize,
+    child: &Node,
+    update: &[f64],
+    places: &[u32],
+) {
+    let begin = node.columns + group * GROUP;
+    let first = places.partition_point(|&place| 3 * (place as usize) < begin);
+    let count = places[first..].partition_point(|&place| 3 * (place as usize) < begin + GROUP);
+    for j in 3 * first..3 * (first + count) {
+        let column = 3 * places[j / 3] as usize + j % 3 - node.columns;
+        let from = &update[update_diagonal(child.rows, j)..][..child.rows - j];
+        let diagonal = update_diagonal(node.rows, column) - start;
+        add_column(from, j, places, node.columns + column, &mut to[diagonal..][..node.rows - column]);
+    }
+}
+
+/// False where a pivot is not positive.
+fn factorise_panel(node: &Node, memory: &mut [f64]) -> bool {
+    let panel = Panel::new(memory, node.ld);
+    let bottom = padded(node.columns + node.rows);
+    for begin in (0..node.columns).step_by(STEP) {
+        let end = node.columns.min(begin + STEP);
+        // SAFETY: the panel is borrowed by this function alone, and has `bottom` rows, which the leading dimension holds.
+        if !unsafe { panel.factorise_diagonal(begin, end) } {
+            return false;
+        }
+        finish_rows(panel, begin, end, padded(end)..bottom);
+    }
+    true
+}
+
+fn finish_rows(panel: Panel, begin: usize, end: usize, rows: Range<usize>) {
+    if rows.len() > GROUP && rows.len() * (end - begin) * (begin + end) / 2 > SHARE {
+        let middle = rows.start + (rows.len() / 2).next_multiple_of(GROUP);
+        rayon::join(
+            || finish_rows(panel, begin, end, rows.start..middle),
+            || finish_rows(panel, begin, end, middle..rows.end),
+        );
+        return;
+    }
+    // SAFETY: the panel is borrowed by the caller's caller, and each part of the rows is looked at by one thread. The rows
+    // from `begin` to `end` are above all of them.
+    unsafe { panel.finish_rows(begin, end, rows) };
+}
