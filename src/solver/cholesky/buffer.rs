@@ -2,28 +2,48 @@
 
 use std::ops::{Deref, DerefMut};
 
-const LINE: usize = 8;
+use crate::memory::bytes;
 
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-struct Line([f64; LINE]);
+/// Bytes of a cache line, and of the widest vectors.
+const LINE: usize = 64;
+/// Scalars that may have to be skipped to get to the next one.
+const SLACK: usize = LINE / size_of::<f64>() - 1;
 
-/// So many zeros at first, in whole cache lines.
-pub(super) struct Buffer(Vec<Line>);
+/// Room for some scalars; what they are is up to those who use it.
+#[derive(Default)]
+pub(super) struct Buffer {
+    memory: Vec<f64>,
+    len: usize,
+}
 
 impl Buffer {
-    /// At least `len` scalars. `None` where there is no memory.
-    pub(super) fn new(len: usize) -> Option<Self> {
-        let lines = len.div_ceil(LINE);
-        let mut memory = Vec::new();
-        memory.try_reserve_exact(lines).ok()?;
-        memory.resize(lines, Line([0.0; LINE]));
-        Some(Self(memory))
+    /// Makes it `len` scalars long, whatever they are. False where there is no memory: then it is empty.
+    pub(super) fn resize(&mut self, len: usize) -> bool {
+        if self.memory.len() < len + SLACK {
+            // What is there is not needed any more, and must not be held beside the new.
+            *self = Self::default();
+            if Vec::<f64>::new().try_reserve_exact(len + SLACK).is_err() {
+                return false;
+            }
+            // Zeros from the system cost nothing before they are touched.
+            self.memory = vec![0.0; len + SLACK];
+        }
+        self.len = len;
+        true
     }
 
-    /// Bytes that so many scalars take.
-    pub(super) const fn bytes(len: usize) -> u64 {
-        (len.div_ceil(LINE) * size_of::<Line>()) as u64
+    /// Bytes that it holds.
+    pub(super) fn memory(&self) -> u64 {
+        bytes(&self.memory)
+    }
+
+    /// Bytes that it holds once it has room for `len` scalars.
+    pub(super) fn memory_for(&self, len: usize) -> u64 {
+        self.memory().max(((len + SLACK) * size_of::<f64>()) as u64)
+    }
+
+    fn start(&self) -> usize {
+        self.memory.as_ptr().align_offset(LINE).min(SLACK)
     }
 }
 
@@ -31,14 +51,13 @@ impl Deref for Buffer {
     type Target = [f64];
 
     fn deref(&self) -> &[f64] {
-        // SAFETY: a line is eight scalars and nothing else.
-        unsafe { std::slice::from_raw_parts(self.0.as_ptr().cast(), LINE * self.0.len()) }
+        if self.len == 0 { &[] } else { &self.memory[self.start()..][..self.len] }
     }
 }
 
 impl DerefMut for Buffer {
     fn deref_mut(&mut self) -> &mut [f64] {
-        // SAFETY: as above.
-        unsafe { std::slice::from_raw_parts_mut(self.0.as_mut_ptr().cast(), LINE * self.0.len()) }
+        let start = self.start();
+        if self.len == 0 { &mut [] } else { &mut self.memory[start..][..self.len] }
     }
 }

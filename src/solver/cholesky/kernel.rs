@@ -68,15 +68,21 @@ impl Triangle {
     }
 }
 
-/// Subtracts `a b^T` from a tile of `S` vectors of rows and `N` columns; with `SOLVE`, then solves with `triangle` from
-/// the right.
+/// What a tile is before products are subtracted, and what becomes of it afterwards.
+const KEEP: u8 = 0;
+/// Its entries count as zero at first.
+const ZERO: u8 = 1;
+/// It is solved with the triangle, from the right.
+const SOLVE: u8 = 2;
+
+/// Subtracts `a b^T` from a tile of `S` vectors of rows and `N` columns, and what `MODE` says.
 ///
 /// # Safety
 /// The tile can be written in columns `ldc` apart; `a` and `b` can be read in `depth` columns `ld` apart, rows as in the
 /// tile and as many as its columns. The processor has the instructions.
-#[allow(clippy::too_many_arguments)]
+#[allow(clippy::too_many_arguments, clippy::needless_range_loop)]
 #[inline(always)]
-unsafe fn tile<V: Lanes, const S: usize, const N: usize, const SOLVE: bool>(
+unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
     c: *mut f64,
     ldc: usize,
     a: *const f64,
@@ -85,13 +91,22 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const SOLVE: bool>(
     depth: usize,
     triangle: &Triangle,
 ) {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's promise. (Loops, not closures: these would be compiled for the plain processor.)
     unsafe {
-        let mut sums: [[V; S]; N] =
-            std::array::from_fn(|n| std::array::from_fn(|s| V::load(c.add(n * ldc + s * V::COUNT))));
+        let mut sums = [[V::splat(0.0); S]; N];
+        if MODE != ZERO {
+            for n in 0..N {
+                for s in 0..S {
+                    sums[n][s] = V::load(c.add(n * ldc + s * V::COUNT));
+                }
+            }
+        }
         for p in 0..depth {
             let (a, b) = (a.add(p * ld), b.add(p * ld));
-            let rows: [V; S] = std::array::from_fn(|s| V::load(a.add(s * V::COUNT)));
+            let mut rows = [V::splat(0.0); S];
+            for s in 0..S {
+                rows[s] = V::load(a.add(s * V::COUNT));
+            }
             for n in 0..N {
                 let column = V::splat(*b.add(n));
                 for s in 0..S {
@@ -99,7 +114,7 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const SOLVE: bool>(
                 }
             }
         }
-        if SOLVE {
+        if MODE == SOLVE {
             for n in 0..N {
                 let inverse = V::splat(triangle.inverse[n]);
                 for s in 0..S {
@@ -127,7 +142,7 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const SOLVE: bool>(
 /// As there.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
-unsafe fn strips<V: Lanes, const N: usize, const SOLVE: bool>(
+unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
     c: *mut f64,
     ldc: usize,
     a: *const f64,
@@ -144,15 +159,15 @@ unsafe fn strips<V: Lanes, const N: usize, const SOLVE: bool>(
             let (c, a) = (c.add(i), a.add(i));
             match ((rows - i) / V::COUNT).min(V::STRIPS) {
                 0 | 1 => {
-                    tile::<V, 1, N, SOLVE>(c, ldc, a, b, ld, depth, triangle);
+                    tile::<V, 1, N, MODE>(c, ldc, a, b, ld, depth, triangle);
                     i += V::COUNT;
                 }
                 2 => {
-                    tile::<V, 2, N, SOLVE>(c, ldc, a, b, ld, depth, triangle);
+                    tile::<V, 2, N, MODE>(c, ldc, a, b, ld, depth, triangle);
                     i += 2 * V::COUNT;
                 }
                 _ => {
-                    tile::<V, 3, N, SOLVE>(c, ldc, a, b, ld, depth, triangle);
+                    tile::<V, 3, N, MODE>(c, ldc, a, b, ld, depth, triangle);
                     i += 3 * V::COUNT;
                 }
             }
@@ -166,7 +181,7 @@ unsafe fn strips<V: Lanes, const N: usize, const SOLVE: bool>(
 /// As there.
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
-unsafe fn columns<V: Lanes, const SOLVE: bool>(
+unsafe fn columns<V: Lanes, const MODE: u8>(
     width: usize,
     c: *mut f64,
     ldc: usize,
@@ -180,14 +195,14 @@ unsafe fn columns<V: Lanes, const SOLVE: bool>(
     // SAFETY: the caller's promise.
     unsafe {
         match width {
-            1 => strips::<V, 1, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            2 => strips::<V, 2, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            3 => strips::<V, 3, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            4 => strips::<V, 4, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            5 => strips::<V, 5, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            6 => strips::<V, 6, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            7 => strips::<V, 7, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
-            _ => strips::<V, 8, SOLVE>(c, ldc, a, b, ld, depth, triangle, rows),
+            1 => strips::<V, 1, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            2 => strips::<V, 2, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            3 => strips::<V, 3, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            4 => strips::<V, 4, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            5 => strips::<V, 5, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            6 => strips::<V, 6, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            7 => strips::<V, 7, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            _ => strips::<V, 8, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
         }
     }
 }
@@ -253,13 +268,13 @@ unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize,
         unsafe {
             let rows = start.add(j);
             let corner = rows.add(j * ld);
-            columns::<V, false>(width, corner, ld, rows, rows, ld, j, &Triangle::ZERO, TILE);
+            columns::<V, KEEP>(width, corner, ld, rows, rows, ld, j, &Triangle::ZERO, TILE);
             if !factorise_tile::<V>(corner, ld, width) {
                 return false;
             }
             let triangle = Triangle::read(corner, ld, width);
             let below = j + TILE;
-            columns::<V, true>(width, corner.add(TILE), ld, start.add(below), rows, ld, j, &triangle, bottom - below);
+            columns::<V, SOLVE>(width, corner.add(TILE), ld, start.add(below), rows, ld, j, &triangle, bottom - below);
         }
     }
     true
@@ -312,15 +327,15 @@ unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: u
             // SAFETY: these rows and columns are within the panel.
             unsafe {
                 let (a, b) = (start.add(i), start.add(j));
-                columns::<V, true>(TILE.min(end - j), a.add(j * ld), ld, a, b, ld, j, triangle, rows);
+                columns::<V, SOLVE>(TILE.min(end - j), a.add(j * ld), ld, a, b, ld, j, triangle, rows);
             }
         }
     }
 }
 
-/// Subtracts from columns of an update matrix, whole groups beginning with group `group`, the product of a finished panel:
-/// `columns` columns, of which the rows from `below` on are those of the update matrix, `rows` of them.
-pub(super) fn subtract_product(
+/// Sets group `group` of an update matrix to the product of a finished panel, negative: `depth` columns, of which the
+/// rows from `below` on are those of the update matrix, `rows` of them.
+pub(super) fn negative_product(
     update: &mut [f64],
     rows: usize,
     group: usize,
@@ -338,7 +353,7 @@ pub(super) fn subtract_product(
     // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of the
     // panel are as many as those of the blocks.
     unsafe {
-        for_this_processor!(subtract_group(
+        for_this_processor!(product_group(
             c: *mut f64,
             left: usize,
             width: usize,
@@ -350,7 +365,7 @@ pub(super) fn subtract_product(
 }
 
 #[inline(always)]
-unsafe fn subtract_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *const f64, ld: usize, depth: usize) {
+unsafe fn product_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *const f64, ld: usize, depth: usize) {
     for i in (0..rows).step_by(GROUP) {
         let bottom = rows.min(i + GROUP);
         let mut block = c;
@@ -360,7 +375,7 @@ unsafe fn subtract_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *c
             unsafe {
                 if top < bottom {
                     let (c, ldc) = (block.add(top - j), rows - j);
-                    strips::<V, TILE, false>(c, ldc, a.add(top), a.add(j), ld, depth, &Triangle::ZERO, bottom - top);
+                    strips::<V, TILE, ZERO>(c, ldc, a.add(top), a.add(j), ld, depth, &Triangle::ZERO, bottom - top);
                 }
                 block = block.add(TILE * (rows - j));
             }

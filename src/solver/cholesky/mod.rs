@@ -32,7 +32,9 @@ use tree::Supernodes;
 const TOGETHER: usize = 2;
 
 /// The symbolic analysis of one pattern, and the factor of the last matrix.
+#[derive(Default)]
 pub struct Factor {
+    /// Empty before an analysis.
     plan: Plan,
     values: Buffer,
     work: Buffer,
@@ -55,21 +57,35 @@ impl Factor {
     /// # Errors
     /// As [`Self::analyse`], and `MemoryLimit`.
     pub fn analyse_within(limit: MemoryLimit, pattern: &Pattern) -> Result<Self> {
+        let mut factor = Self::default();
+        factor.analyse_again(limit, pattern)?;
+        Ok(factor)
+    }
+
+    /// Orders and analyses another pattern, in the memory of the one before, which `limit` does not count. The factor of the
+    /// last matrix is gone.
+    ///
+    /// # Errors
+    /// As [`Self::analyse_within`]; then there is nothing to factorise with.
+    pub fn analyse_again(&mut self, limit: MemoryLimit, pattern: &Pattern) -> Result<()> {
+        self.plan = Plan::default();
         let failed = |what: &str| Error::new(ErrorKind::Internal, format!("the symbolic factorisation {what}"));
         let order = minimum_degree(pattern).map_err(|_| failed("ran out of memory or indices"))?;
         let graph = Graph::new(pattern);
         let plan =
             Plan::new(&graph, Supernodes::new(&graph, order)).ok_or_else(|| failed("has a front that is too large"))?;
         let unknowns = TOGETHER * 3 * pattern.vertex_count();
-        let bytes = [plan.values, plan.work, unknowns].map(Buffer::bytes).iter().sum::<u64>() + plan.memory();
+        let bytes = self.values.memory_for(plan.values)
+            + self.work.memory_for(plan.work)
+            + (unknowns * size_of::<AtomicU64>()) as u64
+            + plan.memory();
         limit.check(&[Part { what: "the factorisation of the garment's linear system", bytes }])?;
-        let room = |len| {
-            Buffer::new(len)
-                .ok_or_else(|| Error::new(ErrorKind::Internal, "there is no memory for the factorisation's work space"))
-        };
-        let (values, work) = (room(plan.values)?, room(plan.work)?);
-        let x = (0..unknowns).map(|_| AtomicU64::new(0)).collect();
-        Ok(Self { plan, values, work, x, cancel: Cancel::new() })
+        if !self.values.resize(plan.values) || !self.work.resize(plan.work) {
+            return Err(Error::new(ErrorKind::Internal, "there is no memory for the factorisation's work space"));
+        }
+        self.x = (0..unknowns).map(|_| AtomicU64::new(0)).collect();
+        self.plan = plan;
+        Ok(())
     }
 
     /// The same factor, of which a factorisation ends between two fronts once `cancel` is set.
@@ -113,7 +129,7 @@ impl Factor {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        [self.plan.values, self.plan.work].map(Buffer::bytes).iter().sum::<u64>() + bytes(&self.x) + self.plan.memory()
+        self.values.memory() + self.work.memory() + bytes(&self.x) + self.plan.memory()
     }
 
     /// Number of scalars in the factor.

@@ -7,7 +7,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::kernel::{GROUP, Panel, STEP, padded, subtract_product, update_diagonal, update_len, update_start};
+use super::kernel::{GROUP, Panel, STEP, negative_product, padded, update_diagonal, update_len, update_start};
 use super::plan::{Node, Plan};
 use crate::control::Cancel;
 use crate::solver::pattern::Pattern;
@@ -50,9 +50,8 @@ impl<'a> Left<'a> {
 impl Factorisation<'_> {
     /// Does the last task and all before it. False where the matrix is not positive definite, or on request.
     pub(super) fn run(self, values: &mut [f64], work: &mut [f64]) -> bool {
-        if let Some(last) = self.plan.tasks.len().checked_sub(1) {
-            self.task(last, values, work);
-        }
+        let Some(last) = self.plan.tasks.len().checked_sub(1) else { return false };
+        self.task(last, values, work);
         !self.is_over()
     }
 
@@ -152,11 +151,10 @@ impl Factorisation<'_> {
             let (start, end) = (update_start(node.rows, columns.start / 8), update_start(node.rows, columns.end / 8));
             let (update, others) = rest.split_at_mut(end - start);
             rest = others;
-            update.fill(0.0);
+            negative_product(update, node.rows, group, panel, node.ld, node.columns, node.columns);
             for child in self.plan.children(s) {
                 extend_update(node, group, update, start, child, left.update(child), self.plan.places(child));
             }
-            subtract_product(update, node.rows, group, panel, node.ld, node.columns, node.columns);
         }
     }
 }

@@ -72,7 +72,8 @@ pub(super) struct Task {
     pub region: Range<usize>,
 }
 
-/// The plan of a factorisation.
+/// The plan of a factorisation; the default is none.
+#[derive(Default)]
 pub(super) struct Plan {
     pub nodes: Vec<Node>,
     /// For each node its children.

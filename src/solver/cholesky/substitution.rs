@@ -52,8 +52,11 @@ unsafe fn forward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, 
     }
 }
 
+/// Subtracts columns times `x` from `y`.
+///
 /// # Safety
 /// `rows` scalars at `y`, a multiple of 8, and in each column can be read, those at `y` written.
+#[allow(clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn subtract_columns<V: Lanes, const N: usize>(
     y: *mut f64,
@@ -64,11 +67,14 @@ unsafe fn subtract_columns<V: Lanes, const N: usize>(
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        let x = x.map(|x| V::splat(x));
+        let mut factors = [V::splat(0.0); N];
+        for n in 0..N {
+            factors[n] = V::splat(x[n]);
+        }
         for i in (0..rows).step_by(V::COUNT) {
             let mut sum = V::load(y.add(i));
-            for (n, x) in x.iter().enumerate() {
-                sum = sum.minus_product(V::load(columns.add(n * ld + i)), *x);
+            for n in 0..N {
+                sum = sum.minus_product(V::load(columns.add(n * ld + i)), factors[n]);
             }
             sum.store(y.add(i));
         }
@@ -113,6 +119,7 @@ unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize,
 ///
 /// # Safety
 /// As [`subtract_columns`].
+#[allow(clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn minus_products<V: Lanes, const N: usize>(
     y: *const f64,
@@ -128,17 +135,20 @@ unsafe fn minus_products<V: Lanes, const N: usize>(
             for part in 0..parts {
                 let at = i + part * V::COUNT;
                 let y = V::load(y.add(at));
-                for (n, sum) in sums.iter_mut().enumerate() {
-                    sum[part] = sum[part].minus_product(V::load(columns.add(n * ld + at)), y);
+                for n in 0..N {
+                    sums[n][part] = sums[n][part].minus_product(V::load(columns.add(n * ld + at)), y);
                 }
             }
         }
-        sums.map(|sum| {
+        let mut totals = [0.0; N];
+        for n in 0..N {
             let mut lanes = [0.0; TILE];
-            for (part, sum) in sum.into_iter().enumerate().take(parts) {
-                sum.store(lanes.as_mut_ptr().add(part * V::COUNT));
+            for part in 0..parts {
+                sums[n][part].store(lanes.as_mut_ptr().add(part * V::COUNT));
             }
-            ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
-        })
+            totals[n] =
+                ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
+        }
+        totals
     }
 }

@@ -9,9 +9,9 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// What a front costs, in nanoseconds of one processor. Where one front costs less than two, they become one.
 fn cost(columns: usize, rows: usize) -> f64 {
-    const FRONT: f64 = 800.0;
-    const SCALAR: f64 = 1.6;
-    const UPDATE: f64 = 1.2;
+    const FRONT: f64 = 400.0;
+    const SCALAR: f64 = 4.0;
+    const UPDATE: f64 = 1.5;
     const PRODUCT: f64 = 0.04;
     let (k, r) = (3.0 * columns as f64, 3.0 * rows as f64);
     FRONT + SCALAR * k * (k + r) + UPDATE * r * r / 2.0 + PRODUCT * products(columns, rows)
