@@ -1,4 +1,6 @@
 //! The sparse factorisation against a dense one, and against another library's.
+// Loops over indices, as the formulas have them.
+#![allow(clippy::needless_range_loop)]
 
 use bespoke::control::Cancel;
 use bespoke::error::ErrorKind;
@@ -263,7 +265,8 @@ fn a_request_to_stop_ends_it() {
     let pattern = sheet(20, 20, 0, &mut random);
     let matrix = values(&pattern, 0.1, &mut random);
     let cancel = Cancel::new();
-    let mut factor = Factor::analyse(&pattern).unwrap().watching(cancel.clone());
+    let mut factor = Factor::analyse(&pattern).unwrap();
+    factor.watch(cancel.clone());
     assert!(factor.factorise(&pattern, &matrix));
     cancel.request();
     assert!(!factor.factorise(&pattern, &matrix));

@@ -296,8 +296,8 @@ unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) ->
         let root = pivot.sqrt();
         let inverse = 1.0 / root;
         tile[n][n] = root;
-        for q in n + 1..TILE {
-            tile[n][q] *= inverse;
+        for entry in &mut tile[n][n + 1..] {
+            *entry *= inverse;
         }
         for m in n + 1..width {
             for q in m..TILE {

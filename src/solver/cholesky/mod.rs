@@ -88,10 +88,9 @@ impl Factor {
         Ok(())
     }
 
-    /// The same factor, of which a factorisation ends between two fronts once `cancel` is set.
-    pub fn watching(mut self, cancel: Cancel) -> Self {
+    /// From now on a factorisation ends between two fronts once `cancel` is set.
+    pub fn watch(&mut self, cancel: Cancel) {
         self.cancel = cancel;
-        self
     }
 
     /// Factorises the matrix with the given values (lower triangle, in the order of `pattern`, which is the one that was

@@ -14,6 +14,8 @@ use crate::solver::pattern::Pattern;
 
 /// Fewest products that are worth asking whether another thread has time.
 const SHARE: usize = 250_000;
+/// The same for scalars that are gathered.
+const SHARE_OF_COPIES: usize = 16_000;
 
 /// One factorisation on its way.
 pub(super) struct Factorisation<'a> {
@@ -91,11 +93,8 @@ impl Factorisation<'_> {
     fn front(&self, s: usize, panel: &mut [f64], region: &mut [f64]) -> bool {
         let node = &self.plan.nodes[s];
         let (left, update) = divided(node, region);
-        panel.fill(0.0);
+        self.gather(s, left, 0..node.columns, panel);
         self.scatter(s, panel);
-        for child in self.plan.children(s) {
-            extend_panel(node, panel, child, left.update(child), self.plan.places(child));
-        }
         if !factorise_panel(node, panel) {
             return false;
         }
@@ -104,7 +103,29 @@ impl Factorisation<'_> {
         true
     }
 
-    /// The matrix's own entries.
+    /// Sets columns `columns` of the panel, which are `to`, to what the children left for them.
+    fn gather(&self, s: usize, left: Left<'_>, columns: Range<usize>, to: &mut [f64]) {
+        let node = &self.plan.nodes[s];
+        if columns.len() > GROUP && to.len() > SHARE_OF_COPIES {
+            let middle = columns.start + columns.len() / 6 * 3;
+            let (first, second) = to.split_at_mut((middle - columns.start) * node.ld);
+            rayon::join(
+                || self.gather(s, left, columns.start..middle, first),
+                || self.gather(s, left, middle..columns.end, second),
+            );
+            return;
+        }
+        to.fill(0.0);
+        for child in self.plan.children(s) {
+            let places = self.plan.places(child);
+            extend(child, left.update(child), places, columns.clone(), to, |column| {
+                let start = (column - columns.start) * node.ld;
+                start + column..start + node.ld
+            });
+        }
+    }
+
+    /// Adds the matrix's own entries.
     fn scatter(&self, s: usize, panel: &mut [f64]) {
         let node = &self.plan.nodes[s];
         let (ld, col_ptr) = (node.ld, self.pattern.col_ptr());
@@ -112,7 +133,7 @@ impl Factorisation<'_> {
             let v = self.plan.vertex_at[node.first / 3 + k];
             for (c, from) in self.pattern.diagonal(v).into_iter().enumerate() {
                 let to = (3 * k + c) * (ld + 1);
-                panel[to..to + 3 - c].copy_from_slice(&self.matrix[from..from + 3 - c]);
+                add(&mut panel[to..to + 3 - c], &self.matrix[from..from + 3 - c]);
             }
         }
         for block in self.plan.blocks(s) {
@@ -122,10 +143,10 @@ impl Factorisation<'_> {
                 let column = &self.matrix[from..from + 3];
                 if block.transposed {
                     for (r, value) in column.iter().enumerate() {
-                        panel[target + r * ld + c] = *value;
+                        panel[target + r * ld + c] += value;
                     }
                 } else {
-                    panel[target + c * ld..][..3].copy_from_slice(column);
+                    add(&mut panel[target + c * ld..][..3], column);
                 }
             }
         }
@@ -152,8 +173,13 @@ impl Factorisation<'_> {
             let (update, others) = rest.split_at_mut(end - start);
             rest = others;
             negative_product(update, node.rows, group, panel, node.ld, node.columns, node.columns);
+            let own = node.columns + columns.start..node.columns + columns.end.min(node.rows);
             for child in self.plan.children(s) {
-                extend_update(node, group, update, start, child, left.update(child), self.plan.places(child));
+                let places = self.plan.places(child);
+                extend(child, left.update(child), places, own.clone(), update, |column| {
+                    let diagonal = update_diagonal(node.rows, column - node.columns) - start;
+                    diagonal..diagonal + node.columns + node.rows - column
+                });
             }
         }
     }
@@ -203,52 +229,37 @@ pub(super) fn divided<'a>(node: &Node, region: &'a mut [f64]) -> (Left<'a>, &'a 
     }
 }
 
-/// Adds column `j` of an update matrix, from its diagonal down, to the column that `to` returns rows of.
 #[inline(always)]
-fn add_column(from: &[f64], j: usize, places: &[u32], above: usize, to: &mut [f64]) {
-    let b = j / 3;
-    let (top, below) = from.split_at(3 - j % 3);
-    let row = 3 * places[b] as usize + j % 3 - above;
-    for (to, value) in to[row..].iter_mut().zip(top) {
+fn add(to: &mut [f64], values: &[f64]) {
+    for (to, value) in to.iter_mut().zip(values) {
         *to += value;
     }
-    for (place, value) in places[b + 1..].iter().zip(below.as_chunks::<3>().0) {
-        let row = 3 * *place as usize - above;
-        let to = &mut to[row..row + 3];
-        to[0] += value[0];
-        to[1] += value[1];
-        to[2] += value[2];
-    }
 }
 
-/// Adds the columns of a child's update matrix that belong to the panel of `node`.
-fn extend_panel(node: &Node, panel: &mut [f64], child: &Node, update: &[f64], places: &[u32]) {
-    let own = places.partition_point(|&place| 3 * (place as usize) < node.columns);
-    for j in 0..3 * own {
-        let column = 3 * places[j / 3] as usize + j % 3;
-        let from = &update[update_diagonal(child.rows, j)..][..child.rows - j];
-        add_column(from, j, places, 0, &mut panel[column * node.ld..][..node.ld]);
-    }
-}
-
-/// Adds those that belong to a group of the update matrix of `node`, whose scalars begin at `start`.
-fn extend_update(
-    node: &Node,
-    group: usize,
-    to: &mut [f64],
-    start: usize,
+/// Adds to `to` those columns of a child's update matrix that are among `columns` of the front. `column_at` says where in
+/// `to` a column of the front is, from its diagonal down.
+#[inline(always)]
+fn extend(
     child: &Node,
     update: &[f64],
     places: &[u32],
+    columns: Range<usize>,
+    to: &mut [f64],
+    column_at: impl Fn(usize) -> Range<usize>,
 ) {
-    let begin = node.columns + group * GROUP;
-    let first = places.partition_point(|&place| 3 * (place as usize) < begin);
-    let count = places[first..].partition_point(|&place| 3 * (place as usize) < begin + GROUP);
-    for j in 3 * first..3 * (first + count) {
-        let column = 3 * places[j / 3] as usize + j % 3 - node.columns;
-        let from = &update[update_diagonal(child.rows, j)..][..child.rows - j];
-        let diagonal = update_diagonal(node.rows, column) - start;
-        add_column(from, j, places, node.columns + column, &mut to[diagonal..][..node.rows - column]);
+    let first = places.partition_point(|&place| 3 * (place as usize) < columns.start);
+    let count = places[first..].partition_point(|&place| 3 * (place as usize) < columns.end);
+    for (k, &place) in places[first..first + count].iter().enumerate() {
+        for c in 0..3 {
+            let (j, column) = (3 * (first + k) + c, 3 * place as usize + c);
+            let from = &update[update_diagonal(child.rows, j)..][..child.rows - j];
+            let (own, below) = from.split_at(3 - c);
+            let to = &mut to[column_at(column)];
+            add(&mut to[..3 - c], own);
+            for (place, value) in places[first + k + 1..].iter().zip(below.as_chunks::<3>().0) {
+                add(&mut to[3 * *place as usize - column..][..3], value);
+            }
+        }
     }
 }
 

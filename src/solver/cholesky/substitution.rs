@@ -33,11 +33,11 @@ unsafe fn forward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, 
             let corner = panel.add(j * ld + j);
             let top = vector.add(j);
             let mut x = [0.0; TILE];
-            for n in 0..width {
-                x[n] = *top.add(n) / *corner.add(n * ld + n);
-                *top.add(n) = x[n];
+            for (n, x) in x.iter_mut().enumerate().take(width) {
+                *x = *top.add(n) / *corner.add(n * ld + n);
+                *top.add(n) = *x;
                 for q in n + 1..TILE {
-                    *top.add(q) = V::scalar_minus_product(*top.add(q), *corner.add(n * ld + q), x[n]);
+                    *top.add(q) = V::scalar_minus_product(*top.add(q), *corner.add(n * ld + q), *x);
                 }
             }
             let (below, rows) = (corner.add(TILE), ld - j - TILE);

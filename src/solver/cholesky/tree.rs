@@ -45,8 +45,8 @@ pub(super) struct Supernodes {
 
 /// Fewest products of a part of the tree that is worth a thread, and the largest share of all the products where that is
 /// more: beyond so many parts the tree is not cut further.
-const PART: f64 = 1e6;
-const PART_SHARE: f64 = 1.0 / 64.0;
+const PART: f64 = 5e5;
+const PART_SHARE: f64 = 1.0 / 128.0;
 
 /// Columns that are eliminated together while supernodes are being merged, as a linked list of ranges.
 struct Draft {
