@@ -155,21 +155,41 @@ fn sheet(width: u32, height: u32, chords: usize, random: &mut Random) -> Pattern
     pattern((width * height) as usize, pairs)
 }
 
-#[test]
-fn a_garment_of_real_size_agrees_with_another_library() {
-    let mut random = Random::new(13);
-    let pattern = sheet(60, 45, 30, &mut random);
+fn agrees_with_another_library(pattern: &Pattern, random: &mut Random) {
     let n = 3 * pattern.vertex_count();
-    let matrix = values(&pattern, 1e-3, &mut random);
+    let matrix = values(pattern, 1e-3, random);
     let mut found: Vec<f64> = (0..2 * n).map(|_| random.signed()).collect();
     let mut wanted = found.clone();
-    let mut factor = Factor::analyse(&pattern).unwrap();
-    assert!(factor.factorise(&pattern, &matrix));
+    let mut factor = Factor::analyse(pattern).unwrap();
+    assert!(factor.factorise(pattern, &matrix));
     factor.solve(&mut found, 2);
     let symbolic = SymbolicSparseColMatRef::new_checked(n, n, pattern.col_ptr(), None, pattern.row_idx());
     let other = SparseColMatRef::new(symbolic, &matrix).sp_cholesky(Side::Lower).unwrap();
     other.solve_in_place(MatMut::from_column_major_slice_mut(&mut wanted, n, 2));
     close(&found, &wanted, 1e-9);
+}
+
+#[test]
+fn garments_of_real_size_agree_with_another_library() {
+    // Trees of many shapes, cut into parts for several threads in many ways.
+    let mut random = Random::new(13);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+    pool.install(|| {
+        for _ in 0..16 {
+            let mut size = || 10 + (random.unit() * 65.0) as u32;
+            let (width, height) = (size(), size());
+            let chords = (random.unit() * random.unit() * 100.0) as usize;
+            let pattern = sheet(width, height, chords, &mut random);
+            agrees_with_another_library(&pattern, &mut random);
+        }
+        // Pieces that do not know of each other.
+        let pieces = (0..12).flat_map(|k| {
+            let (first, width) = (1000 * k, 10 + k);
+            (0..1000).flat_map(move |v| [1, width, width + 1].map(move |step| (first + v, first + v + step)))
+        });
+        let apart = pieces.filter(|(a, b)| a / 1000 == b / 1000);
+        agrees_with_another_library(&pattern(12_000, apart), &mut random);
+    });
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::kernel::{GROUP, Panel, STEP, negative_product, padded, update_diagonal, update_len, update_start};
-use super::plan::{Node, Plan};
+use super::plan::{Node, Plan, Task};
 use crate::control::Cancel;
 use crate::solver::pattern::Pattern;
 
@@ -68,8 +68,7 @@ impl Factorisation<'_> {
         if !task.before.is_empty() {
             rayon::scope(|scope| {
                 let (mut values, mut at) = (&mut *values, first_value);
-                let parts = Parts::new(&mut *work, task.region.clone());
-                for (&b, work) in task.before.iter().zip(parts.cut(self.plan, &task.before)) {
+                for (&b, work) in task.before.iter().zip(parts(self.plan, task, work)) {
                     let len = self.plan.panels(&self.plan.tasks[b]).end - at;
                     let (part, rest) = std::mem::take(&mut values).split_at_mut(len);
                     (values, at) = (rest, at + len);
@@ -185,36 +184,24 @@ impl Factorisation<'_> {
     }
 }
 
-/// The work space of a task, which those before it have shares of.
-pub(super) struct Parts<'a> {
-    work: &'a mut [f64],
-    region: Range<usize>,
-}
-
-impl<'a> Parts<'a> {
-    pub(super) fn new(work: &'a mut [f64], region: Range<usize>) -> Self {
-        Self { work, region }
-    }
-
-    /// The regions of `tasks`, which follow one another up or down.
-    pub(super) fn cut(mut self, plan: &Plan, tasks: &[usize]) -> Vec<&'a mut [f64]> {
-        tasks
-            .iter()
-            .map(|&t| {
-                let wanted = plan.tasks[t].region.clone();
-                let work = std::mem::take(&mut self.work);
-                if wanted.start == self.region.start {
-                    let (part, rest) = work.split_at_mut(wanted.len());
-                    (self.work, self.region.start) = (rest, wanted.end);
-                    part
-                } else {
-                    let (rest, part) = work.split_at_mut(wanted.start - self.region.start);
-                    (self.work, self.region.end) = (rest, wanted.start);
-                    part
-                }
-            })
-            .collect()
-    }
+/// Cuts `work`, the work space of `task`, into the regions of those before it. They follow one another up or down, and
+/// need not fill it: they belong to the first of the task's nodes, it to the last.
+pub(super) fn parts<'a>(plan: &Plan, task: &Task, mut work: &'a mut [f64]) -> Vec<&'a mut [f64]> {
+    let regions = || task.before.iter().map(|&t| plan.tasks[t].region.clone());
+    let up = regions().is_sorted_by_key(|region| region.start);
+    let mut start = task.region.start;
+    regions()
+        .map(|region| {
+            let (below, rest) = std::mem::take(&mut work).split_at_mut(region.start - start);
+            let (part, above) = rest.split_at_mut(region.len());
+            if up {
+                (work, start) = (above, region.end);
+            } else {
+                work = below;
+            }
+            part
+        })
+        .collect()
 }
 
 /// What the children left in the region of `node`, and the place for its own update matrix.

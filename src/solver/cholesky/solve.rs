@@ -5,7 +5,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::numeric::{Parts, divided};
+use super::numeric::{divided, parts};
 use super::plan::Plan;
 use super::substitution;
 
@@ -42,8 +42,7 @@ impl Solve<'_> {
         let task = &self.plan.tasks[t];
         if !task.before.is_empty() {
             rayon::scope(|scope| {
-                let parts = Parts::new(&mut *work, task.region.clone());
-                for (&b, work) in task.before.iter().zip(parts.cut(self.plan, &task.before)) {
+                for (&b, work) in task.before.iter().zip(parts(self.plan, task, work)) {
                     scope.spawn(move |_| self.up(b, work));
                 }
             });
@@ -89,8 +88,7 @@ impl Solve<'_> {
         }
         if !task.before.is_empty() {
             rayon::scope(|scope| {
-                let parts = Parts::new(work, task.region.clone());
-                for (&b, work) in task.before.iter().zip(parts.cut(self.plan, &task.before)) {
+                for (&b, work) in task.before.iter().zip(parts(self.plan, task, work)) {
                     scope.spawn(move |_| self.down(b, work));
                 }
             });
