@@ -2,8 +2,8 @@
 //!
 //! A panel holds the columns of a supernode, one after the other: first the rows of the supernode itself, then those
 //! below, then zeros up to its leading dimension, a multiple of 8. Every entry is its first value minus the products of
-//! its row and its column, one after the other in the order of the columns, whatever the tiles are. So neither the number
-//! of threads nor the width of the processor's vectors changes a bit.
+//! its row and its column, one after the other in the order of the columns, whatever the tiles are. So neither the
+//! number of threads nor the width of the processor's vectors changes a bit.
 
 use std::ops::Range;
 
@@ -78,8 +78,8 @@ const SOLVE: u8 = 2;
 /// Subtracts `a b^T` from a tile of `S` vectors of rows and `N` columns, and what `MODE` says.
 ///
 /// # Safety
-/// The tile can be written in columns `ldc` apart; `a` and `b` can be read in `depth` columns `ld` apart, rows as in the
-/// tile and as many as its columns. The processor has the instructions.
+/// The tile can be written in columns `ldc` apart; `a` and `b` can be read in `depth` columns `ld` apart, rows as in
+/// the tile and as many as its columns. The processor has the instructions.
 #[allow(clippy::too_many_arguments, clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
@@ -225,8 +225,8 @@ impl Panel {
         Self { start: memory.as_mut_ptr(), ld }
     }
 
-    /// Finishes columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a multiple of 8, and the columns
-    /// before it are finished in these rows. False where a pivot is not positive and finite.
+    /// Finishes columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a multiple of 8, and the
+    /// columns before it are finished in these rows. False where a pivot is not positive and finite.
     ///
     /// # Safety
     /// The panel has these columns and rows, and nobody else uses these rows meanwhile.
@@ -240,8 +240,8 @@ impl Panel {
     /// [`Self::factorise_diagonal`] and where the columns before are finished.
     ///
     /// # Safety
-    /// The panel has these columns and rows, nobody else uses these rows meanwhile, and nobody writes those from `begin` to
-    /// `end`.
+    /// The panel has these columns and rows, nobody else uses these rows meanwhile, and nobody writes those from
+    /// `begin` to `end`.
     pub(super) unsafe fn finish_rows(self, begin: usize, end: usize, rows: Range<usize>) {
         let Self { start, ld } = self;
         let (top, count) = (rows.start, rows.len());
@@ -350,8 +350,8 @@ pub(super) fn negative_product(
     assert!(below + padded(rows) <= ld && depth * ld <= panel.len());
     let (c, a) = (update.as_mut_ptr(), panel[below + first..].as_ptr());
     let (left, width) = (padded(rows) - first, last - first);
-    // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of the
-    // panel are as many as those of the blocks.
+    // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of
+    // the panel are as many as those of the blocks.
     unsafe {
         for_this_processor!(product_group(
             c: *mut f64,

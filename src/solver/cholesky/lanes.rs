@@ -136,8 +136,8 @@ pub(super) mod x86 {
     lanes!(Eight, __m512d, 8, 3, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd, _mm512_mul_pd, _mm512_fnmadd_pd);
 }
 
-/// Calls a generic kernel, an unsafe function with a [`Lanes`] as its first parameter, in the version for this processor.
-/// The body is inlined there, so that it is compiled for its instructions.
+/// Calls a generic kernel, an unsafe function with a [`Lanes`] as its first parameter, in the version for this
+/// processor. The body is inlined there, so that it is compiled for its instructions.
 macro_rules! for_this_processor {
     ($kernel:ident($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)?) => {{
         #[cfg(target_arch = "x86_64")]

@@ -1,9 +1,9 @@
 //! Sparse Cholesky factorisation of the Hessian on all processors, and substitution with it.
 //!
 //! The order of elimination is computed once for a pattern, by approximate minimum degree on the vertices, and so is
-//! everything else that follows from the pattern: the elimination tree, its supernodes, who does what, and where in memory
-//! it lies. Numbers then go through dense fronts, three coordinates of a vertex at once, independent parts of the tree at
-//! the same time. The result has the same bits with any number of threads.
+//! everything else that follows from the pattern: the elimination tree, its supernodes, who does what, and where in
+//! memory it lies. Numbers then go through dense fronts, three coordinates of a vertex at once, independent parts of
+//! the tree at the same time. The result has the same bits with any number of threads.
 
 mod buffer;
 mod graph;
@@ -62,8 +62,8 @@ impl Factor {
         Ok(factor)
     }
 
-    /// Orders and analyses another pattern, in the memory of the one before, which `limit` does not count. The factor of the
-    /// last matrix is gone.
+    /// Orders and analyses another pattern, in the memory of the one before, which `limit` does not count. The factor
+    /// of the last matrix is gone.
     ///
     /// # Errors
     /// As [`Self::analyse_within`]; then there is nothing to factorise with.
@@ -93,8 +93,8 @@ impl Factor {
         self.cancel = cancel;
     }
 
-    /// Factorises the matrix with the given values (lower triangle, in the order of `pattern`, which is the one that was
-    /// analysed). Returns false where it is not numerically positive definite, and where it was cancelled.
+    /// Factorises the matrix with the given values (lower triangle, in the order of `pattern`, which is the one that
+    /// was analysed). Returns false where it is not numerically positive definite, and where it was cancelled.
     pub fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> bool {
         let Self { plan, cancel, .. } = self;
         Factorisation { plan, pattern, matrix: values, cancel, failed: AtomicBool::new(false) }

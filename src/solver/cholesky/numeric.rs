@@ -223,8 +223,8 @@ fn add(to: &mut [f64], values: &[f64]) {
     }
 }
 
-/// Adds to `to` those columns of a child's update matrix that are among `columns` of the front. `column_at` says where in
-/// `to` a column of the front is, from its diagonal down.
+/// Adds to `to` those columns of a child's update matrix that are among `columns` of the front. `column_at` says where
+/// in `to` a column of the front is, from its diagonal down.
 #[inline(always)]
 fn extend(
     child: &Node,
@@ -256,7 +256,8 @@ fn factorise_panel(node: &Node, memory: &mut [f64]) -> bool {
     let bottom = padded(node.columns + node.rows);
     for begin in (0..node.columns).step_by(STEP) {
         let end = node.columns.min(begin + STEP);
-        // SAFETY: the panel is borrowed by this function alone, and has `bottom` rows, which the leading dimension holds.
+        // SAFETY: the panel is borrowed by this function alone, and has `bottom` rows, which the leading dimension
+        // holds.
         if !unsafe { panel.factorise_diagonal(begin, end) } {
             return false;
         }
@@ -274,7 +275,7 @@ fn finish_rows(panel: Panel, begin: usize, end: usize, rows: Range<usize>) {
         );
         return;
     }
-    // SAFETY: the panel is borrowed by the caller's caller, and each part of the rows is looked at by one thread. The rows
-    // from `begin` to `end` are above all of them.
+    // SAFETY: the panel is borrowed by the caller's caller, and each part of the rows is looked at by one thread. The
+    // rows from `begin` to `end` are above all of them.
     unsafe { panel.finish_rows(begin, end, rows) };
 }

@@ -232,8 +232,8 @@ fn incidence(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>,
     (rows, places, blocks)
 }
 
-/// Gives each node its region and its update matrix. Returns the size of all and, for each node that forks, the region of
-/// its small children together.
+/// Gives each node its region and its update matrix. Returns the size of all and, for each node that forks, the region
+/// of its small children together.
 fn regions(tree: &Supernodes, nodes: &mut [Node]) -> (usize, Vec<Range<usize>>) {
     let count = nodes.len();
     // The update matrix also holds what the substitution leaves: two columns with the rows of the front.

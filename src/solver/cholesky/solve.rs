@@ -1,7 +1,7 @@
 //! Substitution: from the leaves of the tree to its root and back.
 //!
-//! On the way up a front's vector is kept where its update matrix was, for the parent to take what is below its columns.
-//! On the way down a front reads the solution of its ancestors, which are done.
+//! On the way up a front's vector is kept where its update matrix was, for the parent to take what is below its
+//! columns. On the way down a front reads the solution of its ancestors, which are done.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

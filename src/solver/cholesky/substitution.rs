@@ -22,8 +22,8 @@ pub(super) fn backward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f
 }
 
 /// # Safety
-/// The panel has `columns` columns of `ld` scalars, not fewer than there are columns and a multiple of 8; the vector has
-/// as many as a column. The processor has the instructions.
+/// The panel has `columns` columns of `ld` scalars, not fewer than there are columns and a multiple of 8; the vector
+/// has as many as a column. The processor has the instructions.
 #[inline(always)]
 unsafe fn forward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, vector: *mut f64) {
     for j in (0..columns).step_by(TILE) {

@@ -43,8 +43,8 @@ pub(super) struct Supernodes {
     pub forks: Vec<bool>,
 }
 
-/// Fewest products of a part of the tree that is worth a thread, and the largest share of all the products where that is
-/// more: beyond so many parts the tree is not cut further.
+/// Fewest products of a part of the tree that is worth a thread, and the largest share of all the products where that
+/// is more: beyond so many parts the tree is not cut further.
 const PART: f64 = 5e5;
 const PART_SHARE: f64 = 1.0 / 128.0;
 
@@ -175,8 +175,8 @@ fn column_counts(graph: &Graph, order: &[u32], position: &[u32], parent: &[u32])
     counts
 }
 
-/// Neighbouring columns with the same rows. Returns where each supernode begins, one more, and the supernodes, the root of
-/// all among them.
+/// Neighbouring columns with the same rows. Returns where each supernode begins, one more, and the supernodes, the root
+/// of all among them.
 fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Draft>) {
     let n = parent.len();
     let mut begins = Vec::new();
