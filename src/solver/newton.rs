@@ -142,6 +142,7 @@ impl Newton {
     /// The same solver, which ends with `Cancelled` at its next checkpoint once `cancel` is set.
     pub fn watching(mut self, cancel: Cancel) -> Self {
         self.system.watch(cancel.clone());
+        self.factor.watch(cancel.clone());
         self.cancel = cancel;
         self
     }
@@ -167,9 +168,8 @@ impl Newton {
         if !missing.is_empty() {
             let clock = Instant::now();
             self.pattern = self.pattern.extended(missing);
-            // The old factor stays until there is a new one.
-            let held = System::memory_for(&self.pattern) + self.factor.memory();
-            self.factor = Factor::analyse_within(self.limit.beside(held), &self.pattern)?;
+            let held = System::memory_for(&self.pattern);
+            self.factor.analyse_again(self.limit.beside(held), &self.pattern)?;
             self.cancel.check()?;
             self.counters.analyses += 1;
             self.counters.profile.analysis += clock.elapsed();
@@ -221,11 +221,11 @@ impl Newton {
                 }
             }
             added = shift;
-            self.cancel.check()?;
             self.counters.factorisations += 1;
             if self.factor.factorise(&self.pattern, &self.system.hessian) {
                 return Ok(());
             }
+            self.cancel.check()?;
             shift *= 100.0;
         }
         Err(Error::new(ErrorKind::Internal, "the Hessian could not be made positive definite"))

@@ -4,4 +4,5 @@
 mod support;
 
 mod assembly;
+mod cholesky;
 mod newton;

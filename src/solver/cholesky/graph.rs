@@ -1,0 +1,86 @@
+//! The garment's vertices and who shares an element with whom, and an order in which to eliminate them.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::amd;
+use faer::sparse::{FaerError, SymbolicSparseColMatRef};
+
+use crate::solver::pattern::Pattern;
+
+/// A vertex that another one shares an element with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Neighbour {
+    /// The vertex.
+    pub vertex: u32,
+    /// Which of the blocks below the diagonal theirs is, in the column of the smaller one of the two.
+    pub place: u32,
+}
+
+/// The pattern from both sides.
+pub(super) struct Graph {
+    start: Vec<u32>,
+    neighbours: Vec<Neighbour>,
+}
+
+impl Graph {
+    pub(super) fn new(pattern: &Pattern) -> Self {
+        let n = pattern.vertex_count();
+        let mut start = vec![0u32; n + 2];
+        for j in 0..n {
+            let column = pattern.column(j);
+            start[j + 2] += column.len() as u32;
+            for &i in column {
+                start[i as usize + 2] += 1;
+            }
+        }
+        for j in 2..n + 2 {
+            start[j] += start[j - 1];
+        }
+        let mut neighbours = vec![Neighbour { vertex: 0, place: 0 }; start[n + 1] as usize];
+        let mut put = |at: usize, vertex: u32, place: usize| {
+            neighbours[start[at + 1] as usize] = Neighbour { vertex, place: place as u32 };
+            start[at + 1] += 1;
+        };
+        for j in 0..n {
+            for (place, &i) in pattern.column(j).iter().enumerate() {
+                put(j, i, place);
+                put(i as usize, j as u32, place);
+            }
+        }
+        Self { start, neighbours }
+    }
+
+    /// Number of vertices.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.start.len() - 2
+    }
+
+    /// The neighbours of `vertex`.
+    #[inline]
+    pub(super) fn neighbours(&self, vertex: u32) -> &[Neighbour] {
+        let v = vertex as usize;
+        &self.neighbours[self.start[v] as usize..self.start[v + 1] as usize]
+    }
+}
+
+/// The vertices in an order of approximately minimum degree.
+pub(super) fn minimum_degree(pattern: &Pattern) -> Result<Vec<u32>, FaerError> {
+    let n = pattern.vertex_count();
+    let mut col_ptr = vec![0u32];
+    let mut rows = Vec::new();
+    for j in 0..n {
+        rows.push(j as u32);
+        rows.extend_from_slice(pattern.column(j));
+        col_ptr.push(rows.len() as u32);
+    }
+    let (mut order, mut inverse) = (vec![0u32; n], vec![0u32; n]);
+    let mut memory = MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<u32>(n, rows.len()))
+        .map_err(|_| FaerError::OutOfMemory)?;
+    amd::order_maybe_unsorted(
+        &mut order,
+        &mut inverse,
+        SymbolicSparseColMatRef::new_checked(n, n, &col_ptr, None, &rows),
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )?;
+    Ok(order)
+}

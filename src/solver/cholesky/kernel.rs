@@ -1,0 +1,384 @@
+//! Dense kernels on one front: its columns factorised, their product subtracted from what is left.
+//!
+//! A panel holds the columns of a supernode, one after the other: first the rows of the supernode itself, then those
+//! below, then zeros up to its leading dimension, a multiple of 8. Every entry is its first value minus the products of
+//! its row and its column, one after the other in the order of the columns, whatever the tiles are. So neither the
+//! number of threads nor the width of the processor's vectors changes a bit.
+
+use std::ops::Range;
+
+use super::lanes::{Lanes, for_this_processor};
+
+/// Rows and columns of a tile, and what leading dimensions are multiples of.
+pub(super) const TILE: usize = 8;
+/// Columns of a panel that are finished before the rows below them are looked at.
+pub(super) const STEP: usize = 6 * TILE;
+/// Columns of an update matrix that are treated together: whole tiles and whole vertices.
+pub(super) const GROUP: usize = 3 * TILE;
+
+/// `n`, rounded up to whole tiles.
+pub(super) const fn padded(n: usize) -> usize {
+    n.next_multiple_of(TILE)
+}
+
+/// Scalars of the lower triangle of an update matrix with `rows` rows. It is kept in blocks of eight columns, each from
+/// the row of its first diagonal entry down.
+pub(super) const fn update_len(rows: usize) -> usize {
+    update_start(rows, padded(rows) / TILE)
+}
+
+/// Where block `block` of eight columns begins.
+pub(super) const fn update_start(rows: usize, block: usize) -> usize {
+    let rows = padded(rows);
+    TILE * block * rows - TILE * TILE * block * block.saturating_sub(1) / 2
+}
+
+/// Where the diagonal entry of `column` is in an update matrix with `rows` rows; those below it follow.
+#[inline]
+pub(super) const fn update_diagonal(rows: usize, column: usize) -> usize {
+    let (block, k) = (column / TILE, column % TILE);
+    update_start(rows, block) + k * (padded(rows) - TILE * block) + k
+}
+
+/// A factorised diagonal tile.
+#[derive(Clone, Copy)]
+struct Triangle {
+    /// `lower[n][q]` is the entry in row `q` and column `n`.
+    lower: [[f64; TILE]; TILE],
+    /// Reciprocals of the diagonal.
+    inverse: [f64; TILE],
+}
+
+impl Triangle {
+    const ZERO: Self = Self { lower: [[0.0; TILE]; TILE], inverse: [0.0; TILE] };
+
+    /// # Safety
+    /// `width` columns of `width` scalars, `ld` apart, can be read at `from`.
+    #[inline(always)]
+    unsafe fn read(from: *const f64, ld: usize, width: usize) -> Self {
+        let mut triangle = Self::ZERO;
+        for n in 0..width {
+            for q in n..width {
+                // SAFETY: the caller's promise.
+                triangle.lower[n][q] = unsafe { *from.add(n * ld + q) };
+            }
+            triangle.inverse[n] = 1.0 / triangle.lower[n][n];
+        }
+        triangle
+    }
+}
+
+/// What a tile is before products are subtracted, and what becomes of it afterwards.
+const KEEP: u8 = 0;
+/// Its entries count as zero at first.
+const ZERO: u8 = 1;
+/// It is solved with the triangle, from the right.
+const SOLVE: u8 = 2;
+
+/// Subtracts `a b^T` from a tile of `S` vectors of rows and `N` columns, and what `MODE` says.
+///
+/// # Safety
+/// The tile can be written in columns `ldc` apart; `a` and `b` can be read in `depth` columns `ld` apart, rows as in
+/// the tile and as many as its columns. The processor has the instructions.
+#[allow(clippy::too_many_arguments, clippy::needless_range_loop)]
+#[inline(always)]
+unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
+    c: *mut f64,
+    ldc: usize,
+    a: *const f64,
+    b: *const f64,
+    ld: usize,
+    depth: usize,
+    triangle: &Triangle,
+) {
+    // SAFETY: the caller's promise. (Loops, not closures: these would be compiled for the plain processor.)
+    unsafe {
+        let mut sums = [[V::splat(0.0); S]; N];
+        if MODE != ZERO {
+            for n in 0..N {
+                for s in 0..S {
+                    sums[n][s] = V::load(c.add(n * ldc + s * V::COUNT));
+                }
+            }
+        }
+        for p in 0..depth {
+            let (a, b) = (a.add(p * ld), b.add(p * ld));
+            let mut rows = [V::splat(0.0); S];
+            for s in 0..S {
+                rows[s] = V::load(a.add(s * V::COUNT));
+            }
+            for n in 0..N {
+                let column = V::splat(*b.add(n));
+                for s in 0..S {
+                    sums[n][s] = sums[n][s].minus_product(rows[s], column);
+                }
+            }
+        }
+        if MODE == SOLVE {
+            for n in 0..N {
+                let inverse = V::splat(triangle.inverse[n]);
+                for s in 0..S {
+                    sums[n][s] = sums[n][s].times(inverse);
+                }
+                for q in n + 1..N {
+                    let entry = V::splat(triangle.lower[n][q]);
+                    for s in 0..S {
+                        sums[q][s] = sums[q][s].minus_product(sums[n][s], entry);
+                    }
+                }
+            }
+        }
+        for n in 0..N {
+            for s in 0..S {
+                sums[n][s].store(c.add(n * ldc + s * V::COUNT));
+            }
+        }
+    }
+}
+
+/// [`tile`] for as many `rows`, a multiple of 8, one strip below the other.
+///
+/// # Safety
+/// As there.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
+    c: *mut f64,
+    ldc: usize,
+    a: *const f64,
+    b: *const f64,
+    ld: usize,
+    depth: usize,
+    triangle: &Triangle,
+    rows: usize,
+) {
+    let mut i = 0;
+    while i < rows {
+        // SAFETY: the caller's promise; a strip ends within the rows.
+        unsafe {
+            let (c, a) = (c.add(i), a.add(i));
+            match ((rows - i) / V::COUNT).min(V::STRIPS) {
+                0 | 1 => {
+                    tile::<V, 1, N, MODE>(c, ldc, a, b, ld, depth, triangle);
+                    i += V::COUNT;
+                }
+                2 => {
+                    tile::<V, 2, N, MODE>(c, ldc, a, b, ld, depth, triangle);
+                    i += 2 * V::COUNT;
+                }
+                _ => {
+                    tile::<V, 3, N, MODE>(c, ldc, a, b, ld, depth, triangle);
+                    i += 3 * V::COUNT;
+                }
+            }
+        }
+    }
+}
+
+/// [`strips`] with `width` columns, 1 to 8.
+///
+/// # Safety
+/// As there.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+unsafe fn columns<V: Lanes, const MODE: u8>(
+    width: usize,
+    c: *mut f64,
+    ldc: usize,
+    a: *const f64,
+    b: *const f64,
+    ld: usize,
+    depth: usize,
+    triangle: &Triangle,
+    rows: usize,
+) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        match width {
+            1 => strips::<V, 1, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            2 => strips::<V, 2, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            3 => strips::<V, 3, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            4 => strips::<V, 4, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            5 => strips::<V, 5, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            6 => strips::<V, 6, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            7 => strips::<V, 7, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+            _ => strips::<V, 8, MODE>(c, ldc, a, b, ld, depth, triangle, rows),
+        }
+    }
+}
+
+/// The columns of one front in memory. A copy of it names the same memory.
+#[derive(Clone, Copy)]
+pub(super) struct Panel {
+    start: *mut f64,
+    ld: usize,
+}
+
+// SAFETY: it is an address; whoever reads or writes there promises that nobody else interferes.
+unsafe impl Send for Panel {}
+// SAFETY: as above.
+unsafe impl Sync for Panel {}
+
+impl Panel {
+    /// The panel in `memory`, whole columns of `ld` scalars.
+    pub(super) fn new(memory: &mut [f64], ld: usize) -> Self {
+        Self { start: memory.as_mut_ptr(), ld }
+    }
+
+    /// Finishes columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a multiple of 8, and the
+    /// columns before it are finished in these rows. False where a pivot is not positive and finite.
+    ///
+    /// # Safety
+    /// The panel has these columns and rows, and nobody else uses these rows meanwhile.
+    pub(super) unsafe fn factorise_diagonal(self, begin: usize, end: usize) -> bool {
+        let Self { start, ld } = self;
+        // SAFETY: the caller's promise.
+        unsafe { for_this_processor!(factorise_diagonal(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool) }
+    }
+
+    /// Finishes columns `begin..end`, at most [`STEP`], in `rows`, whole tiles of rows below `padded(end)`, after
+    /// [`Self::factorise_diagonal`] and where the columns before are finished.
+    ///
+    /// # Safety
+    /// The panel has these columns and rows, nobody else uses these rows meanwhile, and nobody writes those from
+    /// `begin` to `end`.
+    pub(super) unsafe fn finish_rows(self, begin: usize, end: usize, rows: Range<usize>) {
+        let Self { start, ld } = self;
+        let (top, count) = (rows.start, rows.len());
+        // SAFETY: the caller's promise.
+        unsafe {
+            for_this_processor!(finish_rows(
+                start: *mut f64,
+                ld: usize,
+                begin: usize,
+                end: usize,
+                top: usize,
+                count: usize
+            ))
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool {
+    let bottom = padded(end);
+    for j in (begin..end).step_by(TILE) {
+        let width = TILE.min(end - j);
+        // SAFETY: the tile's rows and columns are within the panel, and so are those before and above it.
+        unsafe {
+            let rows = start.add(j);
+            let corner = rows.add(j * ld);
+            columns::<V, KEEP>(width, corner, ld, rows, rows, ld, j, &Triangle::ZERO, TILE);
+            if !factorise_tile::<V>(corner, ld, width) {
+                return false;
+            }
+            let triangle = Triangle::read(corner, ld, width);
+            let below = j + TILE;
+            columns::<V, SOLVE>(width, corner.add(TILE), ld, start.add(below), rows, ld, j, &triangle, bottom - below);
+        }
+    }
+    true
+}
+
+/// The tile on the diagonal, one scalar after the other, and what is left of its rows where it has fewer columns.
+#[inline(always)]
+unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) -> bool {
+    let mut tile = [[0.0; TILE]; TILE];
+    for (n, column) in tile.iter_mut().enumerate().take(width) {
+        // SAFETY: the caller's promise.
+        *column = unsafe { corner.add(n * ld).cast::<[f64; TILE]>().read() };
+    }
+    for n in 0..width {
+        let pivot = tile[n][n];
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        let root = pivot.sqrt();
+        let inverse = 1.0 / root;
+        tile[n][n] = root;
+        for entry in &mut tile[n][n + 1..] {
+            *entry *= inverse;
+        }
+        for m in n + 1..width {
+            for q in m..TILE {
+                tile[m][q] = V::scalar_minus_product(tile[m][q], tile[n][q], tile[n][m]);
+            }
+        }
+    }
+    for (n, column) in tile.iter().enumerate().take(width) {
+        // SAFETY: the caller's promise.
+        unsafe { corner.add(n * ld).cast::<[f64; TILE]>().write(*column) };
+    }
+    true
+}
+
+#[inline(always)]
+unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: usize, top: usize, count: usize) {
+    let mut triangles = [Triangle::ZERO; STEP / TILE];
+    for (k, triangle) in triangles.iter_mut().enumerate().take((end - begin).div_ceil(TILE)) {
+        let j = begin + k * TILE;
+        // SAFETY: the tile is on the diagonal of the panel.
+        *triangle = unsafe { Triangle::read(start.add(j * ld + j), ld, TILE.min(end - j)) };
+    }
+    // A strip stays in the first cache while all the columns pass.
+    for i in (top..top + count).step_by(GROUP) {
+        let rows = GROUP.min(top + count - i);
+        for (triangle, j) in triangles.iter().zip((begin..end).step_by(TILE)) {
+            // SAFETY: these rows and columns are within the panel.
+            unsafe {
+                let (a, b) = (start.add(i), start.add(j));
+                columns::<V, SOLVE>(TILE.min(end - j), a.add(j * ld), ld, a, b, ld, j, triangle, rows);
+            }
+        }
+    }
+}
+
+/// Sets group `group` of an update matrix to the product of a finished panel, negative: `depth` columns, of which the
+/// rows from `below` on are those of the update matrix, `rows` of them.
+pub(super) fn negative_product(
+    update: &mut [f64],
+    rows: usize,
+    group: usize,
+    panel: &[f64],
+    ld: usize,
+    below: usize,
+    depth: usize,
+) {
+    let first = group * GROUP;
+    let last = (first + GROUP).min(padded(rows));
+    assert!(first < last && update.len() == update_start(rows, last / TILE) - update_start(rows, first / TILE));
+    assert!(below + padded(rows) <= ld && depth * ld <= panel.len());
+    let (c, a) = (update.as_mut_ptr(), panel[below + first..].as_ptr());
+    let (left, width) = (padded(rows) - first, last - first);
+    // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of
+    // the panel are as many as those of the blocks.
+    unsafe {
+        for_this_processor!(product_group(
+            c: *mut f64,
+            left: usize,
+            width: usize,
+            a: *const f64,
+            ld: usize,
+            depth: usize
+        ))
+    }
+}
+
+#[inline(always)]
+unsafe fn product_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *const f64, ld: usize, depth: usize) {
+    for i in (0..rows).step_by(GROUP) {
+        let bottom = rows.min(i + GROUP);
+        let mut block = c;
+        for j in (0..width).step_by(TILE) {
+            let top = i.max(j);
+            // SAFETY: a block has the rows from its own first column down, and follows the block before.
+            unsafe {
+                if top < bottom {
+                    let (c, ldc) = (block.add(top - j), rows - j);
+                    strips::<V, TILE, ZERO>(c, ldc, a.add(top), a.add(j), ld, depth, &Triangle::ZERO, bottom - top);
+                }
+                block = block.add(TILE * (rows - j));
+            }
+        }
+    }
+}

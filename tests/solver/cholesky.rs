@@ -1,0 +1,293 @@
+//! The sparse factorisation against a dense one, and against another library's.
+// Loops over indices, as the formulas have them.
+#![allow(clippy::needless_range_loop)]
+
+use bespoke::control::Cancel;
+use bespoke::error::ErrorKind;
+use bespoke::memory::MemoryLimit;
+use bespoke::solver::cholesky::Factor;
+use bespoke::solver::pattern::{PairCollector, Pattern};
+use faer::prelude::Solve;
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{MatMut, Side};
+
+use super::support::Random;
+
+fn pattern(vertex_count: usize, pairs: impl IntoIterator<Item = (u32, u32)>) -> Pattern {
+    let mut collected = PairCollector::default();
+    for (a, b) in pairs {
+        collected.add(a, b);
+    }
+    Pattern::new(vertex_count, collected)
+}
+
+/// Random values off the diagonal, and diagonals that make the matrix positive definite by far or hardly.
+fn values(pattern: &Pattern, margin: f64, random: &mut Random) -> Vec<f64> {
+    let n = 3 * pattern.vertex_count();
+    let mut sums = vec![0.0_f64; n];
+    let mut out: Vec<f64> = (0..pattern.value_count()).map(|_| random.signed()).collect();
+    let entries = |j: usize| pattern.col_ptr()[j] as usize + 1..pattern.col_ptr()[j + 1] as usize;
+    for j in 0..n {
+        for p in entries(j) {
+            sums[j] += out[p].abs();
+            sums[pattern.row_idx()[p] as usize] += out[p].abs();
+        }
+    }
+    for (j, sum) in sums.iter().enumerate() {
+        out[pattern.col_ptr()[j] as usize] = sum + margin * (1.0 + random.unit());
+    }
+    out
+}
+
+/// Rows of the whole matrix.
+fn dense(pattern: &Pattern, values: &[f64]) -> Vec<Vec<f64>> {
+    let n = 3 * pattern.vertex_count();
+    let mut out = vec![vec![0.0; n]; n];
+    for j in 0..n {
+        for p in pattern.col_ptr()[j] as usize..pattern.col_ptr()[j + 1] as usize {
+            let i = pattern.row_idx()[p] as usize;
+            out[i][j] = values[p];
+            out[j][i] = values[p];
+        }
+    }
+    out
+}
+
+/// Cholesky as in the book.
+fn dense_solve(mut a: Vec<Vec<f64>>, b: &mut [f64]) {
+    let n = b.len();
+    for j in 0..n {
+        for k in 0..j {
+            for i in j..n {
+                a[i][j] -= a[i][k] * a[j][k];
+            }
+        }
+        assert!(a[j][j] > 0.0);
+        a[j][j] = a[j][j].sqrt();
+        for i in j + 1..n {
+            a[i][j] /= a[j][j];
+        }
+    }
+    for i in 0..n {
+        for k in 0..i {
+            b[i] -= a[i][k] * b[k];
+        }
+        b[i] /= a[i][i];
+    }
+    for i in (0..n).rev() {
+        for k in i + 1..n {
+            b[i] -= a[k][i] * b[k];
+        }
+        b[i] /= a[i][i];
+    }
+}
+
+fn close(found: &[f64], wanted: &[f64], tolerance: f64) {
+    let scale = wanted.iter().fold(1e-300_f64, |m, x| m.max(x.abs()));
+    for (k, (a, b)) in found.iter().zip(wanted).enumerate() {
+        assert!((a - b).abs() <= tolerance * scale, "row {k}: {a} and {b}");
+    }
+}
+
+fn agrees_with_dense(pattern: &Pattern, random: &mut Random) {
+    let n = 3 * pattern.vertex_count();
+    let matrix = values(pattern, 0.1, random);
+    let mut factor = Factor::analyse(pattern).unwrap();
+    assert!(factor.factorise(pattern, &matrix));
+    for columns in 1..=3 {
+        let mut found: Vec<f64> = (0..columns * n).map(|_| random.signed()).collect();
+        let mut wanted = found.clone();
+        factor.solve(&mut found, columns);
+        for column in wanted.chunks_mut(n.max(1)) {
+            dense_solve(dense(pattern, &matrix), column);
+        }
+        close(&found, &wanted, 1e-11);
+    }
+}
+
+#[test]
+fn random_systems_agree_with_dense_algebra() {
+    let mut random = Random::new(11);
+    for round in 0..60 {
+        let n = 1 + (random.unit() * 50.0) as usize;
+        let count = (random.unit() * random.unit() * 5.0 * n as f64) as usize;
+        let mut vertex = || (random.unit() * n as f64) as u32;
+        let pairs: Vec<(u32, u32)> = (0..count).map(|_| (vertex(), vertex())).collect();
+        let mut random = Random::new(100 + round);
+        agrees_with_dense(&pattern(n, pairs), &mut random);
+    }
+}
+
+#[test]
+fn extreme_trees_agree_with_dense_algebra() {
+    let mut random = Random::new(12);
+    let n = 40_u32;
+    let all = |a: u32| (0..a).map(move |b| (a, b));
+    agrees_with_dense(&pattern(0, []), &mut random);
+    agrees_with_dense(&pattern(1, []), &mut random);
+    agrees_with_dense(&pattern(n as usize, []), &mut random);
+    agrees_with_dense(&pattern(n as usize, (1..n).map(|a| (a - 1, a))), &mut random);
+    agrees_with_dense(&pattern(n as usize, (1..n).map(|a| (0, a))), &mut random);
+    agrees_with_dense(&pattern(n as usize, (1..n).map(|a| (n - 1, a - 1))), &mut random);
+    agrees_with_dense(&pattern(n as usize, (1..n).map(|a| ((a - 1) / 2, a))), &mut random);
+    agrees_with_dense(&pattern(n as usize, (0..n).flat_map(all)), &mut random);
+    // Two parts that do not know of each other, one of them dense.
+    agrees_with_dense(&pattern(n as usize, (0..n / 2).flat_map(all).chain([(n - 1, n - 2)])), &mut random);
+}
+
+/// A sheet of `width` by `height` vertices, each joined to all within two steps along the rows and columns, as a bending
+/// term has it, and some chords like contacts.
+fn sheet(width: u32, height: u32, chords: usize, random: &mut Random) -> Pattern {
+    let mut pairs = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            for (dx, dy) in [(1, 0), (0, 1), (1, 1), (2, 1), (1, 2), (2, 0), (0, 2)] {
+                if x + dx < width && y + dy < height {
+                    pairs.push((y * width + x, (y + dy) * width + x + dx));
+                }
+            }
+        }
+    }
+    for _ in 0..chords {
+        let mut vertex = || (random.unit() * f64::from(width * height)) as u32;
+        pairs.push((vertex(), vertex()));
+    }
+    pattern((width * height) as usize, pairs)
+}
+
+fn agrees_with_another_library(pattern: &Pattern, random: &mut Random) {
+    let n = 3 * pattern.vertex_count();
+    let matrix = values(pattern, 1e-3, random);
+    let mut found: Vec<f64> = (0..2 * n).map(|_| random.signed()).collect();
+    let mut wanted = found.clone();
+    let mut factor = Factor::analyse(pattern).unwrap();
+    assert!(factor.factorise(pattern, &matrix));
+    factor.solve(&mut found, 2);
+    let symbolic = SymbolicSparseColMatRef::new_checked(n, n, pattern.col_ptr(), None, pattern.row_idx());
+    let other = SparseColMatRef::new(symbolic, &matrix).sp_cholesky(Side::Lower).unwrap();
+    other.solve_in_place(MatMut::from_column_major_slice_mut(&mut wanted, n, 2));
+    close(&found, &wanted, 1e-9);
+}
+
+#[test]
+fn garments_of_real_size_agree_with_another_library() {
+    // Trees of many shapes, cut into parts for several threads in many ways.
+    let mut random = Random::new(13);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+    pool.install(|| {
+        for _ in 0..16 {
+            let mut size = || 10 + (random.unit() * 65.0) as u32;
+            let (width, height) = (size(), size());
+            let chords = (random.unit() * random.unit() * 100.0) as usize;
+            let pattern = sheet(width, height, chords, &mut random);
+            agrees_with_another_library(&pattern, &mut random);
+        }
+        // Pieces that do not know of each other.
+        let pieces = (0..12).flat_map(|k| {
+            let (first, width) = (1000 * k, 10 + k);
+            (0..1000).flat_map(move |v| [1, width, width + 1].map(move |step| (first + v, first + v + step)))
+        });
+        let apart = pieces.filter(|(a, b)| a / 1000 == b / 1000);
+        agrees_with_another_library(&pattern(12_000, apart), &mut random);
+    });
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let mut random = Random::new(14);
+    // Large enough for parts in parallel and for fronts that several threads share.
+    let pattern = sheet(90, 70, 60, &mut random);
+    let matrix = values(&pattern, 1e-3, &mut random);
+    let rhs: Vec<f64> = (0..6 * pattern.vertex_count()).map(|_| random.signed()).collect();
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut factor = Factor::analyse(&pattern).unwrap();
+            let mut out = Vec::new();
+            // The second time in work space that has been used.
+            for _ in 0..2 {
+                assert!(factor.factorise(&pattern, &matrix));
+                let mut x = rhs.clone();
+                factor.solve(&mut x, 2);
+                out.extend(x.into_iter().map(f64::to_bits));
+            }
+            out
+        })
+    };
+    let first = run(1);
+    let (once, again) = first.split_at(rhs.len());
+    assert!(once == again);
+    for threads in [2, 5, 16] {
+        assert!(first == run(threads), "other bits with {threads} threads");
+    }
+}
+
+#[test]
+fn a_matrix_that_is_not_positive_definite_is_refused_and_the_next_one_is_not() {
+    let mut random = Random::new(15);
+    let pattern = sheet(30, 20, 10, &mut random);
+    let n = 3 * pattern.vertex_count();
+    let good = values(&pattern, 0.1, &mut random);
+    let mut factor = Factor::analyse(&pattern).unwrap();
+    for bad in [-1.0, 0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for j in [0, n / 2, n - 1] {
+            let mut matrix = good.clone();
+            matrix[pattern.col_ptr()[j] as usize] = bad;
+            assert!(!factor.factorise(&pattern, &matrix), "{bad} in column {j}");
+        }
+    }
+    assert!(factor.factorise(&pattern, &good));
+    let mut found: Vec<f64> = (0..n).map(|_| random.signed()).collect();
+    let mut wanted = found.clone();
+    factor.solve(&mut found, 1);
+    let mut fresh = Factor::analyse(&pattern).unwrap();
+    assert!(fresh.factorise(&pattern, &good));
+    fresh.solve(&mut wanted, 1);
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_limit_is_kept_to_the_byte() {
+    let pattern = sheet(30, 20, 10, &mut Random::new(16));
+    let held = Factor::analyse(&pattern).unwrap().memory();
+    assert!(Factor::analyse_within(MemoryLimit::new(held), &pattern).is_ok());
+    let error = Factor::analyse_within(MemoryLimit::new(held - 1), &pattern).err().unwrap();
+    assert_eq!(error.kind, ErrorKind::MemoryLimit);
+}
+
+#[test]
+fn another_pattern_is_analysed_in_the_memory_of_the_one_before() {
+    let mut random = Random::new(17);
+    let mut factor = Factor::default();
+    assert!(!factor.factorise(&pattern(0, []), &[]));
+    for (width, chords) in [(12, 0), (20, 30), (9, 2)] {
+        let pattern = sheet(width, 15, chords, &mut random);
+        let matrix = values(&pattern, 0.1, &mut random);
+        factor.analyse_again(MemoryLimit::NONE, &pattern).unwrap();
+        let fresh = Factor::analyse(&pattern).unwrap();
+        assert!(factor.memory() >= fresh.memory() && factor.value_count() == fresh.value_count());
+        assert!(factor.factorise(&pattern, &matrix));
+        let mut found: Vec<f64> = (0..3 * pattern.vertex_count()).map(|_| random.signed()).collect();
+        let mut wanted = found.clone();
+        factor.solve(&mut found, 1);
+        dense_solve(dense(&pattern, &matrix), &mut wanted);
+        close(&found, &wanted, 1e-11);
+    }
+    let larger = sheet(40, 40, 0, &mut random);
+    let limit = MemoryLimit::new(factor.memory());
+    assert_eq!(factor.analyse_again(limit, &larger).unwrap_err().kind, ErrorKind::MemoryLimit);
+    assert!(!factor.factorise(&larger, &values(&larger, 0.1, &mut random)));
+}
+
+#[test]
+fn a_request_to_stop_ends_it() {
+    let mut random = Random::new(18);
+    let pattern = sheet(20, 20, 0, &mut random);
+    let matrix = values(&pattern, 0.1, &mut random);
+    let cancel = Cancel::new();
+    let mut factor = Factor::analyse(&pattern).unwrap();
+    factor.watch(cancel.clone());
+    assert!(factor.factorise(&pattern, &matrix));
+    cancel.request();
+    assert!(!factor.factorise(&pattern, &matrix));
+}
