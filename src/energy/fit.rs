@@ -125,7 +125,21 @@ impl Fit {
     }
 }
 
+/// Samples of a face, at most.
+const MOST: usize = DEGREE_4.len();
+
 impl Element {
+    /// Where its samples lie; the first ones of the array.
+    #[inline]
+    fn points(&self, x: &[DVec3]) -> [DVec3; MOST] {
+        let corners = self.corners(x);
+        let mut points = [DVec3::ZERO; MOST];
+        for (point, (b, _)) in points.iter_mut().zip(self.rule) {
+            *point = interpolate(corners, b);
+        }
+        points
+    }
+
     #[inline]
     fn corners(&self, x: &[DVec3]) -> [DVec3; 3] {
         self.vertices.map(|v| x[v as usize])
@@ -191,27 +205,28 @@ impl Energy for Fit {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        let mut sum = 0.0;
-        for element in &self.elements[range] {
-            let corners = element.corners(at.x);
-            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
-                let excess = self.field.value(interpolate(corners, b)) - sample.aim;
-                if excess > 0.0 {
-                    sum += sample.weight * excess * excess;
-                }
-            }
-        }
-        sum
+        let cost = |element: &Element| {
+            let samples = self.samples_of(element);
+            let mut distances = [0.0; MOST];
+            self.field.values(&element.points(at.x)[..samples.len()], &mut distances);
+            let one = |(sample, distance): (&Sample, &f64)| {
+                let excess = distance - sample.aim;
+                if excess > 0.0 { sample.weight * excess * excess } else { 0.0 }
+            };
+            samples.iter().zip(&distances).map(one).sum::<f64>()
+        };
+        self.elements[range].iter().map(cost).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for element in &self.elements[range] {
-            let corners = element.corners(at.x);
+            let samples = self.samples_of(element);
+            let mut distances = [(0.0, DVec3::ZERO); MOST];
+            self.field.values_gradients(&element.points(at.x)[..samples.len()], &mut distances);
             let mut gradient = [DVec3::ZERO; 3];
             let mut hessian = FaceHessian([[0.0; 6]; 6]);
             let mut costs = false;
-            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
-                let (distance, slope) = self.field.value_gradient(interpolate(corners, b));
+            for (((b, _), sample), (distance, slope)) in element.rule.iter().zip(samples).zip(distances) {
                 let excess = distance - sample.aim;
                 if excess <= 0.0 {
                     continue;
