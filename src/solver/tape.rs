@@ -1,0 +1,248 @@
+//! Derivatives of elements, written down as they come and then summed vertex by vertex.
+//!
+//! Whoever owns a vertex owns its columns of the Hessian and its entries of the gradient, so owners need no locks and no
+//! arrays of their own; and as each sums its elements in the order in which they stand, the sums have the same
+//! bits whoever the owners are.
+
+use glam::DVec3;
+
+use super::pattern::{PairCollector, Pattern};
+use crate::energy::{Direction, Row, Sink};
+use crate::memory::bytes;
+
+/// Vertices of an element, at most.
+const CORNERS: usize = 4;
+
+/// Rows of one record; more make several.
+const ROWS: usize = 6;
+
+/// What an element adds: rank-one pieces over the same vertices.
+#[derive(Clone, Copy, Debug)]
+struct Record {
+    vertices: [u32; CORNERS],
+    /// Its first row.
+    first: u32,
+    corners: u8,
+    rows: u8,
+    /// Whether any of its rows adds to the Hessian.
+    curved: bool,
+}
+
+impl Record {
+    #[inline]
+    fn corners(&self) -> &[u32] {
+        &self.vertices[..self.corners as usize]
+    }
+}
+
+/// Bytes that a tape takes for an element, at most.
+pub(super) const ELEMENT_BYTES: usize = size_of::<Record>() + ROWS * size_of::<Row>();
+
+/// The derivatives of some elements of one term.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tape {
+    weight: f64,
+    records: Vec<Record>,
+    /// Already with the term's weight.
+    rows: Vec<Row>,
+    /// Derivative by t.
+    pub t_gradient: f64,
+    /// Second derivative by t.
+    pub t_hessian: f64,
+}
+
+impl Tape {
+    /// Begins anew, for a term with this weight.
+    pub fn clear(&mut self, weight: f64) {
+        self.records.clear();
+        self.rows.clear();
+        (self.weight, self.t_gradient, self.t_hessian) = (weight, 0.0, 0.0);
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.records) + bytes(&self.rows)
+    }
+}
+
+impl Sink for Tape {
+    fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64) {
+        let mut row = Row { g, h, t: a.t, ..Row::default() };
+        for (component, &c) in row.components.iter_mut().zip(a.components) {
+            *component = c;
+        }
+        self.low_rank(a.vertices, &[row]);
+    }
+
+    fn low_rank(&mut self, vertices: &[u32], rows: &[Row]) {
+        debug_assert!(vertices.len() <= CORNERS);
+        let corners = vertices.len().min(CORNERS) as u8;
+        for rows in rows.chunks(ROWS) {
+            let first = self.rows.len() as u32;
+            let mut curved = false;
+            for row in rows {
+                let (g, h) = (row.g * self.weight, row.h * self.weight);
+                self.t_gradient += g * row.t;
+                self.t_hessian += h * row.t * row.t;
+                curved |= h != 0.0;
+                self.rows.push(Row { g, h, ..*row });
+            }
+            let mut record = Record { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
+            for (to, &v) in record.vertices.iter_mut().zip(vertices) {
+                *to = v;
+            }
+            self.records.push(record);
+        }
+    }
+}
+
+/// For each vertex the records that it takes part in, in their order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Incidence {
+    /// For each vertex, where its entries begin.
+    start: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+/// A corner of a record.
+#[derive(Clone, Copy, Debug, Default)]
+struct Entry {
+    tape: u32,
+    /// Index of the record times [`CORNERS`], and the corner.
+    corner: u32,
+}
+
+impl Incidence {
+    /// Finds the records of `tapes` around each of `vertex_count` vertices.
+    pub fn find(&mut self, vertex_count: usize, tapes: &[Tape]) {
+        self.start.clear();
+        self.start.resize(vertex_count + 1, 0);
+        for record in tapes.iter().flat_map(|tape| &tape.records) {
+            for &v in record.corners() {
+                self.start[v as usize] += 1;
+            }
+        }
+        let mut sum = 0;
+        for start in &mut self.start {
+            sum += *start;
+            *start = sum;
+        }
+        self.entries.resize(sum as usize, Entry::default());
+        // From the end, so that entries come to stand in order and the counts end as the beginnings.
+        for tape in (0..tapes.len()).rev() {
+            for (r, record) in tapes[tape].records.iter().enumerate().rev() {
+                for (c, &v) in record.corners().iter().enumerate() {
+                    let at = &mut self.start[v as usize];
+                    *at -= 1;
+                    self.entries[*at as usize] = Entry { tape: tape as u32, corner: (r * CORNERS + c) as u32 };
+                }
+            }
+        }
+    }
+
+    /// The number of entries of the vertices below `vertex`.
+    pub fn before(&self, vertex: usize) -> u32 {
+        self.start[vertex]
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.start) + bytes(&self.entries)
+    }
+
+    fn of(&self, vertex: usize) -> &[Entry] {
+        &self.entries[self.start[vertex] as usize..self.start[vertex + 1] as usize]
+    }
+}
+
+/// Some consecutive vertices, with their part of the system.
+pub(super) struct Owner<'a> {
+    /// The first vertex.
+    pub first: usize,
+    /// Their columns of the Hessian.
+    pub hessian: &'a mut [f64],
+    /// Their part of the gradient, three entries a vertex.
+    pub gradient: &'a mut [f64],
+    /// Their part of the mixed derivatives with t.
+    pub border: &'a mut [f64],
+    /// Pairs that the pattern lacks.
+    pub missing: PairCollector,
+}
+
+impl Owner<'_> {
+    /// Adds what `tapes` have for its vertices. `mark` is scratch, an entry for each vertex of the pattern.
+    pub fn add(&mut self, pattern: &Pattern, tapes: &[Tape], incidence: &Incidence, mark: &mut [u32]) {
+        let offset = pattern.diagonal(self.first as u32)[0];
+        for local in 0..self.gradient.len() / 3 {
+            let v = self.first + local;
+            let entries = incidence.of(v);
+            if entries.is_empty() {
+                continue;
+            }
+            let below = pattern.column(v);
+            for (k, &w) in below.iter().enumerate() {
+                mark[w as usize] = k as u32;
+            }
+            let columns = pattern.diagonal(v as u32).map(|start| start - offset);
+            let (mut gradient, mut border) = (DVec3::ZERO, DVec3::ZERO);
+            for entry in entries {
+                let tape = &tapes[entry.tape as usize];
+                let corner = entry.corner as usize % CORNERS;
+                let record = &tape.records[entry.corner as usize / CORNERS];
+                let rows = &tape.rows[record.first as usize..][..record.rows as usize];
+                for row in rows {
+                    let c = row.components[corner];
+                    gradient += row.g * c;
+                    border += (row.h * row.t) * c;
+                }
+                if !record.curved {
+                    continue;
+                }
+                for (other, &w) in record.corners().iter().enumerate() {
+                    if (w as usize) < v {
+                        continue;
+                    }
+                    let block = block(rows, corner, other);
+                    if w as usize == v {
+                        for (c, &start) in columns.iter().enumerate() {
+                            for r in c..3 {
+                                self.hessian[start + r - c] += block[c][r];
+                            }
+                        }
+                        continue;
+                    }
+                    let k = mark[w as usize] as usize;
+                    if below.get(k) != Some(&w) {
+                        self.missing.add(v as u32, w);
+                        continue;
+                    }
+                    for (c, &start) in columns.iter().enumerate() {
+                        let at = start + 3 - c + 3 * k;
+                        for (h, b) in self.hessian[at..at + 3].iter_mut().zip(block[c]) {
+                            *h += b;
+                        }
+                    }
+                }
+            }
+            for axis in 0..3 {
+                self.gradient[3 * local + axis] += gradient[axis];
+                self.border[3 * local + axis] += border[axis];
+            }
+        }
+    }
+}
+
+/// The Hessian block of two corners, by columns: those of `column`, with the rows of `row`.
+#[inline]
+fn block(rows: &[Row], column: usize, row: usize) -> [[f64; 3]; 3] {
+    let mut sum = [[0.0; 3]; 3];
+    for piece in rows {
+        let (a, b) = ((piece.h * piece.components[column]).to_array(), piece.components[row].to_array());
+        for (sum, a) in sum.iter_mut().zip(a) {
+            for (s, b) in sum.iter_mut().zip(b) {
+                *s += a * b;
+            }
+        }
+    }
+    sum
+}
