@@ -17,7 +17,6 @@
 
 mod block;
 pub mod closest_point;
-mod simd;
 mod spline;
 pub mod volume;
 
@@ -28,9 +27,9 @@ use glam::{DMat3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
+use crate::simd::{Four, Kernel, dispatch};
 use block::{Block, Known, SIDE};
 use closest_point::ClosestPoint;
-use simd::{Four, Kernel, dispatch};
 use volume::{BLOCK, Volume};
 
 /// Blocks that have a place to be stored, at most: 32 MB for the places themselves.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::Term;
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
-use super::tape::{ELEMENT_BYTES, Incidence, Owner, Tape};
+use super::tape::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::memory::bytes;
@@ -131,12 +131,12 @@ impl System {
         let alone = clock.elapsed();
         let (tapes, incidence) = (&self.tapes, &self.incidence);
         let mut owners = owners(pattern, incidence, &mut self.hessian, &mut self.gradient, &mut self.border);
-        let work = |mark: &mut Vec<u32>, owner: &mut Owner<'_>| {
+        let work = |scratch: &mut Scratch, owner: &mut Owner<'_>| {
             let clock = Instant::now();
-            owner.add(pattern, tapes, incidence, mark);
+            owner.add(pattern, tapes, incidence, scratch);
             clock.elapsed()
         };
-        let together: Duration = owners.par_iter_mut().map_init(|| vec![0; n], work).sum();
+        let together: Duration = owners.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
         owners.iter_mut().for_each(|owner| missing.append(&mut owner.missing));
         alone + together
     }

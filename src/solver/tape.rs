@@ -4,11 +4,12 @@
 //! arrays of their own; and as each sums its elements in the order in which they stand, the sums have the same
 //! bits whoever the owners are.
 
-use glam::DVec3;
+use std::cmp::Ordering;
 
 use super::pattern::{PairCollector, Pattern};
 use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
+use crate::simd::{Four, Kernel, dispatch};
 
 /// Vertices of an element, at most.
 const CORNERS: usize = 4;
@@ -35,16 +36,24 @@ impl Record {
     }
 }
 
+/// A rank-one piece, with the term's weight: for each vertex the component of its direction, padded to a vector of four.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    components: [[f64; 4]; CORNERS],
+    g: f64,
+    h: f64,
+    t: f64,
+}
+
 /// Bytes that a tape takes for an element, at most.
-pub(super) const ELEMENT_BYTES: usize = size_of::<Record>() + ROWS * size_of::<Row>();
+pub(super) const ELEMENT_BYTES: usize = size_of::<Record>() + ROWS * size_of::<Piece>();
 
 /// The derivatives of some elements of one term.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tape {
     weight: f64,
     records: Vec<Record>,
-    /// Already with the term's weight.
-    rows: Vec<Row>,
+    rows: Vec<Piece>,
     /// Derivative by t.
     pub t_gradient: f64,
     /// Second derivative by t.
@@ -85,7 +94,8 @@ impl Sink for Tape {
                 self.t_gradient += g * row.t;
                 self.t_hessian += h * row.t * row.t;
                 curved |= h != 0.0;
-                self.rows.push(Row { g, h, ..*row });
+                let components = row.components.map(|c| [c.x, c.y, c.z, 0.0]);
+                self.rows.push(Piece { components, g, h, t: row.t });
             }
             let mut record = Record { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
             for (to, &v) in record.vertices.iter_mut().zip(vertices) {
@@ -169,12 +179,75 @@ pub(super) struct Owner<'a> {
     pub missing: PairCollector,
 }
 
+/// What a thread needs while it sums.
+#[derive(Default)]
+pub(super) struct Scratch {
+    /// For each vertex of the pattern, its place among the rows of the column that it was last in.
+    mark: Vec<u32>,
+    /// A block column by columns of blocks, each padded to four: first the diagonal block, then those below.
+    blocks: Vec<[[f64; 4]; 3]>,
+}
+
+impl Scratch {
+    /// For `pattern`.
+    pub fn new(pattern: &Pattern) -> Self {
+        Self { mark: vec![0; pattern.vertex_count()], blocks: Vec::new() }
+    }
+}
+
 impl Owner<'_> {
-    /// Adds what `tapes` have for its vertices. `mark` is scratch, an entry for each vertex of the pattern.
-    pub fn add(&mut self, pattern: &Pattern, tapes: &[Tape], incidence: &Incidence, mark: &mut [u32]) {
+    /// Adds what `tapes` have for its vertices.
+    pub fn add(&mut self, pattern: &Pattern, tapes: &[Tape], incidence: &Incidence, scratch: &mut Scratch) {
+        dispatch(Sum { owner: self, pattern, tapes, incidence, scratch });
+    }
+
+    /// Adds the sums of one vertex, the `local`-th of the owner.
+    fn store(
+        &mut self,
+        pattern: &Pattern,
+        local: usize,
+        gradient: [f64; 4],
+        border: [f64; 4],
+        blocks: &[[[f64; 4]; 3]],
+    ) {
+        for axis in 0..3 {
+            self.gradient[3 * local + axis] += gradient[axis];
+            self.border[3 * local + axis] += border[axis];
+        }
         let offset = pattern.diagonal(self.first as u32)[0];
-        for local in 0..self.gradient.len() / 3 {
-            let v = self.first + local;
+        let [diagonal, below @ ..] = blocks else { return };
+        for (c, start) in pattern.diagonal((self.first + local) as u32).into_iter().enumerate() {
+            let column = &mut self.hessian[start - offset..][..3 - c + 3 * below.len()];
+            let (top, rest) = column.split_at_mut(3 - c);
+            for (h, b) in top.iter_mut().zip(&diagonal[c][c..]) {
+                *h += b;
+            }
+            for (h, b) in rest.as_chunks_mut::<3>().0.iter_mut().zip(below) {
+                for (h, b) in h.iter_mut().zip(b[c]) {
+                    *h += b;
+                }
+            }
+        }
+    }
+}
+
+/// The work of [`Owner::add`].
+struct Sum<'a, 'b> {
+    owner: &'a mut Owner<'b>,
+    pattern: &'a Pattern,
+    tapes: &'a [Tape],
+    incidence: &'a Incidence,
+    scratch: &'a mut Scratch,
+}
+
+impl Kernel for Sum<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        let Self { owner, pattern, tapes, incidence, scratch: Scratch { mark, blocks } } = self;
+        for local in 0..owner.gradient.len() / 3 {
+            let v = owner.first + local;
             let entries = incidence.of(v);
             if entries.is_empty() {
                 continue;
@@ -183,66 +256,53 @@ impl Owner<'_> {
             for (k, &w) in below.iter().enumerate() {
                 mark[w as usize] = k as u32;
             }
-            let columns = pattern.diagonal(v as u32).map(|start| start - offset);
-            let (mut gradient, mut border) = (DVec3::ZERO, DVec3::ZERO);
+            blocks.clear();
+            blocks.resize(1 + below.len(), [[0.0; 4]; 3]);
+            let (mut gradient, mut border) = (V::splat(0.0), V::splat(0.0));
             for entry in entries {
                 let tape = &tapes[entry.tape as usize];
                 let corner = entry.corner as usize % CORNERS;
                 let record = &tape.records[entry.corner as usize / CORNERS];
                 let rows = &tape.rows[record.first as usize..][..record.rows as usize];
                 for row in rows {
-                    let c = row.components[corner];
-                    gradient += row.g * c;
-                    border += (row.h * row.t) * c;
+                    let component = V::load(&row.components[corner]);
+                    gradient = gradient.add_scaled(row.g, component);
+                    border = border.add_scaled(row.h * row.t, component);
                 }
                 if !record.curved {
                     continue;
                 }
                 for (other, &w) in record.corners().iter().enumerate() {
-                    if (w as usize) < v {
-                        continue;
-                    }
-                    let block = block(rows, corner, other);
-                    if w as usize == v {
-                        for (c, &start) in columns.iter().enumerate() {
-                            for r in c..3 {
-                                self.hessian[start + r - c] += block[c][r];
+                    let place = match (w as usize).cmp(&v) {
+                        Ordering::Less => continue,
+                        Ordering::Equal => 0,
+                        Ordering::Greater => {
+                            let k = mark[w as usize] as usize;
+                            if below.get(k) != Some(&w) {
+                                owner.missing.add(v as u32, w);
+                                continue;
                             }
+                            1 + k
                         }
-                        continue;
+                    };
+                    let block = &mut blocks[place];
+                    let [mut x, mut y, mut z] = [V::load(&block[0]), V::load(&block[1]), V::load(&block[2])];
+                    for row in rows {
+                        let [a, b, c, _] = row.components[corner];
+                        let component = V::load(&row.components[other]);
+                        x = x.add_scaled(row.h * a, component);
+                        y = y.add_scaled(row.h * b, component);
+                        z = z.add_scaled(row.h * c, component);
                     }
-                    let k = mark[w as usize] as usize;
-                    if below.get(k) != Some(&w) {
-                        self.missing.add(v as u32, w);
-                        continue;
-                    }
-                    for (c, &start) in columns.iter().enumerate() {
-                        let at = start + 3 - c + 3 * k;
-                        for (h, b) in self.hessian[at..at + 3].iter_mut().zip(block[c]) {
-                            *h += b;
-                        }
-                    }
+                    x.store(&mut block[0]);
+                    y.store(&mut block[1]);
+                    z.store(&mut block[2]);
                 }
             }
-            for axis in 0..3 {
-                self.gradient[3 * local + axis] += gradient[axis];
-                self.border[3 * local + axis] += border[axis];
-            }
+            let [mut g, mut b] = [[0.0; 4]; 2];
+            gradient.store(&mut g);
+            border.store(&mut b);
+            owner.store(pattern, local, g, b, blocks);
         }
     }
-}
-
-/// The Hessian block of two corners, by columns: those of `column`, with the rows of `row`.
-#[inline]
-fn block(rows: &[Row], column: usize, row: usize) -> [[f64; 3]; 3] {
-    let mut sum = [[0.0; 3]; 3];
-    for piece in rows {
-        let (a, b) = ((piece.h * piece.components[column]).to_array(), piece.components[row].to_array());
-        for (sum, a) in sum.iter_mut().zip(a) {
-            for (s, b) in sum.iter_mut().zip(b) {
-                *s += a * b;
-            }
-        }
-    }
-    sum
 }

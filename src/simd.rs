@@ -4,9 +4,15 @@
 use std::arch::x86_64::*;
 
 /// Four doubles.
-pub(super) trait Four: Copy {
+pub(crate) trait Four: Copy {
     /// All four the same.
     fn splat(value: f64) -> Self;
+
+    /// From an array.
+    fn load(values: &[f64; 4]) -> Self;
+
+    /// To an array.
+    fn store(self, to: &mut [f64; 4]);
 
     /// From single precision.
     fn widen(values: [f32; 4]) -> Self;
@@ -26,6 +32,16 @@ impl Four for Plain {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; 4])
+    }
+
+    #[inline(always)]
+    fn load(values: &[f64; 4]) -> Self {
+        Self(*values)
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64; 4]) {
+        *to = self.0;
     }
 
     #[inline(always)]
@@ -65,6 +81,18 @@ impl Four for Wide {
     }
 
     #[inline(always)]
+    fn load(values: &[f64; 4]) -> Self {
+        // SAFETY: above; the load needs no alignment, and four numbers are there.
+        Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f64; 4]) {
+        // SAFETY: above; the store needs no alignment, and there is room for four numbers.
+        unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
     fn widen(values: [f32; 4]) -> Self {
         // SAFETY: above; the load needs no alignment, and four numbers are there.
         Self(unsafe { _mm256_cvtps_pd(_mm_loadu_ps(values.as_ptr())) })
@@ -88,7 +116,7 @@ impl Four for Wide {
 }
 
 /// Work that is compiled twice. `run` has to be `#[inline(always)]`, and all that it calls with `V`.
-pub(super) trait Kernel {
+pub(crate) trait Kernel {
     /// What it computes.
     type Output;
 
@@ -99,7 +127,7 @@ pub(super) trait Kernel {
 /// Runs `kernel` with the best instructions that this processor has: the same ones at every call, so that results have
 /// the same bits. Between processors with and without fused multiply-add they differ by rounding.
 #[inline]
-pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2,fma")]
