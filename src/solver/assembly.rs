@@ -16,7 +16,7 @@ use crate::energy::Configuration;
 use crate::memory::bytes;
 
 /// Elements in a chunk.
-const CHUNK: usize = 64;
+const CHUNK: usize = 32;
 /// Chunks that are evaluated before they are summed: their derivatives are in memory at the same time.
 const BATCH: usize = 64;
 /// Owners of vertices.

@@ -6,6 +6,8 @@
 
 use std::cmp::Ordering;
 
+use glam::DVec3;
+
 use super::pattern::{PairCollector, Pattern};
 use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
@@ -36,13 +38,37 @@ impl Record {
     }
 }
 
-/// A rank-one piece, with the term's weight: for each vertex the component of its direction, padded to a vector of four.
+/// A rank-one piece, with the term's weight: for each vertex the component of its direction, and in the fourth places
+/// what else belongs to it. Two lines of the cache.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
-    components: [[f64; 4]; CORNERS],
-    g: f64,
-    h: f64,
-    t: f64,
+#[repr(align(32))]
+struct Piece([[f64; 4]; CORNERS]);
+
+impl Piece {
+    #[inline(always)]
+    fn new(row: &Row, weight: f64) -> Self {
+        let [a, b, c, d] = row.components;
+        let with = |p: DVec3, other| [p.x, p.y, p.z, other];
+        Self([with(a, row.g * weight), with(b, row.h * weight), with(c, row.t), with(d, 0.0)])
+    }
+
+    /// Derivative along the direction.
+    #[inline(always)]
+    fn g(&self) -> f64 {
+        self.0[0][3]
+    }
+
+    /// Second derivative along the direction.
+    #[inline(always)]
+    fn h(&self) -> f64 {
+        self.0[1][3]
+    }
+
+    /// The direction's component along t.
+    #[inline(always)]
+    fn t(&self) -> f64 {
+        self.0[2][3]
+    }
 }
 
 /// Bytes that a tape takes for an element, at most.
@@ -90,12 +116,11 @@ impl Sink for Tape {
             let first = self.rows.len() as u32;
             let mut curved = false;
             for row in rows {
-                let (g, h) = (row.g * self.weight, row.h * self.weight);
-                self.t_gradient += g * row.t;
-                self.t_hessian += h * row.t * row.t;
-                curved |= h != 0.0;
-                let components = row.components.map(|c| [c.x, c.y, c.z, 0.0]);
-                self.rows.push(Piece { components, g, h, t: row.t });
+                let piece = Piece::new(row, self.weight);
+                self.t_gradient += piece.g() * row.t;
+                self.t_hessian += piece.h() * row.t * row.t;
+                curved |= piece.h() != 0.0;
+                self.rows.push(piece);
             }
             let mut record = Record { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
             for (to, &v) in record.vertices.iter_mut().zip(vertices) {
@@ -184,7 +209,7 @@ pub(super) struct Owner<'a> {
 pub(super) struct Scratch {
     /// For each vertex of the pattern, its place among the rows of the column that it was last in.
     mark: Vec<u32>,
-    /// A block column by columns of blocks, each padded to four: first the diagonal block, then those below.
+    /// A block column by columns of blocks, each with a fourth entry that does not count: first the diagonal block, then those below.
     blocks: Vec<[[f64; 4]; 3]>,
 }
 
@@ -265,9 +290,9 @@ impl Kernel for Sum<'_, '_> {
                 let record = &tape.records[entry.corner as usize / CORNERS];
                 let rows = &tape.rows[record.first as usize..][..record.rows as usize];
                 for row in rows {
-                    let component = V::load(&row.components[corner]);
-                    gradient = gradient.add_scaled(row.g, component);
-                    border = border.add_scaled(row.h * row.t, component);
+                    let component = V::load(&row.0[corner]);
+                    gradient = gradient.add_scaled(row.g(), component);
+                    border = border.add_scaled(row.h() * row.t(), component);
                 }
                 if !record.curved {
                     continue;
@@ -288,11 +313,11 @@ impl Kernel for Sum<'_, '_> {
                     let block = &mut blocks[place];
                     let [mut x, mut y, mut z] = [V::load(&block[0]), V::load(&block[1]), V::load(&block[2])];
                     for row in rows {
-                        let [a, b, c, _] = row.components[corner];
-                        let component = V::load(&row.components[other]);
-                        x = x.add_scaled(row.h * a, component);
-                        y = y.add_scaled(row.h * b, component);
-                        z = z.add_scaled(row.h * c, component);
+                        let [a, b, c, _] = row.0[corner];
+                        let component = V::load(&row.0[other]);
+                        x = x.add_scaled(row.h() * a, component);
+                        y = y.add_scaled(row.h() * b, component);
+                        z = z.add_scaled(row.h() * c, component);
                     }
                     x.store(&mut block[0]);
                     y.store(&mut block[1]);
