@@ -55,16 +55,16 @@ pub(super) fn value_gradient<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t:
     let (x, y, z) = (basis(t.x), basis(t.y), basis(t.z));
     let (dx, dy) = (slopes(t.x), slopes(t.y));
     let (mut sum, mut by_x, mut by_y) = (V::splat(0.0), V::splat(0.0), V::splat(0.0));
-    for i in 0..4 {
+    for (i, (&wx, dx)) in x.iter().zip(dx).enumerate() {
         let (mut plane, mut plane_y) = (V::splat(0.0), V::splat(0.0));
-        for j in 0..4 {
+        for (j, (&wy, &dy)) in y.iter().zip(&dy).enumerate() {
             let row = V::widen(row(i, j));
-            plane = plane.add_scaled(y[j], row);
-            plane_y = plane_y.add_scaled(dy[j], row);
+            plane = plane.add_scaled(wy, row);
+            plane_y = plane_y.add_scaled(dy, row);
         }
-        sum = sum.add_scaled(x[i], plane);
-        by_x = by_x.add_scaled(dx[i], plane);
-        by_y = by_y.add_scaled(x[i], plane_y);
+        sum = sum.add_scaled(wx, plane);
+        by_x = by_x.add_scaled(dx, plane);
+        by_y = by_y.add_scaled(wx, plane_y);
     }
     (sum.dot(z), DVec3::new(by_x.dot(z), by_y.dot(z), sum.dot(slopes(t.z))))
 }
@@ -76,9 +76,9 @@ pub(super) fn hessian<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3)
     let derivative = |[a, b, c]: [usize; 3]| {
         let (x, y) = (along(0, a), along(1, b));
         let mut sum = V::splat(0.0);
-        for i in 0..4 {
-            for j in 0..4 {
-                sum = sum.add_scaled(x[i] * y[j], V::widen(row(i, j)));
+        for (i, wx) in x.iter().enumerate() {
+            for (j, wy) in y.iter().enumerate() {
+                sum = sum.add_scaled(wx * wy, V::widen(row(i, j)));
             }
         }
         sum.dot(along(2, c))
