@@ -23,6 +23,7 @@ mod panics;
 pub mod report;
 pub mod sdf;
 pub mod session;
+mod simd;
 pub mod solver;
 pub mod stage;
 pub mod verify;

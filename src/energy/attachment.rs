@@ -26,7 +26,7 @@ use std::ops::Range;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::frame::{LeastSquares, Normal, coefficients, outer, scaled_cross};
+use super::frame::{Normal, coefficients, least_squares, outer, scaled_cross};
 use super::surface::SurfaceForm;
 use super::{Configuration, Energy, Sink};
 use crate::input::diagnosis::{self, Finding, FindingKind, Severity, Subject};
@@ -375,10 +375,9 @@ impl Energy for Attachment {
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        let mut squares = LeastSquares::new();
         for k in &self.elements[range] {
             let shape = k.shape(at.x);
-            squares.add(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
+            least_squares(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
         }
     }
 

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Configuration, Energy, Sink};
+use super::{Configuration, Energy, Row, Sink};
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::bytes;
 use crate::sdf::Field;
@@ -125,7 +125,21 @@ impl Fit {
     }
 }
 
+/// Samples of a face, at most.
+const MOST: usize = DEGREE_4.len();
+
 impl Element {
+    /// Where its samples lie; the first ones of the array.
+    #[inline]
+    fn points(&self, x: &[DVec3]) -> [DVec3; MOST] {
+        let corners = self.corners(x);
+        let mut points = [DVec3::ZERO; MOST];
+        for (point, (b, _)) in points.iter_mut().zip(self.rule) {
+            *point = interpolate(corners, b);
+        }
+        points
+    }
+
     #[inline]
     fn corners(&self, x: &[DVec3]) -> [DVec3; 3] {
         self.vertices.map(|v| x[v as usize])
@@ -135,46 +149,6 @@ impl Element {
 #[inline]
 fn interpolate(corners: [DVec3; 3], b: &[f64; 3]) -> DVec3 {
     b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2]
-}
-
-/// Pairs of corners, in the order in which `FaceHessian` holds them.
-const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-
-/// The sum over samples of `b b^T (x) M` with symmetric 3 x 3 matrices M.
-struct FaceHessian([[f64; 6]; 6]);
-
-impl FaceHessian {
-    /// Adds a sample with barycentric coordinates `b` and the matrix (xx, xy, xz, yy, yz, zz).
-    #[inline]
-    fn add(&mut self, b: &[f64; 3], matrix: [f64; 6]) {
-        for (sum, (i, j)) in self.0.iter_mut().zip(PAIRS) {
-            let scale = b[i] * b[j];
-            for (s, m) in sum.iter_mut().zip(matrix) {
-                *s += scale * m;
-            }
-        }
-    }
-
-    /// The 9 x 9 matrix, row-major.
-    #[inline]
-    fn expand(&self) -> [f64; 81] {
-        let mut out = [0.0; 81];
-        for (sum, (i, j)) in self.0.iter().zip(PAIRS) {
-            for (&s, (k, l)) in sum.iter().zip(PAIRS) {
-                for (p, q) in [(k, l), (l, k)] {
-                    out[9 * (3 * i + p) + 3 * j + q] = s;
-                    out[9 * (3 * j + p) + 3 * i + q] = s;
-                }
-            }
-        }
-        out
-    }
-}
-
-/// The Gauss-Newton part of a sample's Hessian, `h g g^T`.
-#[inline]
-fn gauss_newton(g: DVec3, h: f64) -> [f64; 6] {
-    [h * g.x * g.x, h * g.x * g.y, h * g.x * g.z, h * g.y * g.y, h * g.y * g.z, h * g.z * g.z]
 }
 
 impl Energy for Fit {
@@ -191,42 +165,37 @@ impl Energy for Fit {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        let mut sum = 0.0;
-        for element in &self.elements[range] {
-            let corners = element.corners(at.x);
-            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
-                let excess = self.field.value(interpolate(corners, b)) - sample.aim;
-                if excess > 0.0 {
-                    sum += sample.weight * excess * excess;
-                }
-            }
-        }
-        sum
+        let cost = |element: &Element| {
+            let samples = self.samples_of(element);
+            let mut distances = [0.0; MOST];
+            self.field.values(&element.points(at.x)[..samples.len()], &mut distances);
+            let one = |(sample, distance): (&Sample, &f64)| {
+                let excess = distance - sample.aim;
+                if excess > 0.0 { sample.weight * excess * excess } else { 0.0 }
+            };
+            samples.iter().zip(&distances).map(one).sum::<f64>()
+        };
+        self.elements[range].iter().map(cost).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for element in &self.elements[range] {
-            let corners = element.corners(at.x);
-            let mut gradient = [DVec3::ZERO; 3];
-            let mut hessian = FaceHessian([[0.0; 6]; 6]);
-            let mut costs = false;
-            for ((b, _), sample) in element.rule.iter().zip(self.samples_of(element)) {
-                let (distance, slope) = self.field.value_gradient(interpolate(corners, b));
+            let samples = self.samples_of(element);
+            let mut distances = [(0.0, DVec3::ZERO); MOST];
+            self.field.values_gradients(&element.points(at.x)[..samples.len()], &mut distances);
+            let mut rows = [Row::default(); MOST];
+            let mut count = 0;
+            for (((b, _), sample), (distance, slope)) in element.rule.iter().zip(samples).zip(distances) {
                 let excess = distance - sample.aim;
-                if excess <= 0.0 {
-                    continue;
+                if excess > 0.0 {
+                    let components = [b[0] * slope, b[1] * slope, b[2] * slope, DVec3::ZERO];
+                    let h = 2.0 * sample.weight;
+                    rows[count] = Row { components, t: 0.0, g: h * excess, h };
+                    count += 1;
                 }
-                costs = true;
-                for (sum, b) in gradient.iter_mut().zip(b) {
-                    *sum += (2.0 * sample.weight * excess * b) * slope;
-                }
-                hessian.add(b, gauss_newton(slope, 2.0 * sample.weight));
             }
-            if costs {
-                for (&vertex, &g) in element.vertices.iter().zip(&gradient) {
-                    sink.gradient(vertex, g);
-                }
-                sink.block(&element.vertices, &hessian.expand());
+            if count > 0 {
+                sink.low_rank(&element.vertices, &rows[..count]);
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Sink;
 use super::surface::SurfaceForm;
+use super::{Row, Sink};
 
 /// Below this squared length (of the normalised space, to the fourth) a normal counts as none: the square
 /// root has no derivative there.
@@ -57,46 +57,18 @@ pub(super) fn outer(u: DVec3, v: DVec3) -> DMat3 {
     DMat3::from_cols(u * v.x, u * v.y, u * v.z)
 }
 
-/// Hands elements `weight |residual|^2` over four vertices to a sink, the Hessian being Gauss-Newton's,
-/// `2 weight J^T J`. Keeps its memory between elements.
-pub(super) struct LeastSquares {
-    rows: [[f64; 12]; 3],
-    block: [f64; 144],
-}
-
-impl LeastSquares {
-    pub fn new() -> Self {
-        Self { rows: [[0.0; 12]; 3], block: [0.0; 144] }
-    }
-
-    /// Adds one element; `jacobian` holds the derivatives of the residual by each of `vertices`.
-    #[inline]
-    pub fn add(
-        &mut self,
-        sink: &mut dyn Sink,
-        vertices: &[u32; 4],
-        jacobian: &[DMat3; 4],
-        residual: DVec3,
-        weight: f64,
-    ) {
-        let force = residual * (2.0 * weight);
-        let root = (2.0 * weight).sqrt();
-        for (i, j) in jacobian.iter().enumerate() {
-            for (c, column) in [j.x_axis, j.y_axis, j.z_axis].into_iter().enumerate() {
-                let column = column * root;
-                self.rows[0][3 * i + c] = column.x;
-                self.rows[1][3 * i + c] = column.y;
-                self.rows[2][3 * i + c] = column.z;
-            }
-            let gradient = DVec3::new(force.dot(j.x_axis), force.dot(j.y_axis), force.dot(j.z_axis));
-            sink.gradient(vertices[i], gradient);
-        }
-        let [r0, r1, r2] = &self.rows;
-        for (a, line) in self.block.chunks_exact_mut(12).enumerate() {
-            for (b, entry) in line.iter_mut().enumerate() {
-                *entry = r0[a] * r0[b] + r1[a] * r1[b] + r2[a] * r2[b];
-            }
-        }
-        sink.block(vertices, &self.block);
-    }
+/// Hands an element `weight |residual|^2` over four vertices to a sink, the Hessian being Gauss-Newton's,
+/// `2 weight J^T J`. `jacobian` holds the derivatives of the residual by each of `vertices`.
+#[inline]
+pub(super) fn least_squares(
+    sink: &mut dyn Sink,
+    vertices: &[u32; 4],
+    jacobian: &[DMat3; 4],
+    residual: DVec3,
+    weight: f64,
+) {
+    let by_row = jacobian.map(|j| j.transpose());
+    let h = 2.0 * weight;
+    let row = |r: usize| Row { components: by_row.map(|j| j.col(r)), t: 0.0, g: h * residual[r], h };
+    sink.low_rank(vertices, &[row(0), row(1), row(2)]);
 }

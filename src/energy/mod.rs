@@ -2,8 +2,7 @@
 //!
 //! Every term is a sum over *elements* that touch at most four garment vertices and, perhaps, the inflation
 //! parameter t. An element hands its derivatives to a [`Sink`] as rank-one pieces
-//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`, or as a plain gradient. A Hessian made of such pieces
-//! is positive semidefinite by construction: no eigenvalue is ever computed.
+//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`. A Hessian made of such pieces is positive semidefinite by construction: no eigenvalue is ever computed.
 
 pub mod attachment;
 pub mod barrier;
@@ -31,17 +30,31 @@ pub struct Direction<'a> {
     pub t: f64,
 }
 
+/// One of several rank-one pieces over the same vertices: `gradient += g a`, `hessian += h a a^T`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Row {
+    /// The component of the direction a at each vertex; those beyond the vertices do not count.
+    pub components: [DVec3; 4],
+    /// The component along t.
+    pub t: f64,
+    /// Derivative along a.
+    pub g: f64,
+    /// Second derivative along a, not negative.
+    pub h: f64,
+}
+
 /// Receives derivatives, element by element.
 pub trait Sink {
     /// Adds `g a` to the gradient and `h a a^T` to the Hessian. `h` must not be negative.
     fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64);
 
-    /// Adds to the gradient at one vertex.
-    fn gradient(&mut self, vertex: u32, g: DVec3);
-
-    /// Adds `block` to the Hessian between all pairs of `vertices`, as the 3k x 3k symmetric positive
-    /// semidefinite matrix `block`, row-major (k = number of vertices, at most 4).
-    fn block(&mut self, vertices: &[u32], block: &[f64]);
+    /// Adds several such pieces over the same vertices (each once, at most four), sooner than one by one.
+    fn low_rank(&mut self, vertices: &[u32], rows: &[Row]) {
+        for row in rows {
+            let components = &row.components[..vertices.len()];
+            self.rank_one(Direction { vertices, components, t: row.t }, row.g, row.h);
+        }
+    }
 }
 
 /// One term of the objective.

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-use super::frame::{LeastSquares, Normal, coefficients, outer, scaled_cross};
+use super::frame::{Normal, coefficients, least_squares, outer, scaled_cross};
 use super::{Configuration, Energy, Sink};
 use crate::input::mesh::{Hinge, has_area};
 use crate::memory::bytes;
@@ -152,10 +152,9 @@ impl Energy for Surface {
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        let mut squares = LeastSquares::new();
         for k in &self.elements[range] {
             let shape = Shape::new(at.x, k.vertices, self.form);
-            squares.add(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
+            least_squares(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
         }
     }
 

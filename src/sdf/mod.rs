@@ -8,26 +8,29 @@
 //! from infinity, so that inner walls, cracks below a voxel and overlaps do no harm. The *distance* is exact, from
 //! a tree of boxes, and so right also where an open avatar has no inside, beyond any band, and the same
 //! whatever the number of threads. Nodes are computed when a sample first touches them. As a node's value depends on
-//! nothing but the node, it does not matter which thread does so: sampling needs no preparation and no lock.
+//! nothing but the node, it does not matter which thread does so: sampling needs no preparation, and no lock where the
+//! nodes are known.
+//!
+//! Nodes are stored as single-precision numbers, in blocks that overlap, so that all the nodes of a sample are in one
+//! place. The spline is then that of distances which are off by up to 6e-8 of themselves: as smooth, with derivatives
+//! that are its own to the last digits.
 
+mod block;
 pub mod closest_point;
 mod spline;
 pub mod volume;
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use glam::{DMat3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::mesh::TriangleMesh;
+use crate::simd::{Four, Kernel, dispatch};
+use block::{Block, Known, SIDE};
 use closest_point::ClosestPoint;
-use spline::Coefficients;
-use volume::{BLOCK, BLOCK_NODES, Volume};
-
-/// Bits of a node not yet computed: not a number, and its sign tells the side (negative inside).
-const UNKNOWN: u64 = 0x7FF8_0000_0000_0000;
-const SIGN: u64 = 1 << 63;
+use volume::{BLOCK, Volume};
 
 /// Blocks that have a place to be stored, at most: 32 MB for the places themselves.
 const MAX_BLOCKS: usize = 1 << 21;
@@ -42,7 +45,7 @@ const BAND: f32 = 2.0;
 /// Layers of blocks around a surface that are in use, and bytes of a block: its nodes here, and what OpenVDB has there
 /// while it works.
 const LAYERS: f64 = 2.0;
-const BLOCK_BYTES: f64 = 3.0 * size_of::<Block>() as f64;
+const BLOCK_BYTES: f64 = (size_of::<Block>() + 8192) as f64;
 
 /// How to build a [`Field`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,14 +60,6 @@ impl Default for FieldOptions {
     fn default() -> Self {
         Self { voxel: 0.01, threads: 1 }
     }
-}
-
-/// The 8^3 nodes of one block.
-#[derive(Debug)]
-struct Block {
-    nodes: [AtomicU64; BLOCK_NODES],
-    /// A triangle close to the block's centre, for the search tree.
-    hint: u32,
 }
 
 /// Signed distance to a mesh: positive outside, negative inside, unit gradient but for the smoothing.
@@ -83,7 +78,7 @@ pub struct Field {
 
 /// The cell of the lattice that holds a point.
 struct Cell {
-    /// The lowest of the 4^3 nodes that the spline needs.
+    /// The lowest of the 4^3 nodes that the spline needs, and the cell's place among those stored.
     base: [i64; 3],
     /// The point's place in the cell, in [0, 1).
     t: DVec3,
@@ -145,29 +140,40 @@ impl Field {
     }
 
     /// D at `p`.
-    #[inline]
     pub fn value(&self, p: DVec3) -> f64 {
-        let cell = self.cell(p);
-        spline::value(&self.coefficients(&cell), cell.t)
+        let mut out = [0.0];
+        self.values(&[p], &mut out);
+        out[0]
     }
 
     /// D and its gradient at `p`.
-    #[inline]
     pub fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
-        let cell = self.cell(p);
-        let (value, gradient) = spline::value_gradient(&self.coefficients(&cell), cell.t);
-        (value, gradient * self.per_voxel)
+        let mut out = [(0.0, DVec3::ZERO)];
+        self.values_gradients(&[p], &mut out);
+        out[0]
     }
 
     /// D, its gradient and its Hessian at `p`.
-    #[inline]
     pub fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
-        let cell = self.cell(p);
-        let (value, gradient, hessian) = spline::value_gradient_hessian(&self.coefficients(&cell), cell.t);
-        (value, gradient * self.per_voxel, hessian * (self.per_voxel * self.per_voxel))
+        let (value, gradient) = self.value_gradient(p);
+        let hessian = dispatch(Hessian { field: self, point: p });
+        (value, gradient, hessian)
     }
 
+    /// D at each of `points`, written to the entries of `out`. Does as many as both have.
     #[inline]
+    pub fn values(&self, points: &[DVec3], out: &mut [f64]) {
+        dispatch(Values { field: self, points, out });
+    }
+
+    /// D and its gradient at each of `points`, written to the entries of `out`. Does as many as both have. Values have the
+    /// same bits as those of [`Self::values`].
+    #[inline]
+    pub fn values_gradients(&self, points: &[DVec3], out: &mut [(f64, DVec3)]) {
+        dispatch(Gradients { field: self, points, out });
+    }
+
+    #[inline(always)]
     fn cell(&self, p: DVec3) -> Cell {
         let u = (p - self.origin) * self.per_voxel;
         let floor = u.floor();
@@ -176,67 +182,78 @@ impl Field {
         Cell { base, t: u - floor }
     }
 
-    /// Node values around a cell, computed where they are not yet known.
-    #[inline]
-    fn coefficients(&self, cell: &Cell) -> Coefficients {
-        let stored = (0..3).all(|a| cell.base[a] >= 0 && cell.base[a] + 3 < (self.extent[a] * BLOCK) as i64);
+    /// The block of a cell and the cell's place in it, where it is stored.
+    #[inline(always)]
+    fn stored(&self, cell: &Cell) -> Option<(&Block, [usize; 3])> {
+        let stored = (0..3).all(|a| cell.base[a] >= 0 && cell.base[a] < (self.extent[a] * BLOCK) as i64);
         if !stored {
-            return self.beyond(cell);
+            return None;
         }
         let base = cell.base.map(|b| b as usize);
-        let near = base.map(|b| b / BLOCK);
-        let far = base.map(|b| (b + 3) / BLOCK);
-        let blocks: [[[&Block; 2]; 2]; 2] =
-            [near[0], far[0]].map(|x| [near[1], far[1]].map(|y| [near[2], far[2]].map(|z| self.block(x, y, z))));
-        let inner = base.map(|b| b % BLOCK);
-        let mut out = [0.0; 64];
-        let mut unknown = false;
-        for i in 0..4 {
-            let x = inner[0] + i;
-            for j in 0..4 {
-                let y = inner[1] + j;
-                let pair = &blocks[(x / BLOCK) & 1][(y / BLOCK) & 1];
-                for k in 0..4 {
-                    let z = inner[2] + k;
-                    let bits = pair[(z / BLOCK) & 1].nodes[offset(x, y, z)].load(Ordering::Relaxed);
-                    unknown |= bits & !SIGN >= UNKNOWN;
-                    out[16 * i + 4 * j + k] = f64::from_bits(bits);
+        let at = base.map(|b| b / BLOCK);
+        let block = &self.blocks[self.place(at)];
+        Some((if let Some(block) = block.get() { block } else { block.get_or_init(|| self.new_block(at)) }, base))
+    }
+
+    /// The nodes around a stored cell, computed where they are not yet known.
+    #[inline(always)]
+    fn nodes<'a>(&self, block: &'a Block, base: [usize; 3]) -> Known<'a> {
+        if let Some(known) = block.known(base) { known } else { self.complete(block, base) }
+    }
+
+    /// Computes the unknown nodes around a stored cell, but for those that a block beside it has.
+    #[cold]
+    fn complete<'a>(&self, block: &'a Block, base: [usize; 3]) -> Known<'a> {
+        // The neighbour's triangle is the best hint; a hint changes how long the search takes, not its result.
+        let mut hint = block.hint;
+        let mut distances = [0.0; 64];
+        let missing = block.missing(base);
+        for n in (0..64).filter(|n| missing >> n & 1 == 1) {
+            let node = [0, 1, 2].map(|a| base[a] + [n / 16, (n / 4) % 4, n % 4][a]);
+            distances[n] = self.found_beside(base, node).unwrap_or_else(|| {
+                let (distance, triangle) = self.tree.distance_hinted(self.node(node.map(|i| i as f64)), hint);
+                hint = triangle;
+                distance as f32
+            });
+        }
+        block.complete(base, &distances)
+    }
+
+    /// A node that a block other than that of `base` has computed.
+    fn found_beside(&self, base: [usize; 3], node: [usize; 3]) -> Option<f32> {
+        let own = base.map(|i| i / BLOCK);
+        let last = node.map(|i| i / BLOCK);
+        // Along an axis, a node is in one block, or in two.
+        let first = node.map(|i| (i + 1).saturating_sub(SIDE).div_ceil(BLOCK));
+        for x in first[0]..=last[0] {
+            for y in first[1]..=last[1] {
+                for z in first[2]..=last[2] {
+                    if [x, y, z] == own || x >= self.extent[0] || y >= self.extent[1] || z >= self.extent[2] {
+                        continue;
+                    }
+                    let inner = [0, 1, 2].map(|a| node[a] - [x, y, z][a] * BLOCK);
+                    let found = self.blocks[self.place([x, y, z])].get().and_then(|block| block.node(inner));
+                    if found.is_some() {
+                        return found;
+                    }
                 }
             }
         }
-        if unknown {
-            self.complete(base, &blocks, &mut out);
-        }
-        out
+        None
     }
 
-    /// Computes and stores the unknown nodes among the 4^3 from `base` on.
-    #[cold]
-    fn complete(&self, base: [usize; 3], blocks: &[[[&Block; 2]; 2]; 2], out: &mut Coefficients) {
-        let inner = base.map(|b| b % BLOCK);
-        // The neighbour's triangle is the best hint; a hint changes how long the search takes, not its result.
-        let mut hint = None;
-        for (n, value) in out.iter_mut().enumerate() {
-            if !value.is_nan() {
-                continue;
-            }
-            let step = [n / 16, (n / 4) % 4, n % 4];
-            let [x, y, z] = [0, 1, 2].map(|a| inner[a] + step[a]);
-            let block = blocks[(x / BLOCK) & 1][(y / BLOCK) & 1][(z / BLOCK) & 1];
-            let node = self.node([0, 1, 2].map(|a| (base[a] + step[a]) as f64));
-            let (distance, triangle) = self.tree.distance_hinted(node, hint.unwrap_or(block.hint));
-            hint = Some(triangle);
-            *value = distance.copysign(*value);
-            block.nodes[offset(x, y, z)].store(value.to_bits(), Ordering::Relaxed);
-        }
+    /// Index of a block.
+    #[inline(always)]
+    fn place(&self, [x, y, z]: [usize; 3]) -> usize {
+        (x * self.extent[1] + y) * self.extent[2] + z
     }
 
-    /// Node values around a cell outside the stored region, where nothing is inside: slow, but the same field.
+    /// The nodes around a cell outside the stored region, where nothing is inside: slow, but the same field.
     #[cold]
-    fn beyond(&self, cell: &Cell) -> Coefficients {
+    fn beyond(&self, cell: &Cell) -> [f32; 64] {
         std::array::from_fn(|n| {
             let step = [n / 16, (n / 4) % 4, n % 4];
-            self.tree.distance(self.node([0, 1, 2].map(|a| (cell.base[a] + step[a] as i64) as f64)))
+            self.tree.distance(self.node([0, 1, 2].map(|a| (cell.base[a] + step[a] as i64) as f64))) as f32
         })
     }
 
@@ -246,23 +263,102 @@ impl Field {
         self.origin + DVec3::from_array(index) * self.voxel
     }
 
-    /// The block at a place within the stored region; when new, with the side of its nodes but no distance.
-    #[inline]
-    fn block(&self, x: usize, y: usize, z: usize) -> &Block {
-        self.blocks[(x * self.extent[1] + y) * self.extent[2] + z].get_or_init(|| {
-            let first = [x, y, z].map(|b| b * BLOCK);
-            let (values, _) = self.volume.read_block(first.map(|i| i as i32));
-            let nodes = values.map(|v| AtomicU64::new(if v < 0.0 { UNKNOWN | SIGN } else { UNKNOWN }));
-            let centre = self.node(first.map(|i| i as f64 + 0.5 * (BLOCK - 1) as f64));
-            Box::new(Block { nodes, hint: self.tree.hint(centre) })
-        })
+    /// The block at a place within the stored region, with the side of its nodes but no distance.
+    #[cold]
+    fn new_block(&self, place: [usize; 3]) -> Box<Block> {
+        let first = place.map(|b| b * BLOCK);
+        // A block has nodes of the next ones, too.
+        let volumes: [_; 8] = std::array::from_fn(|n| {
+            let next = [n / 4, (n / 2) % 2, n % 2];
+            self.volume.read_block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32)).0
+        });
+        let inside = |[x, y, z]: [usize; 3]| {
+            let volume = &volumes[(x / BLOCK) * 4 + (y / BLOCK) * 2 + z / BLOCK];
+            volume[((x % BLOCK) * BLOCK + y % BLOCK) * BLOCK + z % BLOCK] < 0.0
+        };
+        let centre = self.node(first.map(|i| i as f64 + 0.5 * (BLOCK - 1) as f64));
+        Box::new(Block::new(inside, self.tree.hint(centre)))
     }
 }
 
-/// Place of a node in its block; whole blocks are left out of the coordinates.
-#[inline]
-fn offset(x: usize, y: usize, z: usize) -> usize {
-    (((x % BLOCK) * BLOCK) + y % BLOCK) * BLOCK + z % BLOCK
+/// Values at many points.
+struct Values<'a> {
+    field: &'a Field,
+    points: &'a [DVec3],
+    out: &'a mut [f64],
+}
+
+impl Kernel for Values<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        for (&p, out) in self.points.iter().zip(self.out) {
+            let cell = self.field.cell(p);
+            *out = if let Some((block, base)) = self.field.stored(&cell) {
+                let nodes = self.field.nodes(block, base);
+                spline::value::<V>(|i, j| nodes.row(i, j), cell.t)
+            } else {
+                let nodes = self.field.beyond(&cell);
+                spline::value::<V>(|i, j| row(&nodes, i, j), cell.t)
+            };
+        }
+    }
+}
+
+/// Values and gradients at many points.
+struct Gradients<'a> {
+    field: &'a Field,
+    points: &'a [DVec3],
+    out: &'a mut [(f64, DVec3)],
+}
+
+impl Kernel for Gradients<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        for (&p, out) in self.points.iter().zip(self.out) {
+            let cell = self.field.cell(p);
+            let (value, gradient) = if let Some((block, base)) = self.field.stored(&cell) {
+                let nodes = self.field.nodes(block, base);
+                spline::value_gradient::<V>(|i, j| nodes.row(i, j), cell.t)
+            } else {
+                let nodes = self.field.beyond(&cell);
+                spline::value_gradient::<V>(|i, j| row(&nodes, i, j), cell.t)
+            };
+            *out = (value, gradient * self.field.per_voxel);
+        }
+    }
+}
+
+/// The Hessian at one point.
+struct Hessian<'a> {
+    field: &'a Field,
+    point: DVec3,
+}
+
+impl Kernel for Hessian<'_> {
+    type Output = DMat3;
+
+    #[inline(always)]
+    fn run<V: Four>(self) -> DMat3 {
+        let cell = self.field.cell(self.point);
+        let hessian = if let Some((block, base)) = self.field.stored(&cell) {
+            let nodes = self.field.nodes(block, base);
+            spline::hessian::<V>(|i, j| nodes.row(i, j), cell.t)
+        } else {
+            let nodes = self.field.beyond(&cell);
+            spline::hessian::<V>(|i, j| row(&nodes, i, j), cell.t)
+        };
+        hessian * (self.field.per_voxel * self.field.per_voxel)
+    }
+}
+
+/// Nodes (i, j, 0..4) of the 4^3.
+#[inline(always)]
+fn row(nodes: &[f32; 64], i: usize, j: usize) -> [f32; 4] {
+    std::array::from_fn(|k| nodes[16 * i + 4 * j + k])
 }
 
 /// The box around the vertices that triangles use.

@@ -1,69 +1,89 @@
 //! The uniform cubic B-spline in three dimensions on the 4 x 4 x 4 nodes around a cell:
 //! `D(p) = sum_ijk c_ijk B_i(u) B_j(v) B_k(w)`.
+//!
+//! Rows of four nodes along the last axis are contracted along the first two axes at once; the last axis comes at the
+//! end. All functions compute the value by the same operations, and so to the same bits.
 
 use glam::{DMat3, DVec3};
 
-/// The coefficients around a cell: node (i, j, k) is entry 16 i + 4 j + k.
-pub(super) type Coefficients = [f64; 64];
+use crate::simd::Four;
 
-/// The four basis functions, and their first and second derivatives, at `t` in [0, 1) of a cell of unit width.
-#[inline]
-fn basis(t: f64) -> [[f64; 4]; 3] {
+/// The four basis functions, or one of their derivatives, at a place in a cell.
+type Weights = [f64; 4];
+
+/// The basis functions at `t` in [0, 1) of a cell of unit width.
+#[inline(always)]
+fn basis(t: f64) -> Weights {
     let s = 1.0 - t;
     let (tt, ss) = (t * t, s * s);
-    [
-        [ss * s / 6.0, (4.0 + tt * (3.0 * t - 6.0)) / 6.0, (4.0 + ss * (3.0 * s - 6.0)) / 6.0, tt * t / 6.0],
-        [-0.5 * ss, t * (1.5 * t - 2.0), -s * (1.5 * s - 2.0), 0.5 * tt],
-        [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t],
-    ]
+    const SIXTH: f64 = 1.0 / 6.0;
+    [ss * s * SIXTH, (4.0 + tt * (3.0 * t - 6.0)) * SIXTH, (4.0 + ss * (3.0 * s - 6.0)) * SIXTH, tt * t * SIXTH]
 }
 
-/// The derivatives of order (a, b, c) along the axes with a + b + c < N, as entry `[a][b][c]`, at the point
-/// `t` of the cell. The others are 0.
-#[inline]
-fn contract<const N: usize>(c: &Coefficients, t: DVec3) -> [[[f64; N]; N]; N] {
-    let (x, y, z) = (basis(t.x), basis(t.y), basis(t.z));
-    let mut out = [[[0.0; N]; N]; N];
-    for i in 0..4 {
-        let mut plane = [[0.0; N]; N];
-        for j in 0..4 {
-            let row = &c[16 * i + 4 * j..][..4];
-            for (oz, wz) in z.iter().enumerate().take(N) {
-                let along = (row[0] * wz[0] + row[1] * wz[1]) + (row[2] * wz[2] + row[3] * wz[3]);
-                for (oy, wy) in y.iter().enumerate().take(N - oz) {
-                    plane[oy][oz] += wy[j] * along;
-                }
-            }
+/// Their first derivatives.
+#[inline(always)]
+fn slopes(t: f64) -> Weights {
+    let s = 1.0 - t;
+    [-0.5 * s * s, t * (1.5 * t - 2.0), -s * (1.5 * s - 2.0), 0.5 * t * t]
+}
+
+/// Their second derivatives.
+#[inline(always)]
+fn bends(t: f64) -> Weights {
+    let s = 1.0 - t;
+    [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t]
+}
+
+/// The value at the point `t` of the cell; `row(i, j)` are the nodes (i, j, 0..4).
+#[inline(always)]
+pub(super) fn value<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> f64 {
+    let (x, y) = (basis(t.x), basis(t.y));
+    let mut sum = V::splat(0.0);
+    for (i, &wx) in x.iter().enumerate() {
+        let mut plane = V::splat(0.0);
+        for (j, &wy) in y.iter().enumerate() {
+            plane = plane.add_scaled(wy, V::widen(row(i, j)));
         }
-        for (ox, wx) in x.iter().enumerate().take(N) {
-            for oy in 0..N - ox {
-                for oz in 0..N - ox - oy {
-                    out[ox][oy][oz] += wx[i] * plane[oy][oz];
-                }
-            }
-        }
+        sum = sum.add_scaled(wx, plane);
     }
-    out
-}
-
-/// The value at the point `t` of the cell.
-#[inline]
-pub(super) fn value(c: &Coefficients, t: DVec3) -> f64 {
-    contract::<1>(c, t)[0][0][0]
+    sum.dot(basis(t.z))
 }
 
 /// The value and the gradient (for a cell of unit width).
-#[inline]
-pub(super) fn value_gradient(c: &Coefficients, t: DVec3) -> (f64, DVec3) {
-    let d = contract::<2>(c, t);
-    (d[0][0][0], DVec3::new(d[1][0][0], d[0][1][0], d[0][0][1]))
+#[inline(always)]
+pub(super) fn value_gradient<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> (f64, DVec3) {
+    let (x, y, z) = (basis(t.x), basis(t.y), basis(t.z));
+    let (dx, dy) = (slopes(t.x), slopes(t.y));
+    let (mut sum, mut by_x, mut by_y) = (V::splat(0.0), V::splat(0.0), V::splat(0.0));
+    for (i, (&wx, dx)) in x.iter().zip(dx).enumerate() {
+        let (mut plane, mut plane_y) = (V::splat(0.0), V::splat(0.0));
+        for (j, (&wy, &dy)) in y.iter().zip(&dy).enumerate() {
+            let row = V::widen(row(i, j));
+            plane = plane.add_scaled(wy, row);
+            plane_y = plane_y.add_scaled(dy, row);
+        }
+        sum = sum.add_scaled(wx, plane);
+        by_x = by_x.add_scaled(dx, plane);
+        by_y = by_y.add_scaled(wx, plane_y);
+    }
+    (sum.dot(z), DVec3::new(by_x.dot(z), by_y.dot(z), sum.dot(slopes(t.z))))
 }
 
-/// The value, the gradient and the Hessian (for a cell of unit width).
-#[inline]
-pub(super) fn value_gradient_hessian(c: &Coefficients, t: DVec3) -> (f64, DVec3, DMat3) {
-    let d = contract::<3>(c, t);
-    let (xy, xz, yz) = (d[1][1][0], d[1][0][1], d[0][1][1]);
-    let hessian = DMat3::from_cols_array(&[d[2][0][0], xy, xz, xy, d[0][2][0], yz, xz, yz, d[0][0][2]]);
-    (d[0][0][0], DVec3::new(d[1][0][0], d[0][1][0], d[0][0][1]), hessian)
+/// The Hessian (for a cell of unit width).
+#[inline(always)]
+pub(super) fn hessian<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> DMat3 {
+    let along = |a: usize, order: usize| [basis(t[a]), slopes(t[a]), bends(t[a])][order];
+    let derivative = |[a, b, c]: [usize; 3]| {
+        let (x, y) = (along(0, a), along(1, b));
+        let mut sum = V::splat(0.0);
+        for (i, wx) in x.iter().enumerate() {
+            for (j, wy) in y.iter().enumerate() {
+                sum = sum.add_scaled(wx * wy, V::widen(row(i, j)));
+            }
+        }
+        sum.dot(along(2, c))
+    };
+    let (xy, xz, yz) = (derivative([1, 1, 0]), derivative([1, 0, 1]), derivative([0, 1, 1]));
+    let (xx, yy, zz) = (derivative([2, 0, 0]), derivative([0, 2, 0]), derivative([0, 0, 2]));
+    DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz])
 }

@@ -1,24 +1,26 @@
 //! Gradient and Hessian of a weighted sum of energies.
 //!
-//! Elements are dealt in fixed chunks to a fixed number of lanes, each with arrays of its own, which are then added
-//! in order: the sums have the same bits whatever the number of threads.
+//! A term's elements are evaluated in fixed chunks, on as many threads as there are; then vertices sum what is theirs.
+//! Both in a fixed order: the sums have the same bits whatever the number of threads.
 
 use std::time::{Duration, Instant};
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Term;
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
+use super::tape::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use crate::control::Cancel;
-use crate::energy::{Configuration, Direction, Sink};
+use crate::energy::Configuration;
 use crate::memory::bytes;
 
 /// Elements in a chunk.
-const CHUNK: usize = 256;
-/// Arrays that are filled independently. More lanes help more threads and cost more additions.
-const LANES: usize = 4;
+const CHUNK: usize = 32;
+/// Chunks that are evaluated before they are summed: their derivatives are in memory at the same time.
+const BATCH: usize = 64;
+/// Owners of vertices.
+const OWNERS: usize = 64;
 
 /// The linear system of one Newton iteration: `[H b; b^T c] [dx; dt] = -[g; g_t]`.
 #[derive(Clone, Debug, Default)]
@@ -33,99 +35,11 @@ pub struct System {
     pub t_gradient: f64,
     /// c.
     pub t_hessian: f64,
-    lanes: Vec<Lane>,
-    cancel: Cancel,
-}
-
-#[derive(Clone, Debug, Default)]
-struct Lane {
-    hessian: Vec<f64>,
-    gradient: Vec<f64>,
-    border: Vec<f64>,
-    t_gradient: f64,
-    t_hessian: f64,
-    missing: PairCollector,
-    /// Time in each term.
+    tapes: Vec<Tape>,
+    incidence: Incidence,
+    /// Time in each term, over all threads.
     times: Vec<Duration>,
-}
-
-/// A lane while it receives one term.
-struct LaneSink<'a> {
-    lane: &'a mut Lane,
-    pattern: &'a Pattern,
-    weight: f64,
-}
-
-impl Sink for LaneSink<'_> {
-    fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64) {
-        let (g, h) = (g * self.weight, h * self.weight);
-        let lane = &mut *self.lane;
-        lane.t_gradient += g * a.t;
-        lane.t_hessian += h * a.t * a.t;
-        for (k, (&v, &c)) in a.vertices.iter().zip(a.components).enumerate() {
-            let at = 3 * v as usize;
-            let ht = h * a.t;
-            for r in 0..3 {
-                lane.gradient[at + r] += g * c[r];
-                lane.border[at + r] += ht * c[r];
-            }
-            if h == 0.0 {
-                continue;
-            }
-            let hc = h * c;
-            let d = self.pattern.diagonal(v);
-            for col in 0..3 {
-                for row in col..3 {
-                    lane.hessian[d[col] + row - col] += hc[row] * c[col];
-                }
-            }
-            for (&w, &e) in a.vertices[..k].iter().zip(a.components) {
-                let (row, col, rc, cc) = if v > w { (v, w, c, e) } else { (w, v, e, c) };
-                let Some(block) = self.pattern.block(row, col) else {
-                    lane.missing.add(row, col);
-                    continue;
-                };
-                for (column, &start) in block.iter().enumerate() {
-                    let s = h * cc[column];
-                    for r in 0..3 {
-                        lane.hessian[start + r] += s * rc[r];
-                    }
-                }
-            }
-        }
-    }
-
-    fn gradient(&mut self, vertex: u32, g: DVec3) {
-        let at = 3 * vertex as usize;
-        for r in 0..3 {
-            self.lane.gradient[at + r] += self.weight * g[r];
-        }
-    }
-
-    fn block(&mut self, vertices: &[u32], block: &[f64]) {
-        let stride = 3 * vertices.len();
-        let lane = &mut *self.lane;
-        for (k, &v) in vertices.iter().enumerate() {
-            let d = self.pattern.diagonal(v);
-            for col in 0..3 {
-                for row in col..3 {
-                    lane.hessian[d[col] + row - col] += self.weight * block[(3 * k + row) * stride + 3 * k + col];
-                }
-            }
-            for (m, &w) in vertices[..k].iter().enumerate() {
-                let (row, col, i, j) = if v > w { (v, w, k, m) } else { (w, v, m, k) };
-                let Some(slots) = self.pattern.block(row, col) else {
-                    lane.missing.add(row, col);
-                    continue;
-                };
-                for (c, &start) in slots.iter().enumerate() {
-                    for r in 0..3 {
-                        lane.hessian[start + r] += self.weight * block[(3 * i + r) * stride + 3 * j + c];
-                    }
-                }
-            }
-        }
-    }
+    cancel: Cancel,
 }
 
 impl System {
@@ -137,95 +51,126 @@ impl System {
     /// Evaluates all the derivatives of `terms` at `at`. Returns the pairs of vertices that the pattern lacks; where
     /// there are any, the Hessian is incomplete.
     pub fn assemble(&mut self, pattern: &Pattern, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
-        let chunks: Vec<(usize, usize)> = (0..terms.len())
-            .filter(|&term| terms[term].weight != 0.0)
-            .flat_map(|term| (0..terms[term].energy.len()).step_by(CHUNK).map(move |start| (term, start)))
-            .collect();
-        self.lanes.resize_with(LANES, Lane::default);
-        let cancel = &self.cancel;
-        self.lanes.par_iter_mut().enumerate().for_each(|(index, lane)| {
-            lane.clear(pattern);
-            lane.times.clear();
-            lane.times.resize(terms.len(), Duration::ZERO);
-            let mut clock = Instant::now();
-            for &(term, start) in chunks.iter().skip(index).step_by(LANES) {
-                if cancel.is_requested() {
-                    return;
-                }
-                let Term { energy, weight } = terms[term];
-                let range = start..(start + CHUNK).min(energy.len());
-                energy.derivatives(at, range, &mut LaneSink { lane, pattern, weight });
-                let now = Instant::now();
-                lane.times[term] += now - clock;
-                clock = now;
-            }
-        });
-        self.add_lanes(pattern);
+        self.clear(pattern);
+        self.times.clear();
         let mut missing = PairCollector::default();
-        for lane in &mut self.lanes {
-            missing.append(&mut lane.missing);
+        for term in terms {
+            let mut time = Duration::ZERO;
+            let count = if term.weight == 0.0 { 0 } else { term.energy.len() };
+            for first in (0..count).step_by(CHUNK * BATCH) {
+                let last = count.min(first + CHUNK * BATCH);
+                time += self.evaluate(term, first, last, at);
+                if self.cancel.is_requested() {
+                    return missing;
+                }
+                time += self.sum(pattern, &mut missing);
+            }
+            self.times.push(time);
         }
         missing
     }
 
     /// Adds the times that `terms` took in the last assembly, which was of them.
     pub fn note_times(&self, terms: &[Term<'_>], profile: &mut Profile) {
-        for lane in &self.lanes {
-            for (term, &time) in terms.iter().zip(&lane.times).filter(|(_, time)| !time.is_zero()) {
-                profile.term(term.energy.name()).derivatives += time;
-            }
+        for (term, &time) in terms.iter().zip(&self.times).filter(|(_, time)| !time.is_zero()) {
+            profile.term(term.energy.name()).derivatives += time;
         }
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        let lanes: u64 = self.lanes.iter().map(|l| bytes(&l.hessian) + bytes(&l.gradient) + bytes(&l.border)).sum();
-        lanes + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
+        let tapes: u64 = self.tapes.iter().map(Tape::memory).sum();
+        tapes + self.incidence.memory() + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
     }
 
-    /// Bytes that it will hold for `pattern`.
+    /// About how many bytes it will hold for `pattern`.
     pub fn memory_for(pattern: &Pattern) -> u64 {
-        ((LANES + 1) * (pattern.value_count() + 6 * pattern.vertex_count()) * size_of::<f64>()) as u64
+        let n = pattern.vertex_count();
+        // A surface has twice as many triangles as vertices, and three times as many edges.
+        let elements = (3 * n).min(CHUNK * BATCH);
+        ((pattern.value_count() + 6 * n) * size_of::<f64>() + elements * ELEMENT_BYTES) as u64
     }
 
-    fn add_lanes(&mut self, pattern: &Pattern) {
+    /// All zero, in the size of `pattern`.
+    fn clear(&mut self, pattern: &Pattern) {
         let n = 3 * pattern.vertex_count();
-        self.hessian.resize(pattern.value_count(), 0.0);
-        self.gradient.resize(n, 0.0);
-        self.border.resize(n, 0.0);
-        let lanes = &self.lanes;
-        let add = |out: &mut [f64], of: fn(&Lane) -> &[f64]| {
-            out.par_chunks_mut(1 << 14).enumerate().for_each(|(k, out)| {
-                let start = k << 14;
-                out.copy_from_slice(&of(&lanes[0])[start..start + out.len()]);
-                for lane in &lanes[1..] {
-                    for (o, v) in out.iter_mut().zip(&of(lane)[start..]) {
-                        *o += v;
-                    }
-                }
-            });
+        for (array, len) in [(&mut self.hessian, pattern.value_count()), (&mut self.gradient, n), (&mut self.border, n)]
+        {
+            array.resize(len, 0.0);
+            array.par_chunks_mut(1 << 14).for_each(|part| part.fill(0.0));
+        }
+        (self.t_gradient, self.t_hessian) = (0.0, 0.0);
+    }
+
+    /// Writes the derivatives of the elements from `first` to before `last` down. Returns the time, over all threads.
+    fn evaluate(&mut self, term: &Term<'_>, first: usize, last: usize, at: Configuration<'_>) -> Duration {
+        self.tapes.resize_with((last - first).div_ceil(CHUNK), Tape::default);
+        let cancel = &self.cancel;
+        let work = |(k, tape): (usize, &mut Tape)| {
+            let clock = Instant::now();
+            tape.clear(term.weight);
+            let start = first + k * CHUNK;
+            if !cancel.is_requested() {
+                term.energy.derivatives(at, start..last.min(start + CHUNK), tape);
+            }
+            clock.elapsed()
         };
-        add(&mut self.hessian, |lane| &lane.hessian);
-        add(&mut self.gradient, |lane| &lane.gradient);
-        add(&mut self.border, |lane| &lane.border);
-        self.t_gradient = lanes.iter().map(|lane| lane.t_gradient).sum();
-        self.t_hessian = lanes.iter().map(|lane| lane.t_hessian).sum();
+        self.tapes.par_iter_mut().enumerate().map(work).sum()
+    }
+
+    /// Adds what is written down to the system, and the pairs that `pattern` lacks to `missing`. Returns the time, over
+    /// all threads.
+    fn sum(&mut self, pattern: &Pattern, missing: &mut PairCollector) -> Duration {
+        let clock = Instant::now();
+        for tape in &self.tapes {
+            self.t_gradient += tape.t_gradient;
+            self.t_hessian += tape.t_hessian;
+        }
+        let n = pattern.vertex_count();
+        self.incidence.find(n, &self.tapes);
+        let alone = clock.elapsed();
+        let (tapes, incidence) = (&self.tapes, &self.incidence);
+        let mut owners = owners(pattern, incidence, &mut self.hessian, &mut self.gradient, &mut self.border);
+        let work = |scratch: &mut Scratch, owner: &mut Owner<'_>| {
+            let clock = Instant::now();
+            owner.add(pattern, tapes, incidence, scratch);
+            clock.elapsed()
+        };
+        let together: Duration = owners.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
+        owners.iter_mut().for_each(|owner| missing.append(&mut owner.missing));
+        alone + together
     }
 }
 
-impl Lane {
-    fn clear(&mut self, pattern: &Pattern) {
-        let n = 3 * pattern.vertex_count();
-        let zero = |v: &mut Vec<f64>, len: usize| {
-            v.clear();
-            v.resize(len, 0.0);
-        };
-        zero(&mut self.hessian, pattern.value_count());
-        zero(&mut self.gradient, n);
-        zero(&mut self.border, n);
-        self.t_gradient = 0.0;
-        self.t_hessian = 0.0;
+/// Deals all vertices to owners with about the same number of records each.
+fn owners<'a>(
+    pattern: &Pattern,
+    incidence: &Incidence,
+    mut hessian: &'a mut [f64],
+    mut gradient: &'a mut [f64],
+    mut border: &'a mut [f64],
+) -> Vec<Owner<'a>> {
+    let n = pattern.vertex_count();
+    let share = (incidence.before(n) as usize).div_ceil(OWNERS).max(1);
+    let mut owners = Vec::with_capacity(OWNERS + 1);
+    let mut first = 0;
+    while first < n {
+        let wanted = incidence.before(first) as usize + share;
+        let mut next = first + 1;
+        while next < n && (incidence.before(next) as usize) < wanted {
+            next += 1;
+        }
+        let values = pattern.col_ptr()[3 * next] - pattern.col_ptr()[3 * first];
+        owners.push(Owner {
+            first,
+            hessian: hessian.split_off_mut(..values as usize).unwrap_or_default(),
+            gradient: gradient.split_off_mut(..3 * (next - first)).unwrap_or_default(),
+            border: border.split_off_mut(..3 * (next - first)).unwrap_or_default(),
+            missing: PairCollector::default(),
+        });
+        first = next;
     }
+    owners
 }
 
 /// The value of each term, unweighted, in the order of `terms`. Their times are added to `profile`.

@@ -9,6 +9,7 @@ pub mod line_search;
 pub mod newton;
 pub mod pattern;
 pub mod profile;
+mod tape;
 
 use crate::energy::Energy;
 

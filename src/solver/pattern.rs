@@ -107,7 +107,8 @@ impl Pattern {
         self.row_idx.len()
     }
 
-    /// Block rows strictly below the diagonal of block column `j`, ascending.
+    /// Block rows strictly below the diagonal of block column `j`, ascending. Each of the three scalar columns holds the
+    /// entries of the diagonal block, those on and below the diagonal, and then three for each block row.
     pub fn column(&self, j: usize) -> &[u32] {
         &self.rows[self.column_start[j] as usize..self.column_start[j + 1] as usize]
     }
@@ -120,16 +121,6 @@ impl Pattern {
     /// Scalar row indices of the lower triangle.
     pub fn row_idx(&self) -> &[u32] {
         &self.row_idx
-    }
-
-    /// Where row 0 of each of the three scalar columns of block (`row`, `column`), `row > column`, is stored: rows
-    /// 1 and 2 follow. `None` where the pattern has no such block.
-    #[inline]
-    pub fn block(&self, row: u32, column: u32) -> Option<[usize; 3]> {
-        let j = column as usize;
-        let k = self.column(j).binary_search(&row).ok()?;
-        let start = |c: usize| self.col_ptr[3 * j + c] as usize + 3 - c + 3 * k;
-        Some([start(0), start(1), start(2)])
     }
 
     /// Where the diagonal entry of each of the three scalar columns of block column `j` is stored; the entries below it

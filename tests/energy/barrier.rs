@@ -248,8 +248,6 @@ fn vertices_without_weight_are_left_out() {
         fn rank_one(&mut self, a: Direction<'_>, _: f64, _: f64) {
             self.0.push(a.vertices.len());
         }
-        fn gradient(&mut self, _: u32, _: DVec3) {}
-        fn block(&mut self, _: &[u32], _: &[f64]) {}
     }
     let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
     // The point is closest to a corner, to an edge, to the face.

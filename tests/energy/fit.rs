@@ -48,12 +48,13 @@ fn integral_over_a_plane_is_exact() {
         let fit = Fit::new(field.clone(), &triangles, &[area, 2.0 * area], &[1.0; 4]);
         let per_face = |t: [u32; 3]| moment(t.map(|v| x[v as usize].z));
         let exact = area * per_face(triangles[0]) + 2.0 * area * per_face(triangles[1]);
-        assert!((value(&fit, &x) / exact - 1.0).abs() < 1e-11, "area {area}: {} {exact}", value(&fit, &x));
+        // But for the single precision of the field's nodes.
+        assert!((value(&fit, &x) / exact - 1.0).abs() < 2e-7, "area {area}: {} {exact}", value(&fit, &x));
     }
     // Weights are linear on a face: with constant distance the integral is their mean.
     let flat: Vec<DVec3> = x.iter().map(|p| p.with_z(0.25)).collect();
     let fit = Fit::new(field, &triangles[..1], &[0.3], &[1.0, 0.5, 3.0, 9.0]);
-    assert!((value(&fit, &flat) - 0.3 * 1.5 * 0.0625).abs() < 1e-13);
+    assert!((value(&fit, &flat) / (0.3 * 1.5 * 0.0625) - 1.0).abs() < 2e-7);
 }
 
 #[test]
@@ -74,9 +75,9 @@ fn derivatives_agree_with_finite_differences() {
     let fit = Fit::new(field.clone(), &triangles, &[0.2, 0.1], &[1.0; 4]);
     check_gradient(&fit, &x, 1.0, 1e-5, 1e-7);
     check_semidefinite(&fit, &x, 1.0, &mut || random.signed());
-    // D is linear above the plane, so Gauss-Newton is the whole Hessian.
+    // D is linear above the plane, but for the nodes' single precision, so Gauss-Newton is the whole Hessian.
     let (x, triangles) = garment(&mut random, 0.3);
-    check_hessian(&Fit::new(field, &triangles, &[0.2, 0.1], &[1.0; 4]), &x, 1.0, 1e-4, 1e-7);
+    check_hessian(&Fit::new(field, &triangles, &[0.2, 0.1], &[1.0; 4]), &x, 1.0, 1e-4, 1e-5);
 }
 
 #[test]
@@ -91,11 +92,11 @@ fn inside_and_within_the_clearance_cost_nothing() {
     let (above, _) = garment(&mut random, 0.2);
     assert!(value(&fit, &above) > 0.0);
     // As designed: the clearance that the samples have now.
-    let aims: Vec<f64> = fit.sample_points(&above).iter().map(|p| p.z + 1e-9).collect();
+    let aims: Vec<f64> = fit.sample_points(&above).iter().map(|p| p.z + 1e-7).collect();
     fit.set_aims(&aims).expect("one a sample");
     assert_eq!(value(&fit, &above), 0.0);
     let higher: Vec<DVec3> = above.iter().map(|p| *p + 0.1 * DVec3::Z).collect();
-    assert!((value(&fit, &higher) - 0.3 * 0.01).abs() < 1e-9);
+    assert!((value(&fit, &higher) - 0.3 * 0.01).abs() < 1e-8);
     assert!(fit.set_aims(&aims[1..]).is_err());
     assert!(fit.set_aims(&vec![-1.0; aims.len()]).is_err());
 }

@@ -39,22 +39,6 @@ impl Sink for Dense {
             }
         }
     }
-
-    fn gradient(&mut self, vertex: u32, g: DVec3) {
-        for k in 0..3 {
-            self.gradient[3 * vertex as usize + k] += g[k];
-        }
-    }
-
-    fn block(&mut self, vertices: &[u32], block: &[f64]) {
-        let k = 3 * vertices.len();
-        let index = |i: usize| 3 * vertices[i / 3] as usize + i % 3;
-        for i in 0..k {
-            for j in 0..k {
-                self.hessian[index(i)][index(j)] += block[i * k + j];
-            }
-        }
-    }
 }
 
 /// All the derivatives of `energy` as dense arrays.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use bespoke::energy::{Configuration, Direction, Energy, Sink};
+use bespoke::energy::{Configuration, Direction, Energy, Row, Sink};
 use bespoke::solver::Term;
 use bespoke::solver::assembly::System;
 use bespoke::solver::cholesky::Factor;
@@ -38,6 +38,20 @@ impl Pieces {
     }
 }
 
+/// Pieces that, without t, make up `h a a^T` and `g a`: more of them than a sink is used to, some without a Hessian.
+fn rows(k: usize, components: &[DVec3], t: f64, g: f64, h: f64) -> Vec<Row> {
+    let mut all = [DVec3::ZERO; 4];
+    all[..components.len()].copy_from_slice(components);
+    let count = 1 + k % 9;
+    let part = |i: usize| Row {
+        components: all,
+        t: if i == 0 { 0.0 } else { t },
+        g: if i == 0 { g } else { 0.0 },
+        h: if i + 1 == count { h } else { 0.0 },
+    };
+    (0..count).map(part).collect()
+}
+
 impl Energy for Pieces {
     fn name(&self) -> &'static str {
         "pieces"
@@ -52,14 +66,12 @@ impl Energy for Pieces {
     }
 
     fn derivatives(&self, _: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        for (k, (vertices, components, t, g, h)) in self.elements[range].iter().enumerate() {
+        for k in range {
+            let (vertices, components, t, g, h) = &self.elements[k];
             if k % 2 == 0 {
                 sink.rank_one(Direction { vertices, components, t: *t }, *g, *h);
             } else {
-                let a: Vec<f64> = components.iter().flat_map(|c| c.to_array()).collect();
-                let block: Vec<f64> = a.iter().flat_map(|x| a.iter().map(move |y| h * x * y)).collect();
-                sink.block(vertices, &block);
-                sink.gradient(vertices[0], components[0]);
+                sink.low_rank(vertices, &rows(k, components, *t, *g, *h));
             }
         }
     }
@@ -84,7 +96,6 @@ fn dense(n: usize, energies: &[(&Pieces, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec
     let mut h = vec![vec![0.0; 3 * n]; 3 * n];
     let (mut gt, mut ht) = (0.0, 0.0);
     for (energy, w) in energies {
-        // Chunks begin at even elements, so an element's parity within its chunk is its own.
         for (k, (vertices, components, t, gk, hk)) in energy.elements.iter().enumerate() {
             let mut a = vec![0.0; 3 * n];
             for (&v, c) in vertices.iter().zip(components) {
@@ -97,18 +108,16 @@ fn dense(n: usize, energies: &[(&Pieces, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec
                     h[i][j] += w * hk * a[i] * a[j];
                 }
             }
-            if k % 2 == 0 {
-                for i in 0..3 * n {
-                    g[i] += w * gk * a[i];
-                    b[i] += w * hk * t * a[i];
-                }
-                gt += w * gk * t;
-                ht += w * hk * t * t;
-            } else {
-                for r in 0..3 {
-                    g[3 * vertices[0] as usize + r] += w * components[0][r];
-                }
+            // The first of several rows has the gradient, the last one the Hessian, and the first one has no t.
+            let first = k % 2 == 1;
+            let only = first && k % 9 == 0;
+            let (g_t, h_t) = (if first { 0.0 } else { *t }, if only { 0.0 } else { *t });
+            for i in 0..3 * n {
+                g[i] += w * gk * a[i];
+                b[i] += w * hk * h_t * a[i];
             }
+            gt += w * gk * g_t;
+            ht += w * hk * h_t * h_t;
         }
     }
     (g, h, b, gt, ht)
@@ -118,7 +127,8 @@ fn dense(n: usize, energies: &[(&Pieces, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec
 fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
     let mut random = Random::new(1);
     let n = 12;
-    let first = Pieces::random(n as u32, 700, &mut random);
+    // More than are summed at a time.
+    let first = Pieces::random(n as u32, 9000, &mut random);
     let second = Pieces::random(n as u32, 40, &mut random);
     let terms = [Term { energy: &first, weight: 0.7 }, Term { energy: &second, weight: 3.0 }];
     let pattern = pattern_of(n, &first);
