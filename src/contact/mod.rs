@@ -13,7 +13,7 @@ pub mod mollifier;
 pub mod surface;
 pub mod tangle;
 
-pub use bodies::{Avatar, Bodies, Configuration, Garment, Step};
+pub use bodies::{Avatar, Bodies, Configuration, Garment, Motion, Step};
 pub use candidates::{BroadPhase, CandidateSet, Class};
 pub use distance::Kind;
 pub use surface::Surface;
