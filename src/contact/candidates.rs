@@ -7,16 +7,18 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::{Bodies, Motion};
-use super::bvh::{Aabb, Bvh, NodePair};
+use super::bvh::{Aabb, NodePair};
 use super::distance::Kind;
+use super::neighbours::Neighbours;
 use super::surface::Surface;
+use super::swept::{Plane, SweptSurface, shadow};
 use super::tangle::Tangle;
 use crate::memory::bytes;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
 const PIECES: usize = 128;
 
-/// Primitives a thread takes at once when it bounds them, at least.
+/// Neighbouring pairs a thread looks at at once.
 const CHUNK: usize = 2048;
 
 /// Pairs that a thread filters at once.
@@ -161,73 +163,6 @@ impl CandidateSet {
     }
 }
 
-/// The plane of a triangle at the beginning.
-#[derive(Clone, Copy, Debug)]
-struct Plane {
-    /// The unit normal, zero where the triangle has no area.
-    normal: DVec3,
-    /// The smallest coordinate of the triangle along the normal at the beginning and at the end, then the largest.
-    shadow: [[f64; 2]; 2],
-}
-
-/// One surface during a part of a motion.
-#[derive(Default)]
-struct SweptSurface {
-    /// Boxes of the vertices.
-    vertices: Vec<Aabb>,
-    /// Where the vertices are at the beginning and at the end.
-    places: Vec<[DVec3; 2]>,
-    /// Planes of the triangles.
-    planes: Vec<Plane>,
-    /// The tree over the triangles.
-    tree: Bvh,
-}
-
-impl SweptSurface {
-    fn memory(&self) -> u64 {
-        bytes(&self.vertices) + bytes(&self.places) + bytes(&self.planes) + self.tree.memory()
-    }
-
-    /// Follows the first `part` of `motion`, in which the surface's vertices are numbered from `offset`; boxes get the
-    /// margin on all sides.
-    fn follow(&mut self, surface: &Surface, motion: &Motion, offset: u32, part: f64, margin: f64) {
-        fill(&mut self.places, surface.vertex_count, |v| {
-            let v = v as u32 + offset;
-            [motion.position(v, 0.0), motion.position(v, part)]
-        });
-        let places = &self.places;
-        fill(&mut self.vertices, surface.vertex_count, |v| Aabb::around(places[v][0], places[v][1], margin));
-        fill(&mut self.planes, surface.triangles.len(), |t| {
-            let [a, b, c] = surface.triangles[t];
-            let (a, b, c) = (&places[a as usize], &places[b as usize], &places[c as usize]);
-            let normal = (b[0] - a[0]).cross(c[0] - a[0]).normalize_or_zero();
-            let shadow = [0, 1].map(|end| shadow(normal, a[end], b[end], c[end]));
-            Plane { normal, shadow: [[shadow[0][0], shadow[1][0]], [shadow[0][1], shadow[1][1]]] }
-        });
-        let vertices = &self.vertices;
-        self.tree.refit(|t| triangle_box(vertices, surface.triangles[t as usize]));
-    }
-}
-
-/// The smallest and the largest coordinate of three points along `n`.
-#[inline]
-fn shadow(n: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
-    let (a, b, c) = (n.dot(a), n.dot(b), n.dot(c));
-    [a.min(b).min(c), a.max(b).max(c)]
-}
-
-/// The box of a triangle from those of the vertices.
-#[inline]
-fn triangle_box(vertices: &[Aabb], [a, b, c]: [u32; 3]) -> Aabb {
-    vertices[a as usize].union(vertices[b as usize]).union(vertices[c as usize])
-}
-
-/// Replaces the content of `out` by `count` new ones.
-fn fill<T: Send>(out: &mut Vec<T>, count: usize, of: impl Fn(usize) -> T + Sync + Send) {
-    out.clear();
-    (0..count).into_par_iter().with_min_len(CHUNK).map(of).collect_into_vec(out);
-}
-
 /// What one piece of a traversal finds, with its scratch.
 #[derive(Default)]
 struct Piece {
@@ -240,6 +175,7 @@ struct Piece {
 pub struct BroadPhase {
     garment: SweptSurface,
     avatar: SweptSurface,
+    neighbours: Neighbours,
     /// What the avatar follows: t at both ends, and the margin.
     avatar_at: Option<[f64; 3]>,
     garment_work: Vec<NodePair>,
@@ -253,17 +189,12 @@ impl BroadPhase {
     /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is tangled.
     pub fn new(bodies: &Bodies) -> Self {
         let n = bodies.garment_count();
-        let surface = |surface: &Surface, offset: usize| {
-            let at_rest = |i: usize| bodies.rest((i + offset) as u32);
-            let vertices = (0..surface.vertex_count).map(|i| Aabb::around(at_rest(i), at_rest(i), 0.0)).collect();
-            let mut swept = SweptSurface { vertices, ..SweptSurface::default() };
-            let triangles = surface.triangles.iter().map(|&t| triangle_box(&swept.vertices, t));
-            swept.tree = Bvh::new(&triangles.collect::<Vec<_>>());
-            swept
-        };
+        let surface =
+            |surface: &Surface, offset: usize| SweptSurface::new(surface, |i| bodies.rest((i + offset) as u32));
         Self {
             garment: surface(&bodies.garment.surface, 0),
             avatar: surface(&bodies.avatar.surface, n),
+            neighbours: Neighbours::new(&bodies.garment.surface),
             avatar_at: None,
             garment_work: Vec::new(),
             avatar_work: Vec::new(),
@@ -296,7 +227,7 @@ impl BroadPhase {
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
         let pieces = self.pieces.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
-        self.garment.memory() + self.avatar.memory() + pieces.sum::<u64>()
+        self.garment.memory() + self.avatar.memory() + self.neighbours.memory() + pieces.sum::<u64>()
     }
 
     /// Replaces `out` by all the pairs that come within a margin of each other during the first `part` of `motion`, and
@@ -331,18 +262,25 @@ impl BroadPhase {
         self.avatar_work.extend(garment.tree.roots(&avatar.tree));
         garment.tree.spread(Some(&avatar.tree), PIECES, &mut self.avatar_work);
 
-        let self_count = self.garment_work.len();
+        let near = &self.neighbours;
+        let near_count = near.point_triangle.len().max(near.edge_edge.len()).div_ceil(CHUNK);
+        let self_count = near_count + self.garment_work.len();
         self.pieces.resize_with(self_count + self.avatar_work.len(), Piece::default);
         let (self_pieces, avatar_pieces) = self.pieces.split_at_mut(self_count);
+        let (near_pieces, tree_pieces) = self_pieces.split_at_mut(near_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
         let room = &Room { found: AtomicUsize::new(0), most: self.most };
         let own = Side { surface: &bodies.garment.surface, swept: garment, offset: 0 };
         let theirs = Side { surface: &bodies.avatar.surface, swept: avatar, offset: n };
-        let search = Collector { a: own, b: own, margin: margin_self, room };
+        let search = Collector { a: own, b: own, neighbours: near, margin: margin_self, room };
         let avatar_search = Collector { b: theirs, margin: margin_avatar, ..search };
         rayon::join(
             || {
-                let work = self_pieces.par_iter_mut().zip(self_work);
+                near_pieces
+                    .par_iter_mut()
+                    .enumerate()
+                    .for_each(|(chunk, piece)| search.look_at_neighbours(chunk, piece));
+                let work = tree_pieces.par_iter_mut().zip(self_work);
                 work.for_each(|(piece, &start)| search.run::<true>(start, piece));
             },
             || {
@@ -384,6 +322,7 @@ struct Side<'a> {
 struct Collector<'a> {
     a: Side<'a>,
     b: Side<'a>,
+    neighbours: &'a Neighbours,
     margin: f64,
     room: &'a Room,
 }
@@ -423,11 +362,10 @@ impl Collector<'_> {
         let other = if SAME { None } else { Some(&b.swept.tree) };
         a.swept.tree.traverse(other, start, stack, |s, t| {
             let (s_corners, t_corners) = (a.surface.triangles[s as usize], b.surface.triangles[t as usize]);
-            let neighbours = SAME && s_corners.iter().any(|v| t_corners.contains(v));
-            if !neighbours && self.apart(s, s_corners, t, t_corners) {
+            if SAME && self.neighbours.has(s_corners, t_corners) {
                 return;
             }
-            if self.room.is_full() {
+            if self.apart(s, s_corners, t, t_corners) || self.room.is_full() {
                 return;
             }
             let before = point_triangle.len() + edge_edge.len();
@@ -465,6 +403,27 @@ impl Collector<'_> {
         });
     }
 
+    /// Fills `piece` with the close pairs of a chunk of the neighbours.
+    fn look_at_neighbours(&self, chunk: usize, piece: &mut Piece) {
+        let Piece { point_triangle, edge_edge, .. } = piece;
+        point_triangle.clear();
+        edge_edge.clear();
+        if self.room.is_full() {
+            return;
+        }
+        let boxes = &self.a.swept.vertices;
+        let edge = |a: u32, b: u32| boxes[a as usize].union(boxes[b as usize]);
+        point_triangle.extend(
+            part_of(&self.neighbours.point_triangle, chunk)
+                .iter()
+                .filter(|&&[v, i, j, k]| boxes[v as usize].overlaps(&edge(i, j).union(boxes[k as usize]))),
+        );
+        edge_edge.extend(
+            part_of(&self.neighbours.edge_edge, chunk).iter().filter(|&&[i, j, k, l]| edge(i, j).overlaps(&edge(k, l))),
+        );
+        self.room.count(0, point_triangle.len() + edge_edge.len());
+    }
+
     /// True only where the triangles `s` and `t` stay further apart than the margin, on either side of a plane along one
     /// of them.
     #[inline]
@@ -499,6 +458,11 @@ impl Side<'_> {
         let boxes = &self.swept.vertices;
         [boxes[a as usize], boxes[b as usize], boxes[c as usize]]
     }
+}
+
+/// A chunk of a list, empty beyond its end.
+fn part_of<T>(list: &[T], chunk: usize) -> &[T] {
+    &list[(chunk * CHUNK).min(list.len())..((chunk + 1) * CHUNK).min(list.len())]
 }
 
 /// The box around three boxes.

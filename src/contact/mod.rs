@@ -10,7 +10,9 @@ pub mod candidates;
 pub mod ccd;
 pub mod distance;
 pub mod mollifier;
+pub mod neighbours;
 pub mod surface;
+mod swept;
 pub mod tangle;
 
 pub use bodies::{Avatar, Bodies, Configuration, Garment, Motion, Step};

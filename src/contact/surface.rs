@@ -88,6 +88,12 @@ impl Surface {
     pub fn ownership(&self, triangle: u32) -> Ownership {
         self.ownership[triangle as usize]
     }
+
+    /// The edges that a triangle owns, smaller index first.
+    pub fn owned_sides(&self, triangle: u32) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let (corners, owned) = (&self.triangles[triangle as usize], self.ownership(triangle));
+        (0..3).filter(move |&k| owned.side(k)).map(move |k| side(corners, k))
+    }
 }
 
 /// Side k of a triangle, smaller index first.
