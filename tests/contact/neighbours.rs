@@ -20,9 +20,9 @@ fn brute(surface: &Surface, list: &Neighbours) -> (Vec<[u32; 4]>, Vec<[u32; 4]>)
             if s == t || !list.has(p, q) {
                 continue;
             }
-            for k in 0..3 {
-                if surface.ownership(s as u32).corner(k) && surface.ownership(t as u32).face() && !q.contains(&p[k]) {
-                    point_triangle.push([p[k], q[0], q[1], q[2]]);
+            for (k, v) in p.iter().enumerate() {
+                if surface.ownership(s as u32).corner(k) && surface.ownership(t as u32).face() && !q.contains(v) {
+                    point_triangle.push([*v, q[0], q[1], q[2]]);
                 }
             }
             for [i, j] in surface.owned_sides(s as u32).filter(|_| s < t) {
