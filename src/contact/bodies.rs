@@ -82,13 +82,6 @@ impl Bodies {
         if i < n { at.x[i] } else { self.avatar.position(i - n, at.t) }
     }
 
-    /// Displacement of vertex `i` in `step`.
-    #[inline]
-    pub fn velocity(&self, i: u32, step: &Step<'_>) -> DVec3 {
-        let (i, n) = (i as usize, self.garment_count());
-        if i < n { step.dx[i] } else { step.dt * self.avatar.motion[i - n] }
-    }
-
     /// Rest position of vertex `i`: on the source garment, or on the fully inflated avatar.
     #[inline]
     pub fn rest(&self, i: u32) -> DVec3 {
@@ -102,11 +95,72 @@ impl Bodies {
         let [a, b, c, d] = pair;
         [self.position(a, at), self.position(b, at), self.position(c, at), self.position(d, at)]
     }
+}
 
-    /// Displacements of the four vertices of a pair.
+/// A step as all the vertices of both bodies go it, in the combined numbering of [`Bodies`].
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    start: Vec<DVec3>,
+    displacement: Vec<DVec3>,
+    t: f64,
+    dt: f64,
+}
+
+impl Motion {
+    /// The motion along `step` from `at`; nothing moves without one.
+    pub fn new(bodies: &Bodies, at: Configuration<'_>, step: Option<&Step<'_>>) -> Self {
+        let mut motion = Self::default();
+        motion.set(bodies, at, step);
+        motion
+    }
+
+    /// [`Self::new`] in the memory of an old one.
+    pub fn set(&mut self, bodies: &Bodies, at: Configuration<'_>, step: Option<&Step<'_>>) {
+        let (count, avatar) = (bodies.garment_count(), &bodies.avatar);
+        self.t = at.t;
+        self.start.clear();
+        self.start.extend_from_slice(&at.x[..count]);
+        self.start.extend((0..avatar.start.len()).map(|i| avatar.position(i, at.t)));
+        self.dt = step.map_or(0.0, |s| s.dt);
+        self.displacement.clear();
+        match step {
+            Some(step) => self.displacement.extend_from_slice(&step.dx[..count]),
+            None => self.displacement.resize(count, DVec3::ZERO),
+        }
+        let dt = self.dt;
+        self.displacement.extend(avatar.motion.iter().map(|&m| dt * m));
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.start) + bytes(&self.displacement)
+    }
+
+    /// The inflation parameter at the beginning, and how much it changes in the whole of the step.
     #[inline]
-    pub fn velocities(&self, pair: [u32; 4], step: &Step<'_>) -> [DVec3; 4] {
+    pub fn inflation(&self) -> [f64; 2] {
+        [self.t, self.dt]
+    }
+
+    /// Where vertex `i` is after this part of the step.
+    #[inline]
+    pub fn position(&self, i: u32, part: f64) -> DVec3 {
+        self.start[i as usize] + part * self.displacement[i as usize]
+    }
+
+    /// Where the vertices of a pair are at the beginning.
+    #[inline]
+    pub fn positions(&self, pair: [u32; 4]) -> [DVec3; 4] {
         let [a, b, c, d] = pair;
-        [self.velocity(a, step), self.velocity(b, step), self.velocity(c, step), self.velocity(d, step)]
+        let of = |i: u32| self.start[i as usize];
+        [of(a), of(b), of(c), of(d)]
+    }
+
+    /// How far the vertices of a pair go in the whole of the step.
+    #[inline]
+    pub fn displacements(&self, pair: [u32; 4]) -> [DVec3; 4] {
+        let [a, b, c, d] = pair;
+        let of = |i: u32| self.displacement[i as usize];
+        [of(a), of(b), of(c), of(d)]
     }
 }

@@ -1,30 +1,37 @@
 //! A bounding volume hierarchy over boxes: built once, refitted as the boxes move, traversed against another tree
 //! or against itself.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 
 use crate::memory::bytes;
 
 /// Boxes in a leaf.
 const LEAF_SIZE: usize = 4;
 
-/// An axis-aligned box.
+/// An axis-aligned box. Its bounds are in single precision, rounded outwards: what it was made around is inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Smallest coordinates.
-    pub min: DVec3,
+    pub min: Vec3A,
     /// Largest coordinates.
-    pub max: DVec3,
+    pub max: Vec3A,
 }
 
 impl Aabb {
     /// The box around nothing.
-    pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
-    /// The box around two points.
+    /// The box around two points, with `margin` added on all sides; a negative one is taken off, which may turn the box
+    /// inside out.
     #[inline]
-    pub fn around(a: DVec3, b: DVec3) -> Self {
-        Self { min: a.min(b), max: a.max(b) }
+    pub fn around(a: DVec3, b: DVec3, margin: f64) -> Self {
+        // More than rounding to nearest can be wrong by, normal or not.
+        let slack = |v: Vec3A| v.abs() * f32::EPSILON + Vec3A::splat(f32::MIN_POSITIVE);
+        // Beyond single precision the nearest is infinite, and infinity minus infinity is nothing.
+        let nearest = |v: DVec3| v.as_vec3a().clamp(Vec3A::MIN, Vec3A::MAX);
+        let min = nearest(a.min(b) - DVec3::splat(margin));
+        let max = nearest(a.max(b) + DVec3::splat(margin));
+        Self { min: min - slack(min), max: max + slack(max) }
     }
 
     /// The box around two boxes.
@@ -33,21 +40,10 @@ impl Aabb {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The box with `margin` added on all sides.
-    #[inline]
-    pub fn inflated(self, margin: f64) -> Self {
-        Self { min: self.min - DVec3::splat(margin), max: self.max + DVec3::splat(margin) }
-    }
-
     /// True if the boxes share a point.
     #[inline]
     pub fn overlaps(&self, other: &Self) -> bool {
-        self.min.x <= other.max.x
-            && other.min.x <= self.max.x
-            && self.min.y <= other.max.y
-            && other.min.y <= self.max.y
-            && self.min.z <= other.max.z
-            && other.min.z <= self.max.z
+        (self.min.cmple(other.max) & other.min.cmple(self.max)).all()
     }
 }
 
@@ -71,23 +67,26 @@ pub struct Bvh {
     nodes: Vec<Node>,
     /// Box numbers, leaf by leaf.
     items: Vec<u32>,
+    /// Their boxes, in the same order.
+    boxes: Vec<Aabb>,
 }
 
 impl Bvh {
     /// Builds a tree over `boxes` by halving at the median of the centres along the longest axis. Ties are broken by
     /// number, so equal input gives an equal tree.
     pub fn new(boxes: &[Aabb]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect() };
+        let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect(), boxes: Vec::new() };
         if !boxes.is_empty() {
-            let centres: Vec<DVec3> = boxes.iter().map(|b| 0.5 * (b.min + b.max)).collect();
+            let centres: Vec<Vec3A> = boxes.iter().map(|b| 0.5 * (b.min + b.max)).collect();
             tree.split(&centres, 0, boxes.len());
-            tree.refit(boxes);
+            tree.boxes = vec![Aabb::EMPTY; boxes.len()];
+            tree.refit(|item| boxes[item as usize]);
         }
         tree
     }
 
     /// Adds the subtree over `items[start..end]`, which is not empty. Halving bounds the depth of the recursion.
-    fn split(&mut self, centres: &[DVec3], start: usize, end: usize) {
+    fn split(&mut self, centres: &[Vec3A], start: usize, end: usize) {
         let node = self.nodes.len();
         let leaf = end - start <= LEAF_SIZE;
         let count = if leaf { (end - start) as u32 } else { 0 };
@@ -111,20 +110,21 @@ impl Bvh {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.nodes) + bytes(&self.items)
+        bytes(&self.nodes) + bytes(&self.items) + bytes(&self.boxes)
     }
 
     /// Follows the boxes, which are as many as when the tree was built.
-    pub fn refit(&mut self, boxes: &[Aabb]) {
+    pub fn refit(&mut self, of: impl Fn(u32) -> Aabb) {
+        for (bounds, &item) in self.boxes.iter_mut().zip(&self.items) {
+            *bounds = of(item);
+        }
         for i in (0..self.nodes.len()).rev() {
             let Node { link, count, .. } = self.nodes[i];
             let link = link as usize;
             self.nodes[i].bounds = if count == 0 {
                 self.nodes[i + 1].bounds.union(self.nodes[link].bounds)
             } else {
-                self.items[link..link + count as usize]
-                    .iter()
-                    .fold(Aabb::EMPTY, |b, &item| b.union(boxes[item as usize]))
+                self.boxes[link..link + count as usize].iter().fold(Aabb::EMPTY, |all, &b| all.union(b))
             };
         }
     }
@@ -136,13 +136,13 @@ impl Bvh {
 
     /// Splits `pairs` in place, breadth first, until there are at least `wanted` or only leaves are left: pieces of
     /// work for several threads. `other` is `None` for the pairs within this tree.
-    pub fn spread(&self, other: Option<&Bvh>, margin: f64, wanted: usize, pairs: &mut Vec<NodePair>) {
+    pub fn spread(&self, other: Option<&Bvh>, wanted: usize, pairs: &mut Vec<NodePair>) {
         let mut next = Vec::new();
         while pairs.len() < wanted {
             let mut leaves_only = true;
             next.clear();
             for &pair in pairs.iter() {
-                if self.descend(other, margin, pair, &mut next) {
+                if self.descend(other, pair, &mut next) {
                     leaves_only = false;
                 } else {
                     next.push(pair);
@@ -155,13 +155,12 @@ impl Bvh {
         }
     }
 
-    /// Calls `hit` with each two items below `start` whose nodes come within `margin` of each other: the first of
-    /// this tree, the second of `other`, or both of this tree, each two once. `stack` is scratch.
+    /// Calls `hit` with each two items below `start` whose boxes overlap: the first of this tree, the second of
+    /// `other`, or both of this tree, each two once. `stack` is scratch.
     #[inline]
     pub fn traverse(
         &self,
         other: Option<&Bvh>,
-        margin: f64,
         start: NodePair,
         stack: &mut Vec<NodePair>,
         mut hit: impl FnMut(u32, u32),
@@ -170,19 +169,18 @@ impl Bvh {
         stack.clear();
         stack.push(start);
         while let Some(pair) = stack.pop() {
-            if self.descend(other, margin, pair, stack) {
+            if self.descend(other, pair, stack) {
                 continue;
             }
-            let items = self.leaf(pair[0]);
-            if other.is_none() && pair[0] == pair[1] {
-                for (k, &a) in items.iter().enumerate() {
-                    for &b in &items[k + 1..] {
-                        hit(a, b);
-                    }
+            let (own, theirs) = (self.leaf(pair[0]), right.leaf(pair[1]));
+            let within = other.is_none() && pair[0] == pair[1];
+            let bounds = right.nodes[pair[1] as usize].bounds;
+            for (k, (a, a_box)) in own.enumerate() {
+                if !a_box.overlaps(&bounds) {
+                    continue;
                 }
-            } else {
-                for &a in items {
-                    for &b in right.leaf(pair[1]) {
+                for (b, b_box) in theirs.clone().skip(if within { k + 1 } else { 0 }) {
+                    if a_box.overlaps(b_box) {
                         hit(a, b);
                     }
                 }
@@ -192,11 +190,11 @@ impl Bvh {
 
     /// Replaces a pair of nodes by pairs of their children that overlap. False if both are leaves.
     #[inline]
-    fn descend(&self, other: Option<&Bvh>, margin: f64, [a, b]: NodePair, out: &mut Vec<NodePair>) -> bool {
+    fn descend(&self, other: Option<&Bvh>, [a, b]: NodePair, out: &mut Vec<NodePair>) -> bool {
         let right = other.unwrap_or(self);
         let (node_a, node_b) = (&self.nodes[a as usize], &right.nodes[b as usize]);
         let mut offer = |i: u32, j: u32| {
-            if self.nodes[i as usize].bounds.inflated(margin).overlaps(&right.nodes[j as usize].bounds) {
+            if self.nodes[i as usize].bounds.overlaps(&right.nodes[j as usize].bounds) {
                 out.push([i, j]);
             }
         };
@@ -210,13 +208,12 @@ impl Bvh {
             offer(l, r);
             return true;
         }
-        // Halve the larger node: the boxes stay alike in size, and fewer pairs are visited.
-        let size = |n: &Node| if n.count > 0 { -1.0 } else { (n.bounds.max - n.bounds.min).element_sum() };
-        let (size_a, size_b) = (size(node_a), size(node_b));
-        if size_a < 0.0 && size_b < 0.0 {
+        if node_a.count > 0 && node_b.count > 0 {
             return false;
         }
-        if size_a >= size_b {
+        // Halve the larger node: the boxes stay alike in size, and fewer pairs are visited.
+        let size = |n: &Node| (n.bounds.max - n.bounds.min).element_sum();
+        if node_b.count > 0 || (node_a.count == 0 && size(node_a) >= size(node_b)) {
             offer(a + 1, b);
             offer(node_a.link, b);
         } else {
@@ -226,9 +223,11 @@ impl Bvh {
         true
     }
 
+    /// The items of a leaf with their boxes.
     #[inline]
-    fn leaf(&self, node: u32) -> &[u32] {
+    fn leaf(&self, node: u32) -> impl Iterator<Item = (u32, &Aabb)> + Clone {
         let Node { link, count, .. } = self.nodes[node as usize];
-        &self.items[link as usize..(link + count) as usize]
+        let range = link as usize..(link + count) as usize;
+        self.items[range.clone()].iter().copied().zip(&self.boxes[range])
     }
 }

@@ -3,20 +3,29 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bodies::{Bodies, Configuration, Step};
-use super::bvh::{Aabb, Bvh, NodePair};
+use super::bodies::{Bodies, Motion};
+use super::bvh::{Aabb, NodePair};
 use super::distance::Kind;
+use super::neighbours::Neighbours;
 use super::surface::Surface;
+use super::swept::{Plane, SweptSurface, shadow};
 use super::tangle::Tangle;
 use crate::memory::bytes;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
 const PIECES: usize = 128;
 
-/// Primitives a thread takes at once when it bounds them.
+/// Neighbouring pairs a thread looks at at once.
 const CHUNK: usize = 2048;
+
+/// Pairs that a thread filters at once.
+const FILTER_CHUNK: usize = 1024;
+
+/// More than rounding can add to the gap between two projections.
+const ROUNDING: f64 = 1e-12;
 
 /// Whom the garment meets in a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +56,25 @@ pub struct CandidateSet {
     pairs: Vec<[u32; 4]>,
     /// Where each run ends in `pairs`.
     ends: [usize; RUNS.len()],
+}
+
+/// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
+#[inline]
+fn stays_apart(kind: Kind, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
+    let (x, v) = (motion.positions(pair), motion.displacements(pair));
+    let separation = kind.separation(&x);
+    if separation.squared <= gap * gap {
+        return false;
+    }
+    // Between the planes at the beginning there is all of the distance. The gap between the shadows on n is the smallest
+    // of several differences, each linear in time: where it is wide enough at the end, too, it always is.
+    let n = separation.vector / separation.squared.sqrt();
+    let shadow = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
+    let shadows = [shadow(0), shadow(1), shadow(2), shadow(3)];
+    let (first, second) = shadows.split_at(kind.first_count());
+    let lowest = first.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = second.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    lowest - highest > gap
 }
 
 /// Pairs of one kind and class.
@@ -107,6 +135,23 @@ impl CandidateSet {
         self.runs(0..self.len()).find(|r| r.kind == kind && r.class == class).map_or(&[], |r| r.pairs)
     }
 
+    /// Keeps, in order, the pairs that may come within the `margin` of their class during the first `part` of `motion`.
+    pub fn retain_near(&mut self, motion: &Motion, part: f64, margin: impl Fn(Class) -> f64 + Sync) {
+        let mut kept = Vec::new();
+        let mut ends = [0; RUNS.len()];
+        for (run, (kind, class)) in RUNS.into_iter().enumerate() {
+            let margin = margin(class) + ROUNDING;
+            let near = |pair: &&[u32; 4]| !stays_apart(kind, **pair, motion, part, margin);
+            let chunks = self.of(kind, class).par_chunks(FILTER_CHUNK);
+            let parts: Vec<Vec<[u32; 4]>> = chunks.map(|c| c.iter().filter(near).copied().collect()).collect();
+            parts.iter().for_each(|part| kept.extend_from_slice(part));
+            ends[run] = kept.len();
+        }
+        self.pairs.clear();
+        self.pairs.extend_from_slice(&kept);
+        self.ends = ends;
+    }
+
     /// The part of each run that lies in `range`, without empty ones.
     pub fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Run<'_>> {
         (0..RUNS.len()).filter_map(move |run| {
@@ -116,45 +161,6 @@ impl CandidateSet {
             (first < end).then(|| Run { kind, class, first, pairs: &self.pairs[first..end] })
         })
     }
-}
-
-/// Boxes of the vertices, edges and triangles of one surface during a step, and the tree over the triangles.
-#[derive(Default)]
-struct SweptSurface {
-    vertices: Vec<Aabb>,
-    edges: Vec<Aabb>,
-    triangles: Vec<Aabb>,
-    tree: Bvh,
-}
-
-impl SweptSurface {
-    fn memory(&self) -> u64 {
-        bytes(&self.vertices) + bytes(&self.edges) + bytes(&self.triangles) + self.tree.memory()
-    }
-
-    /// Bounds everything, with vertices inside the given boxes.
-    fn bound(&mut self, surface: &Surface, vertex: impl Fn(usize) -> Aabb + Sync) {
-        fill(&mut self.vertices, surface.vertex_count, vertex);
-        let vertices = &self.vertices;
-        fill(&mut self.edges, surface.edges.len(), |e| {
-            let [a, b] = surface.edges[e].map(|v| vertices[v as usize]);
-            a.union(b)
-        });
-        fill(&mut self.triangles, surface.triangles.len(), |f| {
-            let [a, b, c] = surface.triangles[f].map(|v| vertices[v as usize]);
-            a.union(b).union(c)
-        });
-    }
-}
-
-/// Replaces the boxes by `count` new ones.
-fn fill(boxes: &mut Vec<Aabb>, count: usize, of: impl Fn(usize) -> Aabb + Sync) {
-    boxes.resize(count, Aabb::EMPTY);
-    boxes.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, part)| {
-        for (k, b) in part.iter_mut().enumerate() {
-            *b = of(chunk * CHUNK + k);
-        }
-    });
 }
 
 /// What one piece of a traversal finds, with its scratch.
@@ -169,6 +175,9 @@ struct Piece {
 pub struct BroadPhase {
     garment: SweptSurface,
     avatar: SweptSurface,
+    neighbours: Neighbours,
+    /// What the avatar follows: t at both ends, and the margin.
+    avatar_at: Option<[f64; 3]>,
     garment_work: Vec<NodePair>,
     avatar_work: Vec<NodePair>,
     pieces: Vec<Piece>,
@@ -179,16 +188,14 @@ pub struct BroadPhase {
 impl BroadPhase {
     /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is tangled.
     pub fn new(bodies: &Bodies) -> Self {
-        let (mut garment, mut avatar) = (SweptSurface::default(), SweptSurface::default());
         let n = bodies.garment_count();
-        let at_rest = |i: usize| Aabb::around(bodies.rest(i as u32), bodies.rest(i as u32));
-        garment.bound(&bodies.garment.surface, at_rest);
-        garment.tree = Bvh::new(&garment.triangles);
-        avatar.bound(&bodies.avatar.surface, |i| at_rest(n + i));
-        avatar.tree = Bvh::new(&avatar.triangles);
+        let surface =
+            |surface: &Surface, offset: usize| SweptSurface::new(surface, |i| bodies.rest((i + offset) as u32));
         Self {
-            garment,
-            avatar,
+            garment: surface(&bodies.garment.surface, 0),
+            avatar: surface(&bodies.avatar.surface, n),
+            neighbours: Neighbours::new(&bodies.garment.surface),
+            avatar_at: None,
             garment_work: Vec::new(),
             avatar_work: Vec::new(),
             pieces: Vec::new(),
@@ -220,62 +227,65 @@ impl BroadPhase {
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
         let pieces = self.pieces.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
-        self.garment.memory() + self.avatar.memory() + pieces.sum::<u64>()
+        self.garment.memory() + self.avatar.memory() + self.neighbours.memory() + pieces.sum::<u64>()
     }
 
-    /// Replaces `out` by all the pairs whose swept boxes, from `at` along the whole of `step`, come within a margin of
-    /// each other along every axis: `margin_self` for the garment with itself, `margin_avatar` with the avatar. Pairs
-    /// that share a vertex or are free in the tangle are left out. `bodies` is what the broad phase was made for.
+    /// Replaces `out` by all the pairs that come within a margin of each other during the first `part` of `motion`, and
+    /// some that do not: `margin_self` for the garment with itself, `margin_avatar` with the avatar. Pairs that share a
+    /// vertex or are free in the tangle are left out. `bodies` is what the broad phase was made for.
     ///
     /// The result, its order included, is the same for any number of threads.
     pub fn candidates(
         &mut self,
         bodies: &Bodies,
-        at: Configuration<'_>,
-        step: Option<&Step<'_>>,
+        motion: &Motion,
+        part: f64,
         margin_self: f64,
         margin_avatar: f64,
         out: &mut CandidateSet,
     ) {
-        let n = bodies.garment_count();
-        let swept = |i: usize| {
-            let x = bodies.position(i as u32, at);
-            Aabb::around(x, step.map_or(x, |s| x + bodies.velocity(i as u32, s)))
-        };
-        self.garment.bound(&bodies.garment.surface, swept);
-        self.garment.tree.refit(&self.garment.triangles);
-        self.avatar.bound(&bodies.avatar.surface, |i| swept(n + i));
-        self.avatar.tree.refit(&self.avatar.triangles);
+        // Margins are added where the boxes are made, half of it on either side.
+        let (own, n) = (0.5 * margin_self, bodies.garment_count() as u32);
+        self.garment.follow(&bodies.garment.surface, motion, 0, part, own);
+        let [t, dt] = motion.inflation();
+        let avatar_at = Some([t, part * dt, margin_avatar - own]);
+        if self.avatar_at != avatar_at {
+            self.avatar.follow(&bodies.avatar.surface, motion, n, part, margin_avatar - own);
+            self.avatar_at = avatar_at;
+        }
 
         let (garment, avatar) = (&self.garment, &self.avatar);
         self.garment_work.clear();
         self.garment_work.extend(garment.tree.roots(&garment.tree));
-        garment.tree.spread(None, margin_self, PIECES, &mut self.garment_work);
+        garment.tree.spread(None, PIECES, &mut self.garment_work);
         self.avatar_work.clear();
         self.avatar_work.extend(garment.tree.roots(&avatar.tree));
-        garment.tree.spread(Some(&avatar.tree), margin_avatar, PIECES, &mut self.avatar_work);
+        garment.tree.spread(Some(&avatar.tree), PIECES, &mut self.avatar_work);
 
-        let self_count = self.garment_work.len();
+        let near = &self.neighbours;
+        let near_count = near.point_triangle.len().max(near.edge_edge.len()).div_ceil(CHUNK);
+        let self_count = near_count + self.garment_work.len();
         self.pieces.resize_with(self_count + self.avatar_work.len(), Piece::default);
         let (self_pieces, avatar_pieces) = self.pieces.split_at_mut(self_count);
+        let (near_pieces, tree_pieces) = self_pieces.split_at_mut(near_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
-        let surface = &bodies.garment.surface;
         let room = &Room { found: AtomicUsize::new(0), most: self.most };
+        let own = Side { surface: &bodies.garment.surface, swept: garment, offset: 0 };
+        let theirs = Side { surface: &bodies.avatar.surface, swept: avatar, offset: n };
+        let search = Collector { a: own, b: own, neighbours: near, margin: margin_self, room };
+        let avatar_search = Collector { b: theirs, margin: margin_avatar, ..search };
         rayon::join(
             || {
-                self_pieces.par_iter_mut().zip(self_work).for_each(|(piece, &start)| {
-                    let collector =
-                        Collector { a: surface, b: surface, a_boxes: garment, b_boxes: garment, offset: 0, room };
-                    collector.run::<true>(margin_self, start, piece);
-                });
+                near_pieces
+                    .par_iter_mut()
+                    .enumerate()
+                    .for_each(|(chunk, piece)| search.look_at_neighbours(chunk, piece));
+                let work = tree_pieces.par_iter_mut().zip(self_work);
+                work.for_each(|(piece, &start)| search.run::<true>(start, piece));
             },
             || {
-                avatar_pieces.par_iter_mut().zip(avatar_work).for_each(|(piece, &start)| {
-                    let b = &bodies.avatar.surface;
-                    let collector =
-                        Collector { a: surface, b, a_boxes: garment, b_boxes: avatar, offset: n as u32, room };
-                    collector.run::<false>(margin_avatar, start, piece);
-                });
+                let work = avatar_pieces.par_iter_mut().zip(avatar_work);
+                work.for_each(|(piece, &start)| avatar_search.run::<false>(start, piece));
             },
         );
 
@@ -299,13 +309,21 @@ impl BroadPhase {
     }
 }
 
-/// Turns close triangles into close primitives. Vertices of `b` are numbered from `offset`.
-struct Collector<'a> {
-    a: &'a Surface,
-    b: &'a Surface,
-    a_boxes: &'a SweptSurface,
-    b_boxes: &'a SweptSurface,
+/// One of the two surfaces of a search. Its vertices are numbered from `offset`.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    surface: &'a Surface,
+    swept: &'a SweptSurface,
     offset: u32,
+}
+
+/// Turns close triangles into close primitives.
+#[derive(Clone, Copy)]
+struct Collector<'a> {
+    a: Side<'a>,
+    b: Side<'a>,
+    neighbours: &'a Neighbours,
+    margin: f64,
     room: &'a Room,
 }
 
@@ -336,52 +354,132 @@ impl Room {
 
 impl Collector<'_> {
     /// Fills `piece` with the pairs below `start`. `SAME` if both surfaces are one.
-    fn run<const SAME: bool>(&self, margin: f64, start: NodePair, piece: &mut Piece) {
+    fn run<const SAME: bool>(&self, start: NodePair, piece: &mut Piece) {
         let Piece { point_triangle, edge_edge, stack } = piece;
         point_triangle.clear();
         edge_edge.clear();
-        let (a, b, offset) = (self.a, self.b, self.offset);
-        let (a_boxes, b_boxes) = (self.a_boxes, self.b_boxes);
-        let other = if SAME { None } else { Some(&b_boxes.tree) };
-        a_boxes.tree.traverse(other, margin, start, stack, |s, t| {
-            let s_box = a_boxes.triangles[s as usize].inflated(margin);
-            let t_box = b_boxes.triangles[t as usize].inflated(margin);
-            if !s_box.overlaps(&b_boxes.triangles[t as usize]) || self.room.is_full() {
+        let (a, b) = (self.a, self.b);
+        let other = if SAME { None } else { Some(&b.swept.tree) };
+        a.swept.tree.traverse(other, start, stack, |s, t| {
+            let (s_corners, t_corners) = (a.surface.triangles[s as usize], b.surface.triangles[t as usize]);
+            if SAME && self.neighbours.has(s_corners, t_corners) {
+                return;
+            }
+            if self.apart(s, s_corners, t, t_corners) || self.room.is_full() {
                 return;
             }
             let before = point_triangle.len() + edge_edge.len();
-            let (s_corners, t_corners) = (a.triangles[s as usize], b.triangles[t as usize]);
-            if b.has_face(t) {
-                for v in a.owned_vertices(s) {
-                    if t_box.overlaps(&a_boxes.vertices[v as usize]) && !(SAME && t_corners.contains(&v)) {
-                        let [i, j, k] = t_corners.map(|c| c + offset);
-                        point_triangle.push([v, i, j, k]);
-                    }
+            let (s_owns, t_owns) = (a.surface.ownership(s), b.surface.ownership(t));
+            let (s_boxes, t_boxes) = (a.boxes(s_corners), b.boxes(t_corners));
+            let (s_box, t_box) = (around(s_boxes), around(t_boxes));
+            let [i, j, k] = s_corners.map(|v| v + a.offset);
+            let [l, m, n] = t_corners.map(|v| v + b.offset);
+            for c in 0..3 {
+                let v = [i, j, k][c];
+                if s_owns.corner(c) && t_owns.face() && s_boxes[c].overlaps(&t_box) && ![l, m, n].contains(&v) {
+                    point_triangle.push([v, l, m, n]);
+                }
+                let v = [l, m, n][c];
+                if t_owns.corner(c) && s_owns.face() && t_boxes[c].overlaps(&s_box) && ![i, j, k].contains(&v) {
+                    point_triangle.push([v, i, j, k]);
                 }
             }
-            if a.has_face(s) {
-                for v in b.owned_vertices(t) {
-                    if s_box.overlaps(&b_boxes.vertices[v as usize]) && !(SAME && s_corners.contains(&v)) {
-                        let [i, j, k] = s_corners;
-                        point_triangle.push([v + offset, i, j, k]);
-                    }
-                }
-            }
-            for e in a.owned_edges(s) {
-                let e_box = a_boxes.edges[e as usize].inflated(margin);
-                if !e_box.overlaps(&b_boxes.triangles[t as usize]) {
+            let (s_edges, t_edges) = (edges([i, j, k]), edges([l, m, n]));
+            let (s_edge_boxes, t_edge_boxes) = (edge_boxes(s_boxes), edge_boxes(t_boxes));
+            for (c, e_box) in s_edge_boxes.iter().enumerate() {
+                if !s_owns.side(c) || !e_box.overlaps(&t_box) {
                     continue;
                 }
-                let [i, j] = a.edges[e as usize];
-                for f in b.owned_edges(t) {
-                    let [k, l] = b.edges[f as usize];
-                    let incident = SAME && (i == k || i == l || j == k || j == l);
-                    if !incident && e_box.overlaps(&b_boxes.edges[f as usize]) {
-                        edge_edge.push([i, j, k + offset, l + offset]);
+                let [p, q] = s_edges[c];
+                for (d, f_box) in t_edge_boxes.iter().enumerate() {
+                    let [r, s] = t_edges[d];
+                    let incident = SAME && (p == r || p == s || q == r || q == s);
+                    if t_owns.side(d) && !incident && e_box.overlaps(f_box) {
+                        edge_edge.push([p, q, r, s]);
                     }
                 }
             }
             self.room.count(before, point_triangle.len() + edge_edge.len());
         });
     }
+
+    /// Fills `piece` with the close pairs of a chunk of the neighbours.
+    fn look_at_neighbours(&self, chunk: usize, piece: &mut Piece) {
+        let Piece { point_triangle, edge_edge, .. } = piece;
+        point_triangle.clear();
+        edge_edge.clear();
+        if self.room.is_full() {
+            return;
+        }
+        let boxes = &self.a.swept.vertices;
+        let edge = |a: u32, b: u32| boxes[a as usize].union(boxes[b as usize]);
+        point_triangle.extend(
+            part_of(&self.neighbours.point_triangle, chunk)
+                .iter()
+                .filter(|&&[v, i, j, k]| boxes[v as usize].overlaps(&edge(i, j).union(boxes[k as usize]))),
+        );
+        edge_edge.extend(
+            part_of(&self.neighbours.edge_edge, chunk).iter().filter(|&&[i, j, k, l]| edge(i, j).overlaps(&edge(k, l))),
+        );
+        self.room.count(0, point_triangle.len() + edge_edge.len());
+    }
+
+    /// True only where the triangles `s` and `t` stay further apart than the margin, on either side of a plane along one
+    /// of them.
+    #[inline]
+    fn apart(&self, s: u32, s_corners: [u32; 3], t: u32, t_corners: [u32; 3]) -> bool {
+        let (s_plane, t_plane) = (&self.a.swept.planes[s as usize], &self.b.swept.planes[t as usize]);
+        self.parted(s_plane, &self.b.swept.places, t_corners) || self.parted(t_plane, &self.a.swept.places, s_corners)
+    }
+
+    /// Whether three points stay above a triangle, by the margin, or below it.
+    #[inline]
+    fn parted(&self, plane: &Plane, places: &[[DVec3; 2]], [a, b, c]: [u32; 3]) -> bool {
+        let margin = self.margin + ROUNDING;
+        let [low, high] = plane.shadow;
+        let points = [a, b, c].map(|v| &places[v as usize]);
+        let at = |end: usize| shadow(plane.normal, points[0][end], points[1][end], points[2][end]);
+        let start = at(0);
+        let above = start[0] - high[0] > margin;
+        if !above && low[0] - start[1] <= margin {
+            return false;
+        }
+        // The gap is the smallest of several differences, each linear in time: where it is above the margin at both
+        // ends, it is in between.
+        let end = at(1);
+        if above { end[0] - high[1] > margin } else { low[1] - end[1] > margin }
+    }
+}
+
+impl Side<'_> {
+    /// The boxes of a triangle's corners.
+    #[inline]
+    fn boxes(&self, [a, b, c]: [u32; 3]) -> [Aabb; 3] {
+        let boxes = &self.swept.vertices;
+        [boxes[a as usize], boxes[b as usize], boxes[c as usize]]
+    }
+}
+
+/// A chunk of a list, empty beyond its end.
+fn part_of<T>(list: &[T], chunk: usize) -> &[T] {
+    &list[(chunk * CHUNK).min(list.len())..((chunk + 1) * CHUNK).min(list.len())]
+}
+
+/// The box around three boxes.
+#[inline]
+fn around([a, b, c]: [Aabb; 3]) -> Aabb {
+    a.union(b).union(c)
+}
+
+/// The boxes of a triangle's sides from those of its corners.
+#[inline]
+fn edge_boxes([a, b, c]: [Aabb; 3]) -> [Aabb; 3] {
+    [a.union(b), b.union(c), c.union(a)]
+}
+
+/// The sides of a triangle, smaller index first.
+#[inline]
+fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    let side = |a: u32, b: u32| [a.min(b), a.max(b)];
+    [side(a, b), side(b, c), side(c, a)]
 }

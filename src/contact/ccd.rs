@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bodies::{Bodies, Configuration, Step};
+use super::bodies::Motion;
 use super::candidates::{CandidateSet, Class};
 use super::distance::Kind;
 
@@ -34,18 +34,11 @@ const MAX_ADVANCES: usize = 256;
 /// Pairs a thread takes at once.
 const CHUNK: usize = 1024;
 
-/// The largest part of `step`, at most `limit`, during which every candidate keeps more than the `floor` of its class plus a
+/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `floor` of its class plus a
 /// tenth of its initial gap above it. 0 if a pair at or below the floor approaches.
 ///
 /// The same bits for any number of threads.
-pub fn max_step(
-    bodies: &Bodies,
-    candidates: &CandidateSet,
-    at: Configuration<'_>,
-    step: &Step<'_>,
-    floor: impl Fn(Class) -> f64,
-    limit: f64,
-) -> f64 {
+pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(Class) -> f64, limit: f64) -> f64 {
     // The smallest answer so far, shared to cut other pairs off. A pair advances by a sequence of times that does not
     // depend on this bound and only grows towards its own answer, so it is cut off only if its own answer is not
     // below the bound. The pair with the smallest answer therefore always gets there, or finds that very number
@@ -57,8 +50,8 @@ pub fn max_step(
         run.pairs.par_chunks(CHUNK).for_each(|chunk| {
             for &pair in chunk {
                 let bound = f64::from_bits(shared.load(Ordering::Relaxed));
-                let x = bodies.positions(pair, at);
-                let answer = pair_step(run.kind, &x, &bodies.velocities(pair, step), floor, bound);
+                let (x, v) = (motion.positions(pair), motion.displacements(pair));
+                let answer = pair_step(run.kind, &x, &v, floor, bound);
                 if answer < bound {
                     shared.fetch_min(answer.to_bits(), Ordering::Relaxed);
                 }
@@ -72,9 +65,9 @@ pub fn max_step(
 pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: f64) -> f64 {
     // Relative coordinates keep their digits where the pair is small or moves as one.
     let base = x[1];
-    let x = x.map(|p| p - base);
+    let x = [x[0] - base, x[1] - base, x[2] - base, x[3] - base];
     let mean = 0.25 * (v[0] + v[1] + v[2] + v[3]);
-    let v = v.map(|p| p - mean);
+    let v = [v[0] - mean, v[1] - mean, v[2] - mean, v[3] - mean];
     let first_count = kind.first_count();
 
     let mut separation = kind.separation(&x);

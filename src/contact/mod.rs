@@ -10,10 +10,12 @@ pub mod candidates;
 pub mod ccd;
 pub mod distance;
 pub mod mollifier;
+pub mod neighbours;
 pub mod surface;
+mod swept;
 pub mod tangle;
 
-pub use bodies::{Avatar, Bodies, Configuration, Garment, Step};
+pub use bodies::{Avatar, Bodies, Configuration, Garment, Motion, Step};
 pub use candidates::{BroadPhase, CandidateSet, Class};
 pub use distance::Kind;
 pub use surface::Surface;

@@ -4,8 +4,32 @@
 
 use crate::memory::bytes;
 
-/// Marks a side of a triangle whose edge another triangle owns.
-const NOT_OWNED: u32 = u32::MAX;
+/// What a triangle owns, and whether it has a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ownership(u8);
+
+impl Ownership {
+    const FACE: u8 = 1 << 6;
+
+    /// Whether it owns its corner k.
+    #[inline]
+    pub fn corner(self, k: usize) -> bool {
+        self.0 & (1 << k) != 0
+    }
+
+    /// Whether it owns the edge from its corner k to the next.
+    #[inline]
+    pub fn side(self, k: usize) -> bool {
+        self.0 & (8 << k) != 0
+    }
+
+    /// True for a triangle with three distinct corners. Any other is an edge or a point: it owns like every
+    /// triangle, but no point is ever paired with it.
+    #[inline]
+    pub fn face(self) -> bool {
+        self.0 & Self::FACE != 0
+    }
+}
 
 /// Triangles, their edges, and who owns what.
 #[derive(Clone, Debug, Default)]
@@ -17,10 +41,8 @@ pub struct Surface {
     pub edges: Vec<[u32; 2]>,
     /// Number of vertices, isolated ones included.
     pub vertex_count: usize,
-    /// For each triangle, bit k is set if it owns its corner k.
-    owned_corners: Vec<u8>,
-    /// For each triangle, the index of the edge from corner k to corner k + 1 if it owns that.
-    owned_edges: Vec<[u32; 3]>,
+    /// What each triangle owns.
+    ownership: Vec<Ownership>,
 }
 
 impl Surface {
@@ -35,51 +57,42 @@ impl Surface {
 
         let mut vertex_taken = vec![false; vertex_count];
         let mut edge_taken = vec![false; edges.len()];
-        let mut owned_corners = Vec::with_capacity(triangles.len());
-        let mut owned_edges = Vec::with_capacity(triangles.len());
+        let mut ownership = Vec::with_capacity(triangles.len());
         for t in &triangles {
-            let (mut corners, mut sides) = (0, [NOT_OWNED; 3]);
-            for (k, owned) in sides.iter_mut().enumerate() {
+            let mut owned = Ownership(0);
+            for k in 0..3 {
                 if !std::mem::replace(&mut vertex_taken[t[k] as usize], true) {
-                    corners |= 1 << k;
+                    owned.0 |= 1 << k;
                 }
                 if let Ok(e) = edges.binary_search(&side(t, k))
                     && !std::mem::replace(&mut edge_taken[e], true)
                 {
-                    *owned = e as u32;
+                    owned.0 |= 8 << k;
                 }
             }
-            owned_corners.push(corners);
-            owned_edges.push(sides);
+            if t[0] != t[1] && t[1] != t[2] && t[2] != t[0] {
+                owned.0 |= Ownership::FACE;
+            }
+            ownership.push(owned);
         }
-        Self { triangles, edges, vertex_count, owned_corners, owned_edges }
+        Self { triangles, edges, vertex_count, ownership }
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.owned_corners) + bytes(&self.owned_edges)
+        bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.ownership)
     }
 
-    /// The vertices that `triangle` owns.
+    /// What a triangle owns.
     #[inline]
-    pub fn owned_vertices(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
-        let t = self.triangles[triangle as usize];
-        let mask = self.owned_corners[triangle as usize];
-        (0..3).filter(move |k| mask & (1 << k) != 0).map(move |k| t[k])
+    pub fn ownership(&self, triangle: u32) -> Ownership {
+        self.ownership[triangle as usize]
     }
 
-    /// The indices of the edges that `triangle` owns.
-    #[inline]
-    pub fn owned_edges(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
-        self.owned_edges[triangle as usize].into_iter().filter(|&e| e != NOT_OWNED)
-    }
-
-    /// True for a triangle with three distinct corners. Any other is an edge or a point: it owns like every
-    /// triangle, but no point is ever paired with it.
-    #[inline]
-    pub fn has_face(&self, triangle: u32) -> bool {
-        let [a, b, c] = self.triangles[triangle as usize];
-        a != b && b != c && c != a
+    /// The edges that a triangle owns, smaller index first.
+    pub fn owned_sides(&self, triangle: u32) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let (corners, owned) = (&self.triangles[triangle as usize], self.ownership(triangle));
+        (0..3).filter(move |&k| owned.side(k)).map(move |k| side(corners, k))
     }
 }
 

@@ -123,7 +123,7 @@ fn primitive_pairs(surface: &Surface, s: u32, t: u32) -> Vec<(Kind, [u32; 4])> {
     let mut pairs = Vec::with_capacity(15);
     for (points, triangle, index) in [(p, q, t), (q, p, s)] {
         let [a, b, c] = triangle;
-        if surface.has_face(index) {
+        if surface.ownership(index).face() {
             pairs.extend(points.iter().filter(|v| !triangle.contains(v)).map(|&v| (Kind::PointTriangle, [v, a, b, c])));
         }
     }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::rounding::Gaps;
 use crate::contact::tangle::triangle_pairs_of;
-use crate::contact::{Bodies, BroadPhase, Class, Configuration, Step, Tangle, ccd};
+use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
 use crate::control::Cancel;
 use crate::energy::attachment::Attachment;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
@@ -27,6 +27,11 @@ use crate::verify::intersecting;
 
 /// Where something is nearer than the separation floor, the floor becomes this fraction of its distance.
 const FLOOR_SHARE: f64 = 0.25;
+
+/// What is searched at first is as long as this multiple of what was free of the last step, and at least
+/// [`SHORTEST_LOOK`] of it.
+const LOOK_AHEAD: f64 = 2.5;
+const SHORTEST_LOOK: f64 = 0.05;
 
 /// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
 pub const NO_DISTANCE: f64 = 1e-12;
@@ -53,6 +58,10 @@ pub struct Objective {
     barrier: Barrier,
     bodies: Arc<Bodies>,
     broad_phase: BroadPhase,
+    /// The motion of the last search for pairs.
+    motion: Motion,
+    /// The part of the next step that is searched at first.
+    look_ahead: f64,
     weights: Options,
     barrier_weight: f64,
     gaps: Gaps,
@@ -76,6 +85,8 @@ impl Objective {
             fit,
             inflation: None,
             broad_phase: BroadPhase::new(&bodies),
+            motion: Motion::default(),
+            look_ahead: 1.0,
             barrier,
             bodies,
             weights: weights.clone(),
@@ -109,6 +120,7 @@ impl Objective {
         self.terms().iter().map(|term| term.energy.memory()).sum::<u64>()
             + self.bodies.memory()
             + self.broad_phase.memory()
+            + self.motion.memory()
     }
 
     /// The time that broad phase and continuous collision detection took since this was last called.
@@ -118,7 +130,9 @@ impl Objective {
 
     /// Finds the pairs that are near at `at`, where nothing moves.
     pub fn settle(&mut self, at: Configuration<'_>) {
-        self.find_pairs(at, None);
+        self.motion.set(&self.bodies, at, None);
+        self.find_pairs(1.0);
+        self.narrow_pairs(1.0);
     }
 
     /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
@@ -281,11 +295,19 @@ impl Objective {
         pair.into_iter().filter(move |&v| v < count)
     }
 
-    fn find_pairs(&mut self, at: Configuration<'_>, step: Option<&Step<'_>>) {
+    /// Finds the pairs that come within their d-hat during the first `part` of the motion.
+    fn find_pairs(&mut self, part: f64) {
         let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();
         let clock = Instant::now();
-        self.broad_phase.candidates(&self.bodies, at, step, dhat_self, dhat_avatar, self.barrier.candidates_mut());
+        let pairs = self.barrier.candidates_mut();
+        self.broad_phase.candidates(&self.bodies, &self.motion, part, dhat_self, dhat_avatar, pairs);
         self.profile.broad_phase += clock.elapsed();
+    }
+
+    /// Leaves of the pairs those that come within their d-hat during the first `part` of the motion.
+    fn narrow_pairs(&mut self, part: f64) {
+        let settings = *self.barrier.settings();
+        self.barrier.candidates_mut().retain_near(&self.motion, part, |class| settings.dhat(class));
     }
 }
 
@@ -311,16 +333,24 @@ impl Model for Objective {
     }
 
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
-        let step = Step { dx, dt };
-        self.find_pairs(at, Some(&step));
-        if self.cancel.is_requested() || self.lacks_room() {
-            return 0.0;
+        self.motion.set(&self.bodies, at, Some(&Step { dx, dt }));
+        // The pairs that only the far part of a long step meets are many, and mostly the step ends before.
+        let mut part = longest.min(self.look_ahead);
+        loop {
+            self.find_pairs(part);
+            if self.cancel.is_requested() || self.lacks_room() {
+                return 0.0;
+            }
+            let settings = self.barrier.settings();
+            let clock = Instant::now();
+            let free = ccd::max_step(&self.motion, self.barrier.candidates(), |class| settings.floor(class), part);
+            self.profile.ccd += clock.elapsed();
+            if free < part || part >= longest {
+                self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
+                self.narrow_pairs(free);
+                return free;
+            }
+            part = longest;
         }
-        let settings = self.barrier.settings();
-        let floor = |class| settings.floor(class);
-        let clock = Instant::now();
-        let fraction = ccd::max_step(&self.bodies, self.barrier.candidates(), at, &step, floor, longest);
-        self.profile.ccd += clock.elapsed();
-        fraction
     }
 }

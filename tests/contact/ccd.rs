@@ -1,5 +1,7 @@
 use bespoke::contact::ccd::{max_step, pair_step};
-use bespoke::contact::{Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Step, Surface};
+use bespoke::contact::{
+    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface,
+};
 use glam::DVec3;
 
 use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
@@ -183,10 +185,10 @@ fn pairs_below_the_floor_may_only_part() {
 }
 
 /// The smallest distance over all candidates at a time of the step.
-fn smallest(scene: &Scene, set: &CandidateSet, at: Configuration<'_>, step: &Step<'_>, time: f64) -> f64 {
+fn smallest(motion: &Motion, set: &CandidateSet, time: f64) -> f64 {
     let distances = set.runs(0..set.len()).flat_map(|run| {
         run.pairs.iter().map(move |&pair| {
-            let (x, v) = (scene.bodies.positions(pair, at), scene.bodies.velocities(pair, step));
+            let (x, v) = (motion.positions(pair), motion.displacements(pair));
             distance(run.kind, &x, &v, time)
         })
     });
@@ -201,7 +203,8 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         let at = Configuration { x: &scene.x, t: 0.3 };
         let step = Step { dx: &scene.dx, dt: 0.5 };
         let mut all = CandidateSet::default();
-        BroadPhase::new(&scene.bodies).candidates(&scene.bodies, at, Some(&step), 0.01, 0.01, &mut all);
+        let motion = Motion::new(&scene.bodies, at, Some(&step));
+        BroadPhase::new(&scene.bodies).candidates(&scene.bodies, &motion, 1.0, 0.01, 0.01, &mut all);
         // The soup crosses itself; keep what is apart.
         let apart = |kind: Kind, class: Class| -> Vec<[u32; 4]> {
             let far = |pair: &&[u32; 4]| kind.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
@@ -217,28 +220,29 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         let mut least = 1.0_f64;
         for run in set.runs(0..set.len()) {
             for &pair in run.pairs {
-                let (x, v) = (scene.bodies.positions(pair, at), scene.bodies.velocities(pair, &step));
+                let (x, v) = (motion.positions(pair), motion.displacements(pair));
                 least = least.min(pair_step(run.kind, &x, &v, FLOOR, 1.0));
             }
         }
         for threads in [1, 2, 4] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             for _ in 0..5 {
-                let answer = pool.install(|| max_step(&scene.bodies, &set, at, &step, |_| FLOOR, 1.0));
+                let answer = pool.install(|| max_step(&motion, &set, |_| FLOOR, 1.0));
                 assert_eq!(answer.to_bits(), least.to_bits());
             }
         }
-        assert_eq!(max_step(&scene.bodies, &set, at, &step, |_| FLOOR, 0.5 * least), 0.5 * least);
+        assert_eq!(max_step(&motion, &set, |_| FLOOR, 0.5 * least), 0.5 * least);
         cut += usize::from(least < 1.0);
         for k in 0..=50 {
-            assert!(smallest(&scene, &set, at, &step, least * k as f64 / 50.0) > FLOOR);
+            assert!(smallest(&motion, &set, least * k as f64 / 50.0) > FLOOR);
         }
     }
     assert!(cut >= 6);
     let scene = Scene::random(0, 0.1);
     let at = Configuration { x: &scene.x, t: 0.0 };
     let step = Step { dx: &scene.dx, dt: 0.0 };
-    assert_eq!(max_step(&scene.bodies, &CandidateSet::default(), at, &step, |_| FLOOR, 0.7), 0.7);
+    let motion = Motion::new(&scene.bodies, at, Some(&step));
+    assert_eq!(max_step(&motion, &CandidateSet::default(), |_| FLOOR, 0.7), 0.7);
 }
 
 #[test]
@@ -259,10 +263,12 @@ fn inflating_sphere_stops_inside_the_shell() {
     let step = Step { dx: &still, dt: 1.0 };
     let mut out = CandidateSet::default();
     let mut broad_phase = BroadPhase::new(&bodies);
-    broad_phase.candidates(&bodies, at, Some(&step), 1e-3, 1e-3, &mut out);
-    let answer = max_step(&bodies, &out, at, &step, |_| FLOOR, 1.0);
+    let motion = Motion::new(&bodies, at, Some(&step));
+    broad_phase.candidates(&bodies, &motion, 1.0, 1e-3, 1e-3, &mut out);
+    let answer = max_step(&motion, &out, |_| FLOOR, 1.0);
     // The vertices of both meet at 0.4; a tenth of the gap is kept.
     assert!(answer > 0.35 && answer < 0.4, "{answer}");
-    broad_phase.candidates(&bodies, Configuration { x: &shell, t: answer }, None, 1e-3, 0.1, &mut out);
+    let there = Motion::new(&bodies, Configuration { x: &shell, t: answer }, None);
+    broad_phase.candidates(&bodies, &there, 1.0, 1e-3, 0.1, &mut out);
     assert!(out.len() > count);
 }

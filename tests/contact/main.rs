@@ -6,6 +6,7 @@ mod ccd;
 mod distance;
 mod hard_queries;
 mod mollifier;
+mod neighbours;
 mod pairs;
 mod scene;
 #[path = "../support/mod.rs"]

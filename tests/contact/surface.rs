@@ -8,14 +8,15 @@ fn check_ownership(surface: &Surface) {
     let mut vertex_owners = vec![0; surface.vertex_count];
     let mut edge_owners = vec![0; surface.edges.len()];
     for (i, t) in surface.triangles.iter().enumerate() {
-        for v in surface.owned_vertices(i as u32) {
-            assert!(t.contains(&v));
-            vertex_owners[v as usize] += 1;
+        let owned = surface.ownership(i as u32);
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            vertex_owners[a as usize] += usize::from(owned.corner(k));
+            if owned.side(k) {
+                edge_owners[surface.edges.binary_search(&[a.min(b), a.max(b)]).unwrap()] += 1;
+            }
         }
-        for e in surface.owned_edges(i as u32) {
-            assert!(surface.edges[e as usize].iter().all(|v| t.contains(v)));
-            edge_owners[e as usize] += 1;
-        }
+        assert_eq!(owned.face(), t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
     }
     for (v, owners) in vertex_owners.into_iter().enumerate() {
         let used = surface.triangles.iter().any(|t| t.contains(&(v as u32)));
@@ -53,7 +54,7 @@ fn degenerate_repeated_and_unused_are_fine() {
     }
     let surface = Surface::new(5, vec![[1, 1, 1], [2, 3, 2]]);
     assert_eq!(surface.edges, [[2, 3]]);
-    assert!(!surface.has_face(0) && !surface.has_face(1));
+    assert!(!surface.ownership(0).face() && !surface.ownership(1).face());
     check_ownership(&surface);
     check_ownership(&Surface::new(3, vec![]));
     check_ownership(&Surface::new(0, vec![]));

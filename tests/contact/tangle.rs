@@ -3,7 +3,7 @@
 use bespoke::contact::ccd::max_step;
 use bespoke::contact::tangle::triangle_pairs_of;
 use bespoke::contact::{
-    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Step, Surface, Tangle,
+    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface, Tangle,
 };
 use bespoke::input::mesh::TriangleMesh;
 use bespoke::verify::{intersecting, intersections};
@@ -63,7 +63,7 @@ fn a_pair_has_the_class_that_its_triangles_give_it() {
             counts[count] += 1;
         };
         for (t, &[a, b, c]) in surface.triangles.iter().enumerate() {
-            if surface.has_face(t as u32) {
+            if surface.ownership(t as u32).face() {
                 let used = |v: &u32| surface.triangles.iter().any(|t| t.contains(v));
                 (0..40).filter(used).filter(|v| apart(&[*v], &[a, b, c])).for_each(|v| {
                     judge(Kind::PointTriangle, [v, c, a, b]);
@@ -101,9 +101,10 @@ fn free_pairs_are_left_out_and_no_others() {
         let tangle = Tangle::new(&scene.bodies.garment.surface, &tangled);
         let (mut all, mut guarded) = (CandidateSet::default(), CandidateSet::default());
         let mut broad_phase = BroadPhase::new(&scene.bodies);
-        broad_phase.candidates(&scene.bodies, at, None, 0.05, 0.05, &mut all);
+        let motion = Motion::new(&scene.bodies, at, None);
+        broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut all);
         broad_phase.set_tangle(tangle.clone());
-        broad_phase.candidates(&scene.bodies, at, None, 0.05, 0.05, &mut guarded);
+        broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut guarded);
         let (mut found, mut kept) = (0, 0);
         for kind in [Kind::PointTriangle, Kind::EdgeEdge] {
             for class in [Class::Garment, Class::Tangled] {
@@ -159,8 +160,9 @@ fn a_tangle_only_shrinks() {
                 })
                 .collect();
             let (at, step) = (Configuration { x: &x, t: 0.0 }, Step { dx: &dx, dt: 0.0 });
-            broad_phase.candidates(&bodies, at, Some(&step), 1e-3, 1e-3, &mut near);
-            let fraction = max_step(&bodies, &near, at, &step, |_| 1e-9, 1.0);
+            let motion = Motion::new(&bodies, at, Some(&step));
+            broad_phase.candidates(&bodies, &motion, 1.0, 1e-3, 1e-3, &mut near);
+            let fraction = max_step(&motion, &near, |_| 1e-9, 1.0);
             x.iter_mut().zip(&dx).for_each(|(x, d)| *x += fraction * *d);
             mesh.positions.clone_from(&x);
             let now = intersections(&mesh, None, usize::MAX).unwrap().pairs;

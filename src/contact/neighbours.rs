@@ -1,0 +1,88 @@
+//! The pairs of primitives of triangles that have a vertex in common, listed once: their boxes nearly always overlap, so that
+//! a search through a tree would only find them again.
+
+use super::surface::Surface;
+use crate::memory::bytes;
+
+/// A vertex with more triangles around it than these takes no part in the list, whose length grows with their square.
+const MOST_AROUND: usize = 16;
+
+/// The pairs of primitives, without a vertex in common, of neighbouring triangles of one surface.
+#[derive(Clone, Debug, Default)]
+pub struct Neighbours {
+    /// A point, then the corners of a triangle.
+    pub point_triangle: Vec<[u32; 4]>,
+    /// Two edges.
+    pub edge_edge: Vec<[u32; 4]>,
+    /// For each vertex, whether too many triangles have it.
+    crowded: Vec<bool>,
+}
+
+impl Neighbours {
+    /// Lists the pairs of `surface`. Each is listed by the triangles that own its primitives.
+    pub fn new(surface: &Surface) -> Self {
+        let mut around: Vec<Vec<u32>> = vec![Vec::new(); surface.vertex_count];
+        for (t, corners) in (0..).zip(&surface.triangles) {
+            for (k, &v) in corners.iter().enumerate() {
+                // A triangle that repeats a corner is still one.
+                if !corners[..k].contains(&v) {
+                    around[v as usize].push(t);
+                }
+            }
+        }
+        let crowded = around.iter().map(|triangles| triangles.len() > MOST_AROUND).collect();
+        let mut found = Self { crowded, ..Self::default() };
+        for (v, triangles) in (0..).zip(&around) {
+            for (k, &s) in triangles.iter().enumerate() {
+                for &t in &triangles[k + 1..] {
+                    // Triangles with several vertices in common count at one of them.
+                    let corners = [s, t].map(|t| surface.triangles[t as usize]);
+                    if found.shared(corners[0], corners[1]) == Some(v) {
+                        found.list(surface, s, t);
+                    }
+                }
+            }
+        }
+        found.point_triangle.shrink_to_fit();
+        found.edge_edge.shrink_to_fit();
+        found
+    }
+
+    fn list(&mut self, surface: &Surface, s: u32, t: u32) {
+        for (s, t) in [(s, t), (t, s)] {
+            let (points, [i, j, k]) = (surface.triangles[s as usize], surface.triangles[t as usize]);
+            for (c, &v) in points.iter().enumerate() {
+                if surface.ownership(s).corner(c) && surface.ownership(t).face() && ![i, j, k].contains(&v) {
+                    self.point_triangle.push([v, i, j, k]);
+                }
+            }
+        }
+        for [i, j] in surface.owned_sides(s) {
+            for [k, l] in surface.owned_sides(t) {
+                if i != k && i != l && j != k && j != l {
+                    self.edge_edge.push([i, j, k, l]);
+                }
+            }
+        }
+    }
+
+    /// Whether the pairs of two triangles with these corners are listed.
+    #[inline]
+    pub fn has(&self, s: [u32; 3], t: [u32; 3]) -> bool {
+        self.shared(s, t).is_some()
+    }
+
+    /// The smallest common vertex of two triangles that is not crowded.
+    #[inline]
+    fn shared(&self, s: [u32; 3], t: [u32; 3]) -> Option<u32> {
+        let common = |v: u32| (v == t[0] || v == t[1] || v == t[2]) && !self.crowded[v as usize];
+        let at = |v: u32| if common(v) { v } else { u32::MAX };
+        let least = at(s[0]).min(at(s[1])).min(at(s[2]));
+        (least != u32::MAX).then_some(least)
+    }
+
+    /// Bytes that it holds.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.point_triangle) + bytes(&self.edge_edge) + bytes(&self.crowded)
+    }
+}
