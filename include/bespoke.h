@@ -582,7 +582,7 @@ typedef struct BespokeOptions {
    */
   double inflation_dhat;
   /*
-   While the avatar grows: weight of the contact barrier. Default 1e6.
+   While the avatar grows: weight of the contact barrier. Default 1e4.
    */
   double inflation_barrier_weight;
   /*

@@ -89,7 +89,7 @@ pub struct Sizes {
 /// The factor's scalars grow a little faster than the vertices: with 2.5 log2 of their number, as nested dissection of a
 /// surface has it.
 const FACTOR_SCALARS: f64 = 40.0;
-/// Hessian and gradient in the lanes of the assembly, their pattern, the ordering.
+/// Hessian and gradient, the records of the assembly, their pattern, the ordering.
 const MATRIX_BYTES: f64 = 5200.0;
 /// Connectivity, boxes, tree and energies of a garment vertex, and the pairs that it is in during a step: most of it where
 /// the garment lies on the body all over.

@@ -61,7 +61,7 @@ impl Default for Options {
             barrier_weight: 1e8,
             dhat: 0.002,
             inflation_dhat: 0.01,
-            inflation_barrier_weight: 1e6,
+            inflation_barrier_weight: 1e4,
             separation_floor: 1e-5,
             voxel: 0.01,
             tolerance: 1e-3,

@@ -49,7 +49,7 @@ pub struct BespokeOptions {
     pub dhat: f64,
     /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
     pub inflation_dhat: f64,
-    /// While the avatar grows: weight of the contact barrier. Default 1e6.
+    /// While the avatar grows: weight of the contact barrier. Default 1e4.
     pub inflation_barrier_weight: f64,
     /// Edge of a voxel of the distance field. Default 0.01.
     pub voxel: f64,

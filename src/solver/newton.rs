@@ -75,6 +75,8 @@ pub struct Accepted {
     pub decrement: f64,
     /// Largest displacement of a vertex.
     pub displacement: f64,
+    /// Whether the step was damped, so that the decrement promises too little.
+    pub damped: bool,
 }
 
 /// The largest coordinate of a vertex's displacement in one step. Swept volumes, and with them the candidate pairs,
@@ -83,6 +85,14 @@ const STEP_LIMIT: f64 = 0.1;
 /// Multiple of the mean diagonal that is always added to the Hessian: surface and contact terms are blind to
 /// similarities of a garment that nothing holds.
 const SHIFT: f64 = 1e-7;
+/// A step that keeps less than this fraction is cramped: it slides along contact nearer than the step is long. After so
+/// many of them, one after the other, the shift grows by [`DAMPING`] at every further one, up to a limit, and falls
+/// again with steps that are free: then stiff directions, along which contact opens, come before soft ones.
+const CRAMPED: f64 = 0.05;
+const CRAMPED_STEPS: u32 = 3;
+const FREE: f64 = 0.5;
+const DAMPING: f64 = 100.0;
+const LARGEST_DAMPED: f64 = 0.1;
 /// Shift at which a matrix is given up.
 const LARGEST_SHIFT: f64 = 1e4;
 
@@ -97,6 +107,10 @@ pub struct Newton {
     trial: Vec<DVec3>,
     /// The value of each term at the present state, where it is known.
     values: Option<Vec<f64>>,
+    /// The present shift.
+    shift: f64,
+    /// Cramped steps one after the other.
+    cramped: u32,
     cancel: Cancel,
     limit: MemoryLimit,
     /// What has been done so far.
@@ -134,6 +148,8 @@ impl Newton {
             dx: Vec::new(),
             trial: Vec::new(),
             values: None,
+            shift: SHIFT,
+            cramped: 0,
             cancel: Cancel::new(),
             counters: Counters { analyses: 1, profile, ..Counters::default() },
         })
@@ -212,7 +228,7 @@ impl Newton {
             .sum::<f64>()
             .max(f64::MIN_POSITIVE)
             / (3 * n) as f64;
-        let mut shift = SHIFT * mean;
+        let mut shift = self.shift * mean;
         let mut added = 0.0;
         while shift <= LARGEST_SHIFT * mean {
             for j in 0..n as u32 {
@@ -293,6 +309,23 @@ impl Newton {
         self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()
     }
 
+    /// Damps the next steps where `fraction`, what was kept of the last one, is small again and again.
+    fn adapt(&mut self, fraction: f64) {
+        if fraction < CRAMPED {
+            self.cramped += 1;
+            if self.cramped >= CRAMPED_STEPS {
+                self.shift = (DAMPING * self.shift).min(LARGEST_DAMPED);
+            }
+        } else {
+            self.cramped = 0;
+            if fraction >= FREE {
+                // Rounding must not leave a trace of damping.
+                let less = self.shift / DAMPING;
+                self.shift = if less < 2.0 * SHIFT { SHIFT } else { less };
+            }
+        }
+    }
+
     /// One step along the path: the response to an advance of t by `dt`, as far as the model admits it. There is no test
     /// on the objective, which must be free to rise with t. Returns the fraction of `dt` that was taken.
     ///
@@ -323,6 +356,7 @@ impl Newton {
             *x += fraction * *d;
         }
         self.values = None;
+        self.adapt(fraction);
         Ok(fraction * kept)
     }
 
@@ -352,6 +386,8 @@ impl Newton {
             backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel, profile);
         profile.line_search += clock.elapsed();
         self.cancel.check()?;
+        let damped = self.shift > SHIFT;
+        self.adapt(longest);
         Ok(found.map(|found| {
             std::mem::swap(&mut state.x, &mut self.trial);
             state.t += found.fraction * dt;
@@ -361,6 +397,7 @@ impl Newton {
                 before,
                 after: found.objective,
                 decrement: -slope / kept,
+                damped,
                 displacement: found.fraction * self.dx.iter().fold(0.0_f64, |m, d| m.max(d.length())),
             }
         }))

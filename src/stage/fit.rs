@@ -129,8 +129,13 @@ impl Settling {
                 }
             }
             Phase::Settle(calm) => {
-                let Some(step) = newton.descend(objective, state, false)? else { return Ok(true) };
-                *calm = if step.decrement <= options.tolerance * step.after.max(NOTHING) { *calm + 1 } else { 0 };
+                let step = newton.descend(objective, state, false)?;
+                let Some(step) = step else { return Ok(true) };
+                *calm = if !step.damped && step.decrement <= options.tolerance * step.after.max(NOTHING) {
+                    *calm + 1
+                } else {
+                    0
+                };
                 return Ok(*calm >= CALM);
             }
         }

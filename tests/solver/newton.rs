@@ -102,6 +102,20 @@ fn a_step_never_goes_beyond_what_the_model_admits() {
     }
 }
 
+#[test]
+fn cramped_steps_are_damped_until_steps_are_free_again() {
+    let mut model = Free(Springs { count: 5 }, 0.01);
+    let mut state = start();
+    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut damped = |admitted: f64, steps: usize| -> Vec<bool> {
+        model.1 = admitted;
+        (0..steps).map(|_| newton.descend(&mut model, &mut state, false).unwrap().unwrap().damped).collect()
+    };
+    assert_eq!(damped(0.01, 5), [false, false, false, true, true]);
+    let free = damped(1.0, 5);
+    assert!(free[0] && !free[4], "{free:?}");
+}
+
 /// The bordered system, solved as a dense one by Gaussian elimination, gives the same dt and dx.
 #[test]
 fn the_border_agrees_with_a_dense_solve() {
