@@ -251,9 +251,16 @@ impl Field {
     /// The nodes around a cell outside the stored region, where nothing is inside: slow, but the same field.
     #[cold]
     fn beyond(&self, cell: &Cell) -> [f32; 64] {
-        std::array::from_fn(|n| {
+        let node = |n: usize| {
             let step = [n / 16, (n / 4) % 4, n % 4];
-            self.tree.distance(self.node([0, 1, 2].map(|a| (cell.base[a] + step[a] as i64) as f64))) as f32
+            self.node([0, 1, 2].map(|a| (cell.base[a] + step[a] as i64) as f64))
+        };
+        // A neighbour's closest triangle is nearly always a node's own: the search only has to make sure.
+        let mut hint = self.tree.hint(node(0));
+        std::array::from_fn(|n| {
+            let (distance, closest) = self.tree.distance_hinted(node(n), hint);
+            hint = closest;
+            distance as f32
         })
     }
 
