@@ -58,25 +58,6 @@ pub struct CandidateSet {
     ends: [usize; RUNS.len()],
 }
 
-/// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
-#[inline]
-fn stays_apart(kind: Kind, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
-    let (x, v) = (motion.positions(pair), motion.displacements(pair));
-    let separation = kind.separation(&x);
-    if separation.squared <= gap * gap {
-        return false;
-    }
-    // Between the planes at the beginning there is all of the distance. The gap between the shadows on n is the smallest
-    // of several differences, each linear in time: where it is wide enough at the end, too, it always is.
-    let n = separation.vector / separation.squared.sqrt();
-    let shadow = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
-    let shadows = [shadow(0), shadow(1), shadow(2), shadow(3)];
-    let (first, second) = shadows.split_at(kind.first_count());
-    let lowest = first.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = second.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    lowest - highest > gap
-}
-
 /// Pairs of one kind and class.
 #[derive(Clone, Debug)]
 pub struct Run<'a> {
@@ -147,6 +128,7 @@ impl CandidateSet {
             parts.iter().for_each(|part| kept.extend_from_slice(part));
             ends[run] = kept.len();
         }
+        // Copied, so that the next search has the room of this one.
         self.pairs.clear();
         self.pairs.extend_from_slice(&kept);
         self.ends = ends;
@@ -161,6 +143,25 @@ impl CandidateSet {
             (first < end).then(|| Run { kind, class, first, pairs: &self.pairs[first..end] })
         })
     }
+}
+
+/// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
+#[inline]
+fn stays_apart(kind: Kind, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
+    let (x, v) = (motion.positions(pair), motion.displacements(pair));
+    let separation = kind.separation(&x);
+    if separation.squared <= gap * gap {
+        return false;
+    }
+    // Between the planes at the beginning there is all of the distance. The gap between the shadows on n is the smallest
+    // of several differences, each linear in time: where it is wide enough at the end, too, it always is.
+    let n = separation.vector / separation.squared.sqrt();
+    let shadow = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
+    let shadows = [shadow(0), shadow(1), shadow(2), shadow(3)];
+    let (first, second) = shadows.split_at(kind.first_count());
+    let lowest = first.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = second.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    lowest - highest > gap
 }
 
 /// What one piece of a traversal finds, with its scratch.
@@ -183,6 +184,8 @@ pub struct BroadPhase {
     pieces: Vec<Piece>,
     tangle: Tangle,
     most: usize,
+    /// The last search ended before it was complete.
+    is_incomplete: bool,
 }
 
 impl BroadPhase {
@@ -201,6 +204,7 @@ impl BroadPhase {
             pieces: Vec::new(),
             tangle: Tangle::default(),
             most: usize::MAX,
+            is_incomplete: false,
         }
     }
 
@@ -219,9 +223,9 @@ impl BroadPhase {
         self.most = most;
     }
 
-    /// Whether a search that found these ended before it was complete.
-    pub fn is_incomplete(&self, found: &CandidateSet) -> bool {
-        found.len() >= self.most
+    /// Whether the last search ended before it was complete.
+    pub fn is_incomplete(&self) -> bool {
+        self.is_incomplete
     }
 
     /// Bytes that it holds.
@@ -306,6 +310,7 @@ impl BroadPhase {
             }
             out.ends[run] = out.pairs.len();
         }
+        self.is_incomplete = out.len() >= self.most;
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Every term is a sum over *elements* that touch at most four garment vertices and, perhaps, the inflation
 //! parameter t. An element hands its derivatives to a [`Sink`] as rank-one pieces
-//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`. A Hessian made of such pieces is positive semidefinite by construction: no eigenvalue is ever computed.
+//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`. A Hessian made of such pieces is positive semidefinite by
+//! construction: no eigenvalue is ever computed.
 
 pub mod attachment;
 pub mod barrier;

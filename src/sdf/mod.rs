@@ -156,21 +156,22 @@ impl Field {
     /// D, its gradient and its Hessian at `p`.
     pub fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
         let (value, gradient) = self.value_gradient(p);
-        let hessian = dispatch(Hessian { field: self, point: p });
-        (value, gradient, hessian)
+        let mut hessian = [DMat3::ZERO];
+        dispatch(Samples::<Hessian> { field: self, points: &[p], out: &mut hessian });
+        (value, gradient, hessian[0])
     }
 
     /// D at each of `points`, written to the entries of `out`. Does as many as both have.
     #[inline]
     pub fn values(&self, points: &[DVec3], out: &mut [f64]) {
-        dispatch(Values { field: self, points, out });
+        dispatch(Samples::<Value> { field: self, points, out });
     }
 
     /// D and its gradient at each of `points`, written to the entries of `out`. Does as many as both have. Values have the
     /// same bits as those of [`Self::values`].
     #[inline]
     pub fn values_gradients(&self, points: &[DVec3], out: &mut [(f64, DVec3)]) {
-        dispatch(Gradients { field: self, points, out });
+        dispatch(Samples::<ValueGradient> { field: self, points, out });
     }
 
     #[inline(always)]
@@ -288,77 +289,71 @@ impl Field {
     }
 }
 
-/// Values at many points.
-struct Values<'a> {
-    field: &'a Field,
-    points: &'a [DVec3],
-    out: &'a mut [f64],
+/// What is computed from the nodes around a point.
+trait Sample {
+    type Output;
+
+    /// From `row(i, j)`, nodes (i, j, 0..4), at `t` in the cell. Inlined, to be compiled for the processor.
+    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> Self::Output;
 }
 
-impl Kernel for Values<'_> {
-    type Output = ();
+struct Value;
+
+impl Sample for Value {
+    type Output = f64;
 
     #[inline(always)]
-    fn run<V: Four>(self) {
-        for (&p, out) in self.points.iter().zip(self.out) {
-            let cell = self.field.cell(p);
-            *out = if let Some((block, base)) = self.field.stored(&cell) {
-                let nodes = self.field.nodes(block, base);
-                spline::value::<V>(|i, j| nodes.row(i, j), cell.t)
-            } else {
-                let nodes = self.field.beyond(&cell);
-                spline::value::<V>(|i, j| row(&nodes, i, j), cell.t)
-            };
-        }
+    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, _: f64) -> f64 {
+        spline::value::<V>(row, t)
     }
 }
 
-/// Values and gradients at many points.
-struct Gradients<'a> {
-    field: &'a Field,
-    points: &'a [DVec3],
-    out: &'a mut [(f64, DVec3)],
-}
+struct ValueGradient;
 
-impl Kernel for Gradients<'_> {
-    type Output = ();
+impl Sample for ValueGradient {
+    type Output = (f64, DVec3);
 
     #[inline(always)]
-    fn run<V: Four>(self) {
-        for (&p, out) in self.points.iter().zip(self.out) {
-            let cell = self.field.cell(p);
-            let (value, gradient) = if let Some((block, base)) = self.field.stored(&cell) {
-                let nodes = self.field.nodes(block, base);
-                spline::value_gradient::<V>(|i, j| nodes.row(i, j), cell.t)
-            } else {
-                let nodes = self.field.beyond(&cell);
-                spline::value_gradient::<V>(|i, j| row(&nodes, i, j), cell.t)
-            };
-            *out = (value, gradient * self.field.per_voxel);
-        }
+    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> (f64, DVec3) {
+        let (value, gradient) = spline::value_gradient::<V>(row, t);
+        (value, gradient * per_voxel)
     }
 }
 
-/// The Hessian at one point.
-struct Hessian<'a> {
-    field: &'a Field,
-    point: DVec3,
-}
+struct Hessian;
 
-impl Kernel for Hessian<'_> {
+impl Sample for Hessian {
     type Output = DMat3;
 
     #[inline(always)]
-    fn run<V: Four>(self) -> DMat3 {
-        let cell = self.field.cell(self.point);
-        let hessian = if let Some((block, base)) = self.field.stored(&cell) {
-            let nodes = self.field.nodes(block, base);
-            spline::hessian::<V>(|i, j| nodes.row(i, j), cell.t)
-        } else {
-            let nodes = self.field.beyond(&cell);
-            spline::hessian::<V>(|i, j| row(&nodes, i, j), cell.t)
-        };
-        hessian * (self.field.per_voxel * self.field.per_voxel)
+    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> DMat3 {
+        spline::hessian::<V>(row, t) * (per_voxel * per_voxel)
+    }
+}
+
+/// A sample at each of many points.
+struct Samples<'a, S: Sample> {
+    field: &'a Field,
+    points: &'a [DVec3],
+    out: &'a mut [S::Output],
+}
+
+impl<S: Sample> Kernel for Samples<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        let field = self.field;
+        for (&p, out) in self.points.iter().zip(self.out) {
+            let cell = field.cell(p);
+            *out = if let Some((block, base)) = field.stored(&cell) {
+                let nodes = field.nodes(block, base);
+                S::compute::<V>(|i, j| nodes.row(i, j), cell.t, field.per_voxel)
+            } else {
+                let nodes = field.beyond(&cell);
+                S::compute::<V>(|i, j| row(&nodes, i, j), cell.t, field.per_voxel)
+            };
+        }
     }
 }
 

@@ -65,8 +65,6 @@ pub struct Counters {
 /// The result of one accepted step.
 #[derive(Clone, Copy, Debug)]
 pub struct Accepted {
-    /// The fraction of the direction that was taken.
-    pub fraction: f64,
     /// The objective before the step.
     pub before: f64,
     /// The objective after the step.
@@ -174,7 +172,7 @@ impl Newton {
     }
 
     /// Assembles and factorises the system at `at`, and solves for the response of the vertices; with `border`, for that
-    /// to a change of t as well.
+    /// to a change of t, or of the parameter whose border the energies hand on, as well.
     ///
     /// # Errors
     /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `Cancelled`.
@@ -393,7 +391,6 @@ impl Newton {
             state.t += found.fraction * dt;
             self.values = Some(found.values);
             Accepted {
-                fraction: found.fraction * kept,
                 before,
                 after: found.objective,
                 decrement: -slope / kept,

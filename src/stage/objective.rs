@@ -112,7 +112,7 @@ impl Objective {
 
     /// Whether the last search for pairs ended for want of room. What was computed since is worth nothing.
     pub fn lacks_room(&self) -> bool {
-        self.broad_phase.is_incomplete(self.barrier.candidates())
+        self.broad_phase.is_incomplete()
     }
 
     /// Bytes that it holds.
@@ -132,10 +132,7 @@ impl Objective {
     pub fn settle(&mut self, at: Configuration<'_>) {
         self.motion.set(&self.bodies, at, None);
         self.find_pairs(1.0);
-        // An incomplete set must stay as long as it is, to be known for that.
-        if !self.lacks_room() {
-            self.narrow_pairs(1.0);
-        }
+        self.narrow_pairs(1.0);
     }
 
     /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
