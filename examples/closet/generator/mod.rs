@@ -5,8 +5,10 @@
 //!                 \-> jacket --------> surface -> texture
 //! ```
 
+pub mod avatars;
 pub mod body;
 pub mod clip;
+pub mod garments;
 pub mod implicit;
 pub mod jacket;
 pub mod loft;
