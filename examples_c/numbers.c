@@ -79,6 +79,9 @@ static bool list_parse(List *list, const Text *text, const char *path, Message *
             }
             list->values[list->count] = (uint32_t)value;
         }
+        if (list->count > (list->rows > 0 ? list->ends[list->rows - 1] : 0)) {
+            list->ends[list->rows++] = list->count;
+        }
     }
     return true;
 }
@@ -89,9 +92,12 @@ bool list_read(List *list, const char *path, Message *message) {
     if (!text_read(&text, path, message)) {
         return false;
     }
-    list->values = array_new(count_words(&text), sizeof(uint32_t));
-    const bool good = list->values != NULL ? list_parse(list, &text, path, message)
-                                           : fail(message, "%s: does not fit into memory", path);
+    const size_t words = count_words(&text);
+    list->values = array_new(words, sizeof(uint32_t));
+    list->ends = array_new(words, sizeof(size_t));
+    const bool fits = list->values != NULL && list->ends != NULL;
+    const bool good = fits ? list_parse(list, &text, path, message)
+                           : fail(message, "%s: does not fit into memory", path);
     text_free(&text);
     if (!good) {
         list_free(list);
@@ -101,5 +107,6 @@ bool list_read(List *list, const char *path, Message *message) {
 
 void list_free(List *list) {
     free(list->values);
+    free(list->ends);
     memset(list, 0, sizeof *list);
 }

@@ -14,10 +14,12 @@ typedef struct Matrix {
 bool matrix_read(Matrix *matrix, const char *path, Message *message);
 void matrix_free(Matrix *matrix);
 
-/* Whole numbers from 0, separated by blanks or line breaks. */
+/* Whole numbers from 0, separated by blanks or line breaks. Lines without any are no rows. */
 typedef struct List {
-    uint32_t *values;
+    uint32_t *values; /* row after row */
     size_t count;
+    size_t *ends; /* where each row ends in values */
+    size_t rows;
 } List;
 
 bool list_read(List *list, const char *path, Message *message);

@@ -16,8 +16,15 @@ const char *const options_usage =
     "  --source-avatar FILE    the body the garment was modelled on; the fit then aims at the looseness it had there\n"
     "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
     "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
+    "  --pins FILE             garment vertices to hold, a line each: the vertex (from 0) alone goes with its bone, or the\n"
+    "                          vertex and the x y z where it is to be; the same in all lines\n"
+    "  --rigid FILE            groups of garment vertices (from 0) that stay rigid, such as buttons: a line for each\n"
     "  --fit-weight W          how tight (2); 0 switches the term off\n"
     "  --designed-clearance X  with --source-avatar: how much of the looseness it had there to aim at (1); 0 is tight\n"
+    "  --offset D              clearance to aim at everywhere beside that, in the unit of the avatar (0)\n"
+    "  --fit-distance D        with --source-avatar, without --no-fit: what was designed up to D away from it fits, what was\n"
+    "                          twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits\n"
+    "  --pin-weight W          stiffness of the pins (1000)\n"
     "  --surface-weight W      how strongly the design keeps its shape (1)\n"
     "  --curve-weight W        the same for its boundary curves: curvature and torsion (1)\n"
     "  --position-weight W     how strongly cuffs, hems and collars keep their place along their bones (10)\n"
@@ -56,6 +63,8 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         {"--source-avatar", &options->source_avatar, false},
         {"--skin-weights", &options->skin_weights, false},
         {"--no-fit", &options->no_fit, false},
+        {"--pins", &options->pins, false},
+        {"--rigid", &options->rigid, false},
         {"--output-avatar", &options->output_avatar, false},
         {"--report", &options->report, false},
     };
@@ -66,6 +75,9 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
     } numbers[] = {
         {"--fit-weight", &options->fit_weight, false},
         {"--designed-clearance", &options->designed_clearance, false},
+        {"--offset", &options->offset, false},
+        {"--fit-distance", &options->fit_distance, false},
+        {"--pin-weight", &options->pin_weight, true},
         {"--surface-weight", &options->surface_weight, false},
         {"--curve-weight", &options->curve_weight, false},
         {"--position-weight", &options->position_weight, false},

@@ -16,11 +16,16 @@ typedef struct Options {
     const char *source_avatar;
     const char *skin_weights;
     const char *no_fit;
+    const char *pins;
+    const char *rigid;
     const char *output_avatar;
     const char *report;
     /* Negative: not given. */
     double fit_weight;
     double designed_clearance;
+    double offset;
+    double fit_distance;
+    double pin_weight;
     double surface_weight;
     double curve_weight;
     double position_weight;

@@ -136,6 +136,59 @@ static bool set_no_fit(Run *run, const char *path) {
     return good;
 }
 
+static bool set_pins(Run *run, const char *path) {
+    Matrix matrix;
+    if (!matrix_read(&matrix, path, &run->message)) {
+        return false;
+    }
+    uint32_t *vertices = array_new(matrix.rows, sizeof *vertices);
+    float *places = array_new(matrix.rows, 3 * sizeof *places);
+    bool good = vertices != NULL && places != NULL;
+    if (!good) {
+        fail(&run->message, "%s: does not fit into memory", path);
+    } else if (matrix.columns != 1 && matrix.columns != 4) {
+        good = fail(&run->message, "%s: has %zu numbers in a line; a pin is a vertex, or a vertex and x y z", path,
+                    matrix.columns);
+    }
+    for (size_t k = 0; good && k < matrix.rows; k++) {
+        const float *row = matrix.values + k * matrix.columns;
+        if (!(row[0] >= 0.0f && row[0] <= 16777216.0f && row[0] == (float)(uint32_t)row[0])) {
+            good = fail(&run->message, "%s: pin %zu is for vertex %g, which is not a whole number from 0", path, k + 1,
+                        (double)row[0]);
+            break;
+        }
+        vertices[k] = (uint32_t)row[0];
+        if (matrix.columns == 4) {
+            memcpy(places + 3 * k, row + 1, 3 * sizeof *places);
+        }
+    }
+    if (good) {
+        const BespokeView pinned = view_of(vertices, matrix.rows, BESPOKE_COMPONENT_U32);
+        const BespokeView points = view_of(places, matrix.rows, BESPOKE_COMPONENT_F32);
+        const BespokeStatus status =
+            bespoke_session_set_pinned_vertices(run->session, &pinned, matrix.columns == 4 ? &points : NULL);
+        good = succeeded(run, status, path);
+    }
+    free(vertices);
+    free(places);
+    matrix_free(&matrix);
+    return good;
+}
+
+static bool add_rigid_groups(Run *run, const char *path) {
+    List list;
+    if (!list_read(&list, path, &run->message)) {
+        return false;
+    }
+    bool good = true;
+    for (size_t row = 0, begin = 0; good && row < list.rows; begin = list.ends[row++]) {
+        const BespokeView vertices = view_of(list.values + begin, list.ends[row] - begin, BESPOKE_COMPONENT_U32);
+        good = succeeded(run, bespoke_session_add_rigid_group(run->session, &vertices), path);
+    }
+    list_free(&list);
+    return good;
+}
+
 /* A weight as the library takes it: what was not given is the default, and 0 switches the term off. */
 static double weight(double given) {
     return given < 0.0 ? 0.0 : given == 0.0 ? BESPOKE_WEIGHT_OFF : given;
@@ -153,6 +206,9 @@ static bool set_options(Run *run) {
         .threads = given->threads > 0.0 ? (uint32_t)given->threads : 0,
         .fit_weight = weight(given->fit_weight),
         .designed_clearance = weight(given->designed_clearance),
+        .offset = magnitude(given->offset),
+        .fit_distance = weight(given->fit_distance),
+        .pin_weight = magnitude(given->pin_weight),
         .surface_weight = weight(given->surface_weight),
         .curvature_weight = weight(given->curve_weight),
         .torsion_weight = weight(given->curve_weight),
@@ -184,7 +240,9 @@ static bool set_inputs(Run *run) {
            set_skeleton(run, options->target_skeleton, bespoke_session_set_target_skeleton) &&
            (options->source_avatar == NULL || set_source_avatar(run, options->source_avatar)) &&
            (options->skin_weights == NULL || set_skin_weights(run, options->skin_weights)) &&
-           (options->no_fit == NULL || set_no_fit(run, options->no_fit));
+           (options->no_fit == NULL || set_no_fit(run, options->no_fit)) &&
+           (options->pins == NULL || set_pins(run, options->pins)) &&
+           (options->rigid == NULL || add_rigid_groups(run, options->rigid));
 }
 
 /* On a terminal one line that is written over and over, elsewhere one line for each stage once it has ended. */

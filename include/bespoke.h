@@ -358,6 +358,14 @@ enum BespokeDiagnosticKind
    Two triangles that intersect in the result and did not at the start.
    */
   BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION = 11,
+  /*
+   A pinned garment vertex ended away from its place.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED = 12,
+  /*
+   A rigid group of garment vertices ended bent, for something stands in its way.
+   */
+  BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -619,6 +627,20 @@ typedef struct BespokeOptions {
    0.
    */
   uint32_t reserved;
+  /*
+   Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
+   away, what is farther is drawn in. Default 0.
+   */
+  double offset;
+  /*
+   Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
+   at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
+   */
+  double fit_distance;
+  /*
+   Weight of pins. Default 1000.
+   */
+  double pin_weight;
 } BespokeOptions;
 
 /*
@@ -1084,6 +1106,21 @@ BespokeStatus bespoke_session_set_target_skin_influences(struct BespokeSession *
                                                          size_t joint_count);
 
 /*
+ Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+
+ State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, const struct BespokeSpace *space);
+
+/*
+ Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+
+ State, errors, threads: as for bespoke_session_set_source_space.
+ */
+BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
+
+/*
  Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
  0: not at all.
 
@@ -1104,19 +1141,37 @@ BespokeStatus bespoke_session_set_fit_weights(struct BespokeSession *session, co
 BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session, const struct BespokeView *vertices);
 
 /*
- Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+ Optional: garment vertices that are held in their places. Replaces those before.
 
- State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
- INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `places`: null, or one point for each of them
+ in the target's space, F32 or F64. Without places, a vertex is held where it was designed, carried along with the bone
+ beside it: its coordinate along the bone and its distance from it stay, so on the same skeleton it stays where it is. A pin
+ is a stiff spring (see BespokeOptions.pin_weight): what the body stands in the way of is not reached, and told as a
+ diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not
+ have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
  */
-BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, const struct BespokeSpace *space);
+BespokeStatus bespoke_session_set_pinned_vertices(struct BespokeSession *session,
+                                                  const struct BespokeView *vertices,
+                                                  const struct BespokeView *places);
 
 /*
- Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+ Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate: it turns and
+ moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each call, counted from 0.
 
- State, errors, threads: as for bespoke_session_set_source_space.
+ `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. Where contact does not
+ let a group become rigid to rounding, that is told as a diagnostic. Ownership: copied during the call. State: SETUP.
+ Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE,
+ BUSY, INTERNAL. Threads: any, one at a time.
  */
-BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
+BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session,
+                                              const struct BespokeView *vertices);
+
+/*
+ Forgets all rigid groups.
+
+ State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session);
 
 /*
  Replaces all options by these.

@@ -14,6 +14,13 @@ pub struct Options {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point had on
     /// it. 1 is as designed; 0 is tight, as without a source avatar.
     pub designed_clearance: f64,
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space.
+    pub offset: f64,
+    /// Where a source avatar is given and no fit weights: what was designed farther from it than this fits less, and not at
+    /// all from twice this distance on; infinite for a garment that fits as a whole.
+    pub fit_distance: f64,
+    /// Weight of the pins that hold vertices in given places.
+    pub pin_weight: f64,
     /// Weight of the surface term (Eq. 2).
     pub surface_weight: f64,
     /// Weight of the curvature of boundary curves (Eq. 5).
@@ -54,6 +61,9 @@ impl Default for Options {
             threads: 0,
             fit_weight: 2.0,
             designed_clearance: 1.0,
+            offset: 0.0,
+            fit_distance: 0.1,
+            pin_weight: 1000.0,
             surface_weight: 1.0,
             curvature_weight: 1.0,
             torsion_weight: 1.0,
@@ -88,6 +98,8 @@ impl Options {
             ("curvature_weight", self.curvature_weight),
             ("torsion_weight", self.torsion_weight),
             ("position_weight", self.position_weight),
+            ("offset", self.offset),
+            ("pin_weight", self.pin_weight),
         ] {
             if !(value.is_finite() && value >= 0.0) {
                 return refuse(name, value, "a finite number, 0 or above");
@@ -106,6 +118,9 @@ impl Options {
             if !(value >= low && value <= high) {
                 return refuse(name, value, &format!("between {low} and {high}"));
             }
+        }
+        if !(self.fit_distance > 0.0) {
+            return refuse("fit_distance", self.fit_distance, "above 0");
         }
         let narrowest = self.dhat.min(self.inflation_dhat);
         if self.separation_floor >= 0.5 * narrowest {

@@ -52,6 +52,9 @@ impl Moment {
             skin: None,
             source_avatar: None,
             fit_weights: Some(&fit_weights),
+            pins: &[],
+            rigid_groups: &[],
+            offset: 0.0,
             coordinate_error: 0.0,
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;

@@ -42,6 +42,10 @@ pub enum BespokeDiagnosticKind {
     CoarseCoordinates = 10,
     /// Two triangles that intersect in the result and did not at the start.
     ResultIntersection = 11,
+    /// A pinned garment vertex ended away from its place.
+    PinNotReached = 12,
+    /// A rigid group of garment vertices ended bent, for something stands in its way.
+    RigidGroupBent = 13,
 }
 
 /// How much a diagnostic matters.
@@ -149,6 +153,8 @@ impl From<&Finding> for BespokeDiagnostic {
             FindingKind::AvatarPokes => BespokeDiagnosticKind::AvatarPokes,
             FindingKind::CoarseCoordinates => BespokeDiagnosticKind::CoarseCoordinates,
             FindingKind::ResultIntersection => BespokeDiagnosticKind::ResultIntersection,
+            FindingKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
+            FindingKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
         };
         let severity = match finding.severity {
             Severity::Note => BespokeSeverity::Note,

@@ -4,7 +4,7 @@ use crate::capi::session::{BespokeSession, call};
 use crate::capi::sized::{self, Sized32};
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, BespokeView, invalid};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::input::buffer;
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
@@ -191,55 +191,6 @@ pub unsafe extern "C" fn bespoke_session_set_target_skin_influences(
                 vertices,
                 SKIN,
             )?)
-        })
-    }
-}
-
-/// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
-/// 0: not at all.
-///
-/// `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
-/// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
-/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn bespoke_session_set_fit_weights(
-    session: *mut BespokeSession,
-    weights: *const BespokeView,
-) -> BespokeStatus {
-    let what = "fit weights";
-    // SAFETY: passed on from the caller.
-    unsafe {
-        call(session, |session| session.set_fit_weights(buffer::read_scalars(&view::floats(weights, what)?, what)?))
-    }
-}
-
-/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
-/// this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
-///
-/// `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with
-/// the garment set. Errors: INVALID_ARGUMENT (a vertex out of range as well), INVALID_STATE, BUSY, INTERNAL. Threads:
-/// any, one at a time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn bespoke_session_set_no_fit_vertices(
-    session: *mut BespokeSession,
-    vertices: *const BespokeView,
-) -> BespokeStatus {
-    let what = "no-fit vertices";
-    // SAFETY: passed on from the caller.
-    unsafe {
-        call(session, |session| {
-            let Some(count) = session.garment_vertex_count() else {
-                let message = format!("{what}: the garment is set first");
-                return Err(Error::new(ErrorKind::InvalidState, message));
-            };
-            let mut weights = vec![1.0; count];
-            for vertex in buffer::read_indices(&view::indices(vertices, what)?, 1, what)? {
-                match weights.get_mut(vertex as usize) {
-                    Some(weight) => *weight = 0.0,
-                    None => return invalid(format!("{what}: lists vertex {vertex}, the garment has {count} vertices")),
-                }
-            }
-            session.set_fit_weights(weights)
         })
     }
 }

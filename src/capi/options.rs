@@ -69,6 +69,14 @@ pub struct BespokeOptions {
     pub strict: u32,
     /// 0.
     pub reserved: u32,
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
+    /// away, what is farther is drawn in. Default 0.
+    pub offset: f64,
+    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
+    /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
+    pub fit_distance: f64,
+    /// Weight of pins. Default 1000.
+    pub pin_weight: f64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers without padding.
@@ -101,6 +109,12 @@ impl BespokeOptions {
             threads: self.threads,
             fit_weight: weight(self.fit_weight, default.fit_weight),
             designed_clearance: weight(self.designed_clearance, default.designed_clearance),
+            offset: self.offset,
+            fit_distance: match self.fit_distance {
+                BESPOKE_WEIGHT_OFF => f64::INFINITY,
+                given => or_default(given, default.fit_distance),
+            },
+            pin_weight: or_default(self.pin_weight, default.pin_weight),
             surface_weight: weight(self.surface_weight, default.surface_weight),
             curvature_weight: weight(self.curvature_weight, default.curvature_weight),
             torsion_weight: weight(self.torsion_weight, default.torsion_weight),
@@ -170,6 +184,9 @@ pub unsafe extern "C" fn bespoke_options_read_defaults(options: *mut BespokeOpti
         memory_limit: default.memory_limit,
         strict: u32::from(default.strict),
         reserved: 0,
+        offset: default.offset,
+        fit_distance: default.fit_distance,
+        pin_weight: default.pin_weight,
     };
     // SAFETY: passed on from the caller.
     match unsafe { sized::write(filled, options, "options") } {

@@ -23,11 +23,10 @@
 
 use std::ops::Range;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::frame::{Normal, coefficients, least_squares, outer, scaled_cross};
-use super::surface::SurfaceForm;
+use super::frame::{Carried, least_squares};
 use super::{Configuration, Energy, Sink};
 use crate::input::diagnosis::{self, Finding, FindingKind, Severity, Subject};
 use crate::input::mesh::{NO_PIECE, TriangleMesh, label_pieces};
@@ -56,10 +55,7 @@ const LEAST_AREA: f64 = 1e-2;
 /// A vertex of a loose piece and the triangle that holds it.
 #[derive(Clone, Copy, Debug)]
 struct Element {
-    /// `[a, b, c, v]`.
-    vertices: [u32; 4],
-    /// Factors of `e1`, `e2` and the normal.
-    factors: [f64; 3],
+    carried: Carried,
     weight: f64,
 }
 
@@ -314,46 +310,12 @@ fn match_host(piece: &Piece, body: &Piece, host: &Host, rest: &[DVec3], areas: &
 
 impl Element {
     fn new(rest: &[DVec3], [a, b, c]: [u32; 3], v: u32, area: f64, distance: f64) -> Option<Self> {
-        let [pa, pb, pc, pv] = [a, b, c, v].map(|i| rest[i as usize]);
+        let [pa, pb, pc] = [a, b, c].map(|i| rest[i as usize]);
         let (e1, e2) = (pb - pa, pc - pa);
-        let normal = Normal::new(e1.cross(e2), SurfaceForm::Similarity);
-        let factors = coefficients(pv - pa, e1, e2, &normal)?;
+        let carried = Carried::new(rest, [a, b, c, v])?;
         let square = (e1.length_squared() + e2.length_squared() + (e2 - e1).length_squared()) / 3.0;
         let weight = area / (square + distance * distance);
-        weight.is_finite().then_some(Self { vertices: [a, b, c, v], factors, weight })
-    }
-
-    #[inline]
-    fn shape(&self, x: &[DVec3]) -> Shape {
-        let [a, b, c, v] = self.vertices.map(|i| x[i as usize]);
-        let (e1, e2) = (b - a, c - a);
-        Shape { e1, e2, arm: v - a, normal: Normal::new(e1.cross(e2), SurfaceForm::Similarity) }
-    }
-}
-
-/// An element as it is now.
-struct Shape {
-    e1: DVec3,
-    e2: DVec3,
-    arm: DVec3,
-    normal: Normal,
-}
-
-impl Shape {
-    #[inline]
-    fn residual(&self, k: &Element) -> DVec3 {
-        let [c1, c2, c3] = k.factors;
-        self.arm - self.e1 * c1 - self.e2 * c2 - self.normal.value * c3
-    }
-
-    /// Derivatives of the residual by a, b, c, v.
-    #[inline]
-    fn jacobian(&self, k: &Element) -> [DMat3; 4] {
-        let [c1, c2, c3] = k.factors;
-        let Normal { n, scale, pull, .. } = self.normal;
-        let by_e1 = scaled_cross(c1, self.e2 * (-c3 * scale)) - outer(n * (c3 * pull), self.e2.cross(n));
-        let by_e2 = scaled_cross(c2, self.e1 * (c3 * scale)) - outer(n * (c3 * pull), n.cross(self.e1));
-        [by_e1 + by_e2 - DMat3::IDENTITY, -by_e1, -by_e2, DMat3::IDENTITY]
+        weight.is_finite().then_some(Self { carried, weight })
     }
 }
 
@@ -371,17 +333,17 @@ impl Energy for Attachment {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        self.elements[range].iter().map(|k| k.weight * k.shape(at.x).residual(k).length_squared()).sum()
+        self.elements[range].iter().map(|k| k.weight * k.carried.at(at.x).residual().length_squared()).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for k in &self.elements[range] {
-            let shape = k.shape(at.x);
-            least_squares(sink, &k.vertices, &shape.jacobian(k), shape.residual(k), k.weight);
+            let now = k.carried.at(at.x);
+            least_squares(sink, &k.carried.vertices, &now.jacobian(), now.residual(), k.weight);
         }
     }
 
     fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.elements.iter().for_each(|k| visit(&k.vertices));
+        self.elements.iter().for_each(|k| visit(&k.carried.vertices));
     }
 }

@@ -1,11 +1,17 @@
-//! The fit term, Eq. 4 of the paper: `L_fit = integral over G_fit of max(0, D(p) - a(p))^2 dp`.
+//! The fit term, Eq. 4 of the paper: `L_fit = integral over G_fit of r(D(p))^2 dp`.
 //!
-//! D is the signed distance to the target avatar and a the clearance wanted, 0 for a tight fit as in the paper.
-//! Only what is too far away costs: keeping the garment off the avatar is the barrier's part. The integral is a
-//! sum over faces f and quadrature points q, with weights omega that sum to 1 and the caller's density w:
+//! D is the signed distance to the target avatar. What is farther away than the largest clearance wanted, or nearer than the
+//! smallest, costs:
 //!
 //! ```text
-//! sum_f area_f sum_q omega_q w_q max(0, D(x_q) - a_q)^2,    x_q = sum_i b_qi x_i
+//! r(D) = D - most where D > most,   D - least where D < least,   else 0.
+//! ```
+//!
+//! A tight fit as in the paper has most = 0 and no least: keeping the garment off the avatar is the barrier's part. The
+//! integral is a sum over faces f and quadrature points q, with weights omega that sum to 1 and the caller's density w:
+//!
+//! ```text
+//! sum_f area_f sum_q omega_q w_q r(D(x_q))^2,    x_q = sum_i b_qi x_i
 //! ```
 //!
 //! The Hessian is Gauss-Newton's, `2 grad D grad D^T`: positive semidefinite.
@@ -56,8 +62,33 @@ struct Element {
 struct Sample {
     /// `area_f omega_q w_q`.
     weight: f64,
-    /// The clearance wanted.
-    aim: f64,
+    clearance: Clearance,
+}
+
+/// The distances from the avatar that cost nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Farther than this is too loose.
+    pub most: f64,
+    /// Nearer than this is too tight; minus infinity where nothing is.
+    pub least: f64,
+}
+
+impl Clearance {
+    /// Eq. 4 as printed: nothing is too tight.
+    pub const NONE: Self = Self { most: 0.0, least: f64::NEG_INFINITY };
+
+    /// r.
+    #[inline]
+    fn residual(&self, distance: f64) -> f64 {
+        if distance > self.most {
+            distance - self.most
+        } else if distance < self.least {
+            distance - self.least
+        } else {
+            0.0
+        }
+    }
 }
 
 /// The fit term over the faces of a garment.
@@ -71,7 +102,7 @@ pub struct Fit {
 impl Fit {
     /// The term for the garment's `triangles` with the given `areas` (one a triangle, rest or current) and
     /// `weights` (one a vertex, at least 0, interpolated linearly). A face with three zero weights is left
-    /// out. All clearances are 0.
+    /// out. All clearances are [`Clearance::NONE`].
     ///
     /// Six samples a face; three where its area is below four square voxels, so that samples are about a voxel apart
     /// and the field has hardly any detail between them.
@@ -88,7 +119,7 @@ impl Fit {
             elements.push(Element { vertices, first: samples.len() as u32, rule });
             samples.extend(rule.iter().map(|&(b, omega)| {
                 let density = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
-                Sample { weight: area * omega * density, aim: 0.0 }
+                Sample { weight: area * omega * density, clearance: Clearance::NONE }
             }));
         }
         Self { field, elements, samples }
@@ -100,22 +131,28 @@ impl Fit {
         self.elements.iter().flat_map(|e| e.rule.iter().map(|(b, _)| interpolate(e.corners(x), b))).collect()
     }
 
-    /// Sets the clearance wanted at each sample (in the order of [`Self::sample_points`], at least 0).
-    pub fn set_aims(&mut self, aims: &[f64]) -> Result<()> {
-        if aims.len() != self.samples.len() {
+    /// Sets the clearance wanted at each sample, in the order of [`Self::sample_points`]: `most` a number from 0 on, `least`
+    /// not above it.
+    ///
+    /// # Errors
+    /// `InvalidArgument`.
+    pub fn set_clearances(&mut self, wanted: &[Clearance]) -> Result<()> {
+        if wanted.len() != self.samples.len() {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
-                format!("fit: {} clearances for {} samples", aims.len(), self.samples.len()),
+                format!("fit: {} clearances for {} samples", wanted.len(), self.samples.len()),
             ));
         }
-        if let Some(i) = aims.iter().position(|a| !(*a >= 0.0 && a.is_finite())) {
+        let is_good = |c: &Clearance| c.most >= 0.0 && c.most.is_finite() && c.least <= c.most;
+        if let Some(i) = wanted.iter().position(|c| !is_good(c)) {
+            let Clearance { most, least } = wanted[i];
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
-                format!("fit: clearance {i} is {}, not a number from 0 on", aims[i]),
+                format!("fit: clearance {i} is from {least} to {most}, which is no range that ends at 0 or above"),
             ));
         }
-        for (sample, &aim) in self.samples.iter_mut().zip(aims) {
-            sample.aim = aim;
+        for (sample, &clearance) in self.samples.iter_mut().zip(wanted) {
+            sample.clearance = clearance;
         }
         Ok(())
     }
@@ -170,8 +207,8 @@ impl Energy for Fit {
             let mut distances = [0.0; MOST];
             self.field.values(&element.points(at.x)[..samples.len()], &mut distances);
             let one = |(sample, distance): (&Sample, &f64)| {
-                let excess = distance - sample.aim;
-                if excess > 0.0 { sample.weight * excess * excess } else { 0.0 }
+                let residual = sample.clearance.residual(*distance);
+                sample.weight * residual * residual
             };
             samples.iter().zip(&distances).map(one).sum::<f64>()
         };
@@ -186,11 +223,11 @@ impl Energy for Fit {
             let mut rows = [Row::default(); MOST];
             let mut count = 0;
             for (((b, _), sample), (distance, slope)) in element.rule.iter().zip(samples).zip(distances) {
-                let excess = distance - sample.aim;
-                if excess > 0.0 {
+                let residual = sample.clearance.residual(distance);
+                if residual != 0.0 {
                     let components = [b[0] * slope, b[1] * slope, b[2] * slope, DVec3::ZERO];
                     let h = 2.0 * sample.weight;
-                    rows[count] = Row { components, t: 0.0, g: h * excess, h };
+                    rows[count] = Row { components, t: 0.0, g: h * residual, h };
                     count += 1;
                 }
             }

@@ -1,4 +1,5 @@
-//! The frame of a triangle, two edges and a normal, by which a term follows how the triangle deforms.
+//! The frame of a triangle, two edges and a normal, by which a term follows how the triangle deforms; and a vertex that is
+//! carried by one.
 
 use glam::{DMat3, DVec3};
 
@@ -43,6 +44,68 @@ pub(super) fn coefficients(x: DVec3, a: DVec3, b: DVec3, normal: &Normal) -> Opt
     let squared = n.length_squared();
     let c = [x.cross(b).dot(n) / squared, a.cross(x).dot(n) / squared, x.dot(n) / normal.value.dot(n)];
     c.iter().all(|v| v.is_finite()).then_some(c)
+}
+
+/// A vertex v in the frame of a triangle (a, b, c), as both lie at rest:
+///
+/// ```text
+/// r = v - a - c1 e1 - c2 e2 - c3 N(e1 x e2),   e1 = b - a,  e2 = c - a,  N(n) = n / sqrt(|n|),
+/// ```
+///
+/// with the coefficients for which r is zero at rest, and so wherever a similarity moves all four.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carried {
+    /// `[a, b, c, v]`.
+    pub vertices: [u32; 4],
+    /// Factors of `e1`, `e2` and the normal.
+    factors: [f64; 3],
+}
+
+impl Carried {
+    /// None for a triangle without area.
+    pub fn new(rest: &[DVec3], vertices: [u32; 4]) -> Option<Self> {
+        let [a, b, c, v] = vertices.map(|i| rest[i as usize]);
+        let (e1, e2) = (b - a, c - a);
+        let normal = Normal::new(e1.cross(e2), SurfaceForm::Similarity);
+        Some(Self { vertices, factors: coefficients(v - a, e1, e2, &normal)? })
+    }
+
+    /// How the four lie now.
+    #[inline]
+    pub fn at(&self, x: &[DVec3]) -> CarriedNow {
+        let [a, b, c, v] = self.vertices.map(|i| x[i as usize]);
+        let (e1, e2) = (b - a, c - a);
+        let normal = Normal::new(e1.cross(e2), SurfaceForm::Similarity);
+        CarriedNow { factors: self.factors, e1, e2, arm: v - a, normal }
+    }
+}
+
+/// A [`Carried`] as it is now.
+pub(super) struct CarriedNow {
+    factors: [f64; 3],
+    e1: DVec3,
+    e2: DVec3,
+    arm: DVec3,
+    normal: Normal,
+}
+
+impl CarriedNow {
+    /// r.
+    #[inline]
+    pub fn residual(&self) -> DVec3 {
+        let [c1, c2, c3] = self.factors;
+        self.arm - self.e1 * c1 - self.e2 * c2 - self.normal.value * c3
+    }
+
+    /// Derivatives of r by a, b, c, v.
+    #[inline]
+    pub fn jacobian(&self) -> [DMat3; 4] {
+        let [c1, c2, c3] = self.factors;
+        let Normal { n, scale, pull, .. } = self.normal;
+        let by_e1 = scaled_cross(c1, self.e2 * (-c3 * scale)) - outer(n * (c3 * pull), self.e2.cross(n));
+        let by_e2 = scaled_cross(c2, self.e1 * (c3 * scale)) - outer(n * (c3 * pull), n.cross(self.e1));
+        [by_e1 + by_e2 - DMat3::IDENTITY, -by_e1, -by_e2, DMat3::IDENTITY]
+    }
 }
 
 /// `s I + [p]x`.

@@ -11,7 +11,9 @@ pub mod curve;
 pub mod fit;
 mod frame;
 pub mod inflation;
+pub mod pin;
 pub mod position;
+pub mod rigid;
 pub mod surface;
 
 use std::ops::Range;

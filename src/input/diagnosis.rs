@@ -81,6 +81,10 @@ pub enum FindingKind {
     CoarseCoordinates,
     /// The result intersects where the input did not.
     ResultIntersection,
+    /// A pinned garment vertex ended away from its place.
+    PinNotReached,
+    /// A rigid group of garment vertices ended bent, because something stands in its way.
+    RigidGroupBent,
 }
 
 /// How much a finding matters.

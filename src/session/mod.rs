@@ -28,6 +28,7 @@ pub use crate::report::{Report, StageReport, TermReport, Verification};
 #[doc(hidden)]
 pub use fault::Fault;
 use inputs::Inputs;
+pub use inputs::Pin;
 use job::Pool;
 use judgement::Judgement;
 use view::View;
@@ -254,6 +255,7 @@ impl Session {
             self.findings.extend(judgement.findings());
             return Err(not_verified(&counted));
         }
+        self.findings.extend(self.work.iter_mut().flat_map(|work| std::mem::take(&mut work.shortfalls)));
         let (clock, other) = (Instant::now(), precision.other());
         self.other_precision = Some((other, self.judge(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();

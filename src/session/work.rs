@@ -15,6 +15,7 @@ use crate::panics::PanicLog;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
+use crate::stage::closing;
 use crate::stage::fit::Settling;
 use crate::stage::inflate::Inflation;
 use crate::stage::objective::Objective;
@@ -59,6 +60,8 @@ pub(super) struct Work {
     expected: u64,
     /// The distance field, once it is there.
     distance: Option<Arc<Field>>,
+    /// What the result falls short of.
+    pub(super) shortfalls: Vec<Finding>,
     pub(super) context: Context,
 }
 
@@ -127,6 +130,7 @@ impl Work {
             is_narrow,
             report,
             begun: clock,
+            shortfalls: Vec::new(),
             context,
         };
         work.look_at_memory()?;
@@ -164,6 +168,11 @@ impl Work {
                 (Stage::Fit, converged || settling.iterations >= options.max_iterations)
             }
         };
+        if stage == Stage::Fit && ended {
+            self.shortfalls = closing::close(&self.problem, &mut self.objective, &mut self.state);
+            self.newton.forget_values();
+            self.context.stop.check()?;
+        }
         if self.objective.review(self.state.configuration())? {
             self.newton.forget_values();
         }

@@ -1,5 +1,6 @@
 //! The three steps of the paper: which energies, which weights, when it is done.
 
+pub mod closing;
 pub mod enclosure;
 pub mod fit;
 pub mod frame;
@@ -7,7 +8,9 @@ pub mod inflate;
 pub mod initialize;
 pub mod lattice;
 pub mod objective;
+pub mod pins;
 pub mod problem;
+pub mod region;
 pub mod retreat;
 pub mod rounding;
 pub mod route;

@@ -9,12 +9,15 @@ use super::rounding::Gaps;
 use crate::contact::tangle::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
 use crate::control::Cancel;
+use crate::energy::Energy as _;
 use crate::energy::attachment::Attachment;
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::inflation::Inflation;
+use crate::energy::pin::Pins;
 use crate::energy::position::Position;
+use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::error::Result;
 use crate::input::mesh::TriangleMesh;
@@ -33,6 +36,9 @@ const FLOOR_SHARE: f64 = 0.25;
 const LOOK_AHEAD: f64 = 2.5;
 const SHORTEST_LOOK: f64 = 0.05;
 
+/// Weight of the rigid groups' term: stiff beside the surface term's 1, and yet loose enough to turn in steps of some degrees.
+const RIGIDITY: f64 = 10.0;
+
 /// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
 pub const NO_DISTANCE: f64 = 1e-12;
 
@@ -48,6 +54,10 @@ pub struct Shape {
     pub torsion: Torsion,
     /// Position of the boundary curves along their bones (Eq. 3).
     pub position: Position,
+    /// Vertices that a caller wants in given places.
+    pub pins: Pins,
+    /// Groups that keep shape and size.
+    pub rigid: Rigid,
 }
 
 /// Energies with their weights, and contact.
@@ -260,6 +270,16 @@ impl Objective {
         self.barrier.set_narrowing(narrowing);
     }
 
+    /// The rigid groups.
+    pub fn rigid(&self) -> &Rigid {
+        &self.shape.rigid
+    }
+
+    /// The pins.
+    pub fn pins(&self) -> &Pins {
+        &self.shape.pins
+    }
+
     /// The drive on t, where there is one.
     pub fn inflation(&self) -> Option<&Inflation> {
         self.inflation.as_ref()
@@ -323,6 +343,13 @@ impl Model for Objective {
             Term { energy: &shape.position, weight: w.position_weight },
             Term { energy: &self.barrier, weight: self.barrier_weight },
         ];
+        // Terms that a garment does not have are not asked for their derivatives in every iteration.
+        if !shape.pins.is_empty() {
+            terms.push(Term { energy: &shape.pins, weight: w.pin_weight });
+        }
+        if !shape.rigid.is_empty() {
+            terms.push(Term { energy: &shape.rigid, weight: RIGIDITY });
+        }
         if let Some(drive) = &self.inflation {
             terms.push(Term { energy: drive, weight: 1.0 });
         }

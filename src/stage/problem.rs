@@ -9,14 +9,18 @@ use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
 use super::objective::{NO_DISTANCE, Objective, Shape};
+use super::pins::{self, AskedPin};
+use super::region::fit_region;
 use super::retreat;
 use super::rounding::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::control::Cancel;
 use crate::energy::attachment::Attachment;
 use crate::energy::curve::{Curvature, Torsion};
-use crate::energy::fit::Fit;
+use crate::energy::fit::{Clearance, Fit};
+use crate::energy::pin::Pins;
 use crate::energy::position::Position;
+use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::cap::without_caps;
@@ -50,6 +54,12 @@ pub struct Inputs<'a> {
     pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each welded vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
+    /// Pinned welded vertices, and their places in the target's space where named.
+    pub pins: &'a [AskedPin],
+    /// Lists of welded vertices that stay rigid, each vertex in one at most.
+    pub rigid_groups: &'a [Vec<u32>],
+    /// The clearance to aim at beside the designed one, in the target's space.
+    pub offset: f64,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's space.
     pub coordinate_error: f64,
 }
@@ -76,6 +86,8 @@ pub struct Problem {
     fit_weights: Vec<f64>,
     /// The body that the garment was designed on.
     source_body: Option<ClosestPoint>,
+    /// The clearance to aim at beside the designed one.
+    offset: f64,
     /// Pairs of garment triangles that intersect at the start, the lower index first.
     tangled: Vec<[u32; 2]>,
     gaps: Gaps,
@@ -142,6 +154,8 @@ impl Problem {
                 guides.push(guide.guide);
             }
         }
+        let place = |p: DVec3| target_frame.normalise(p);
+        let asked: Vec<AskedPin> = inputs.pins.iter().map(|&(v, p)| (v, p.map(place))).collect();
         let shape = Shape {
             surface: Surface::new(
                 &garment.positions,
@@ -152,6 +166,8 @@ impl Problem {
             curvature: Curvature::new(&garment.positions, &topology.loops),
             torsion: Torsion::new(&garment.positions, &topology.loops),
             position: Position::new(&garment.positions, &constraints, guides, &lengths),
+            pins: Pins::new(pins::resolve(&garment.positions, &garment.triangles, &asked, &source, &target)),
+            rigid: Rigid::new(&garment.positions, inputs.rigid_groups),
         };
         let source_body = inputs.source_avatar.map(|mesh| {
             ClosestPoint::new(&TriangleMesh {
@@ -159,9 +175,10 @@ impl Problem {
                 triangles: mesh.triangles.clone(),
             })
         });
-        let fit_weights = match inputs.fit_weights {
-            Some(weights) => weights.to_vec(),
-            None => vec![1.0; garment.positions.len()],
+        let fit_weights = match (inputs.fit_weights, &source_body) {
+            (Some(weights), _) => weights.to_vec(),
+            (None, Some(body)) => fit_region(&garment.positions, body, options.fit_distance),
+            (None, None) => vec![1.0; garment.positions.len()],
         };
         Ok(Self {
             source_frame,
@@ -174,6 +191,7 @@ impl Problem {
             shape: Arc::new(shape),
             fit_weights,
             source_body,
+            offset: inputs.offset * target_frame.scale,
             tangled,
             gaps,
         })
@@ -303,10 +321,16 @@ impl Problem {
             motion: vec![DVec3::ZERO; positions.len()],
         };
         let mut fit = Fit::new(field, &self.triangles, &areas, &self.fit_weights);
+        let wanted = |designed: f64| {
+            let least = if designed + self.offset > 0.0 { designed + self.offset } else { f64::NEG_INFINITY };
+            Clearance { most: designed + self.offset, least }
+        };
         if let Some(body) = &self.source_body {
             let designed = fit.sample_points(&self.rest);
-            let aims: Vec<f64> = designed.par_iter().map(|&p| options.designed_clearance * body.distance(p)).collect();
-            fit.set_aims(&aims)?;
+            let designed = designed.par_iter().map(|&p| wanted(options.designed_clearance * body.distance(p)));
+            fit.set_clearances(&designed.collect::<Vec<_>>())?;
+        } else if self.offset > 0.0 {
+            fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;
         }
         Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), self.gaps, options))
     }

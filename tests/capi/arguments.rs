@@ -4,6 +4,7 @@ use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
 use bespoke::capi::control::*;
+use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;
 use bespoke::capi::results::*;
@@ -39,6 +40,9 @@ fn null_sessions_are_refused() {
             bespoke_session_set_target_skin_influences(session, &t, &p, 3, 3),
             bespoke_session_set_fit_weights(session, &p),
             bespoke_session_set_no_fit_vertices(session, &t),
+            bespoke_session_set_pinned_vertices(session, &t, null()),
+            bespoke_session_add_rigid_group(session, &t),
+            bespoke_session_clear_rigid_groups(session),
             bespoke_session_set_source_space(session, null()),
             bespoke_session_set_target_space(session, null()),
             bespoke_session_set_options(session, &no_options()),

@@ -5,6 +5,7 @@ mod cancel;
 mod control;
 mod diagnostics;
 mod faults;
+mod fit_controls;
 mod header;
 mod meshes;
 mod results;

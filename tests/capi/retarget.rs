@@ -158,6 +158,8 @@ fn files_that_cannot_be_opened_are_named() {
         "--source-avatar",
         "--skin-weights",
         "--no-fit",
+        "--pins",
+        "--rigid",
     ] {
         folder.refuses(&[option, "missing.obj"], 1, &["missing.obj"]);
         folder.refuses(&[option, "folder.obj"], 1, &["folder.obj", "directory"]);
@@ -215,6 +217,14 @@ fn bad_tables_are_named_by_their_line() {
     folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "line 2", "four"]);
     folder.write("no-fit.txt", "1 2\n-3\n");
     folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "line 2", "-3"]);
+    folder.write("pins.txt", "1 2 3\n");
+    folder.refuses(&["--pins", "pins.txt"], 1, &["pins.txt", "3 numbers"]);
+    folder.write("pins.txt", "1\n2.5\n");
+    folder.refuses(&["--pins", "pins.txt"], 1, &["pins.txt", "pin 2", "2.5"]);
+    folder.write("pins.txt", "1 0 0 0\n100000 0 0 0\n");
+    folder.refuses(&["--pins", "pins.txt"], 1, &["pinned", "vertex 100000"]);
+    folder.write("rigid.txt", "1 2 3\n\n4 5 2 # again\n");
+    folder.refuses(&["--rigid", "rigid.txt"], 1, &["rigid.txt", "rigid group 1", "vertex 2"]);
     folder.write("no-fit.txt", "1 100000\n");
     folder.refuses(&["--no-fit", "no-fit.txt"], 1, &["no-fit.txt", "100000"]);
 }

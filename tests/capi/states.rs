@@ -2,6 +2,7 @@
 
 use std::ptr::null_mut;
 
+use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::results::*;
 use bespoke::capi::running::*;
@@ -65,6 +66,12 @@ fn inputs_are_fixed_from_prepare_to_reset() {
             caller.set_source_skeleton(&j, &b),
             caller.set_target_skeleton(&j, &b),
             bespoke_session_set_no_fit_vertices(session, &crate::caller::view(&[0u32], BespokeComponent::U32)),
+            bespoke_session_set_pinned_vertices(
+                session,
+                &crate::caller::view(&[0u32], BespokeComponent::U32),
+                std::ptr::null(),
+            ),
+            bespoke_session_clear_rigid_groups(session),
             bespoke::capi::options::bespoke_session_set_options(session, &options),
             bespoke_session_prepare(session),
         ] {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use bespoke::energy::fit::Fit;
+use bespoke::energy::fit::{Clearance, Fit};
 use bespoke::energy::{Configuration, Energy};
 use bespoke::input::mesh::TriangleMesh;
 use bespoke::sdf::{Field, FieldOptions};
@@ -64,8 +64,17 @@ fn derivatives_agree_with_finite_differences() {
     for height in [0.02, 0.1, 0.5, 1.5] {
         let (x, triangles) = garment(&mut random, height);
         let mut fit = Fit::new(field.clone(), &triangles, &[0.2, 0.1], &[1.0, 0.3, 2.0, 0.0]);
-        let aims: Vec<f64> = fit.sample_points(&x).iter().map(|_| 0.04 * random.unit()).collect();
-        fit.set_aims(&aims).expect("one a sample");
+        // Too loose at some samples, too tight at others, right at a third.
+        let wanted: Vec<Clearance> = fit
+            .sample_points(&x)
+            .iter()
+            .map(|p| match random.unit() {
+                u if u < 0.4 => Clearance { most: 0.5 * random.unit() * p.z.abs(), least: f64::NEG_INFINITY },
+                u if u < 0.8 => Clearance { most: 10.0, least: p.z + 0.1 + height * random.unit() },
+                _ => Clearance { most: 10.0, least: 0.0 },
+            })
+            .collect();
+        fit.set_clearances(&wanted).expect("one a sample");
         check_gradient(&fit, &x, 1.0, 1e-5, 1e-7);
         check_semidefinite(&fit, &x, 1.0, &mut || random.signed());
     }
@@ -92,13 +101,19 @@ fn inside_and_within_the_clearance_cost_nothing() {
     let (above, _) = garment(&mut random, 0.2);
     assert!(value(&fit, &above) > 0.0);
     // As designed: the clearance that the samples have now.
-    let aims: Vec<f64> = fit.sample_points(&above).iter().map(|p| p.z + 1e-7).collect();
-    fit.set_aims(&aims).expect("one a sample");
+    let designed = |p: &DVec3| Clearance { most: p.z + 1e-7, least: p.z - 1e-7 };
+    let wanted: Vec<Clearance> = fit.sample_points(&above).iter().map(designed).collect();
+    fit.set_clearances(&wanted).expect("one a sample");
     assert_eq!(value(&fit, &above), 0.0);
-    let higher: Vec<DVec3> = above.iter().map(|p| *p + 0.1 * DVec3::Z).collect();
-    assert!((value(&fit, &higher) - 0.3 * 0.01).abs() < 1e-8);
-    assert!(fit.set_aims(&aims[1..]).is_err());
-    assert!(fit.set_aims(&vec![-1.0; aims.len()]).is_err());
+    // Too loose and too tight cost the same.
+    for shift in [0.1, -0.1] {
+        let shifted: Vec<DVec3> = above.iter().map(|p| *p + shift * DVec3::Z).collect();
+        assert!((value(&fit, &shifted) - 0.3 * 0.01).abs() < 1e-8);
+    }
+    assert!(fit.set_clearances(&wanted[1..]).is_err());
+    for bad in [Clearance { most: -1.0, least: -2.0 }, Clearance { most: 1.0, least: 2.0 }] {
+        assert!(fit.set_clearances(&vec![bad; wanted.len()]).is_err());
+    }
 }
 
 #[test]

@@ -10,5 +10,7 @@ mod fit;
 mod harness;
 mod inflation;
 mod patch;
+mod pin;
 mod position;
+mod rigid;
 mod surface;

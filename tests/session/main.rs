@@ -3,6 +3,7 @@
 mod assets;
 mod cancel;
 mod determinism;
+mod fit_controls;
 mod memory;
 mod profile;
 mod shifted;

@@ -123,6 +123,9 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         skin: None,
         source_avatar: None,
         fit_weights: None,
+        pins: &[],
+        rigid_groups: &[],
+        offset: 0.0,
         coordinate_error: 0.0,
     };
     Problem::new(&inputs, &Options::default(), &Cancel::new(), &mut Vec::new()).unwrap()

@@ -5,4 +5,6 @@ mod support;
 
 mod frame;
 mod initialize;
+mod pins;
+mod region;
 mod retreat;

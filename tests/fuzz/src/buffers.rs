@@ -4,6 +4,7 @@ use std::ffi::c_void;
 use std::mem::offset_of;
 
 use bespoke::capi::control::{BespokeProgress, bespoke_session_read_progress};
+use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;
 use bespoke::capi::results::*;
@@ -33,7 +34,7 @@ pub fn run(bytes: &[u8]) {
         sample(&caller);
     }
     for _ in 0..source.between(1, 12) {
-        match source.below(16) {
+        match source.below(17) {
             0 => pair(&caller, source, "set_garment", bespoke_session_set_garment, 3),
             1 => pair(&caller, source, "set_target_avatar", bespoke_session_set_target_avatar, 3),
             2 => pair(&caller, source, "set_source_avatar", bespoke_session_set_source_avatar, 3),
@@ -49,6 +50,7 @@ pub fn run(bytes: &[u8]) {
             12 => output(&caller, source, bespoke_session_read_garment_vertices),
             13 => output(&caller, source, bespoke_session_read_avatar_vertices),
             14 => filled_structs(&caller, source),
+            15 => single(&caller, source, "add_rigid_group", bespoke_session_add_rigid_group, false),
             _ => damaged_pair(&caller, source),
         }
     }

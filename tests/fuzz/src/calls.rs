@@ -3,6 +3,7 @@
 use std::ptr::{null, null_mut};
 
 use bespoke::capi::control::*;
+use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;
 use bespoke::capi::results::*;
@@ -231,7 +232,7 @@ impl Program {
         let is_double = source.one_in(2);
         // SAFETY: the session is null or alive, the views tell the truth.
         let status = unsafe {
-            match source.below(4) {
+            match source.below(7) {
                 0 => {
                     let rows = Array::floats(&numbers, vertices, 0, is_double);
                     let view = rows.view();
@@ -247,10 +248,26 @@ impl Program {
                     let view = Array::floats(&numbers, 1, 0, is_double);
                     bespoke_session_set_fit_weights(session, &view.view())
                 }
-                _ => {
+                3 => {
                     let view = Array::indices(&indices, 1, 0, is_double);
                     bespoke_session_set_no_fit_vertices(session, &view.view())
                 }
+                4 => {
+                    let count = source.between(0, 4);
+                    let first = source.below(16) as u32;
+                    let vertices: Vec<u32> =
+                        (0..count as u32).map(|k| first + k * u32::from(source.byte() % 4)).collect();
+                    let places: Vec<f64> = (0..3 * count).map(|_| f64::from(source.byte()) / 64.0 - 2.0).collect();
+                    let vertices = Array::indices(&vertices, 1, 0, is_double);
+                    let places = Array::floats(&places, 3, 0, is_double);
+                    let view = places.view();
+                    bespoke_session_set_pinned_vertices(session, &vertices.view(), or_null(&view, source))
+                }
+                5 => {
+                    let view = Array::indices(&indices[..indices.len().min(source.between(0, 6))], 1, 0, is_double);
+                    bespoke_session_add_rigid_group(session, &view.view())
+                }
+                _ => bespoke_session_clear_rigid_groups(session),
             }
         };
         // SAFETY: the session is null or alive.
