@@ -3,7 +3,7 @@
    This file is generated from the library's sources, and it is the manual. The whole way of a caller:
 
      bespoke_session_create -> set_garment, set_source_skeleton, set_target_avatar, set_target_skeleton
-       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, set_options, ...)
+       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, add_layer, set_options, ...)
        -> prepare -> step, step, step ... (or run) -> read_garment_vertices -> destroy
 
    What holds for all functions:
@@ -424,6 +424,11 @@ enum BespokeSubject
    The skeleton of the body to dress.
    */
   BESPOKE_SUBJECT_TARGET_SKELETON = 5,
+  /*
+   The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
+   here on is a layer.
+   */
+  BESPOKE_SUBJECT_LAYER = 256,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -635,7 +640,7 @@ typedef struct BespokeIntersections {
    */
   uint64_t since_start;
   /*
-   Of the garment with the avatar.
+   Of the garment with the avatar or the layers that it wears.
    */
   uint64_t garment_avatar;
 } BespokeIntersections;
@@ -798,7 +803,7 @@ typedef struct BespokeReport {
    */
   double garment_distance;
   /*
-   Smallest distance of the garment to the avatar; infinite where no pair is near.
+   Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
    */
   double avatar_distance;
   /*
@@ -810,7 +815,7 @@ typedef struct BespokeReport {
    */
   uint64_t garment_intersections;
   /*
-   Intersecting pairs of garment and avatar that the verifier found.
+   Intersecting pairs of garment and avatar, its layers included, that the verifier found.
    */
   uint64_t avatar_intersections;
   /*
@@ -822,7 +827,7 @@ typedef struct BespokeReport {
    */
   uint64_t garment_triangles;
   /*
-   Vertices of the target avatar.
+   Vertices of the target avatar, here and below without its layers.
    */
   uint64_t avatar_vertices;
   /*
@@ -891,7 +896,7 @@ typedef struct BespokeEnergy {
  */
 typedef struct BespokeElement {
   /*
-   One of BespokeSubject; 0 where there is no element.
+   One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
    */
   uint32_t subject;
   /*
@@ -1120,6 +1125,29 @@ BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, c
 BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
 
 /*
+ Optional: a garment that the avatar wears already, such as one that was read from another session. It joins the avatar as
+ an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and is verified against both.
+ Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
+ is set and after bespoke_session_reset.
+
+ `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
+ each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
+ is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
+ (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
+ Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
+                                        const struct BespokeView *positions,
+                                        const struct BespokeView *triangles);
+
+/*
+ Takes all layers off the avatar.
+
+ State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
+
+/*
  Replaces all options by these.
 
  State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
@@ -1244,7 +1272,7 @@ BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession 
                                                     size_t *count);
 
 /*
- Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+ Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
 
  `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
  */

@@ -13,6 +13,8 @@ pub mod session;
 
 pub mod inputs;
 
+pub mod layers;
+
 pub mod options;
 
 pub mod running;

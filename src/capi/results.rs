@@ -63,7 +63,7 @@ pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     }
 }
 
-/// Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
 ///
 /// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 #[unsafe(no_mangle)]
@@ -164,19 +164,19 @@ pub struct BespokeReport {
     pub gradient_norm: f64,
     /// Smallest distance of the garment to itself; infinite where no pair is near.
     pub garment_distance: f64,
-    /// Smallest distance of the garment to the avatar; infinite where no pair is near.
+    /// Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
     pub avatar_distance: f64,
     /// Contact pairs closer than dhat.
     pub active_contacts: u64,
     /// Intersecting pairs within the garment that the verifier found.
     pub garment_intersections: u64,
-    /// Intersecting pairs of garment and avatar that the verifier found.
+    /// Intersecting pairs of garment and avatar, its layers included, that the verifier found.
     pub avatar_intersections: u64,
     /// Vertices of the garment.
     pub garment_vertices: u64,
     /// Triangles of the garment.
     pub garment_triangles: u64,
-    /// Vertices of the target avatar.
+    /// Vertices of the target avatar, here and below without its layers.
     pub avatar_vertices: u64,
     /// Triangles of the target avatar.
     pub avatar_triangles: u64,

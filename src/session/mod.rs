@@ -149,11 +149,8 @@ impl Session {
                 return Err(error);
             }
         };
-        let Some(avatar) = self.inputs.avatar.clone() else {
-            return inputs::missing("the target avatar", "set_target_avatar");
-        };
         self.report = work.report.clone();
-        self.view = Some(View::of(&work, avatar, self.inputs.target_space));
+        self.view = Some(View::of(&work, self.inputs.target_space));
         self.work = Some(work);
         self.enter(Stage::Prepared);
         Ok(())
@@ -354,7 +351,7 @@ impl Session {
         Ok(self.readable()?.distortion())
     }
 
-    /// The avatar as far as it is inflated now, in the caller's vertex order and the target space.
+    /// The avatar without its layers, as far as it is inflated now, in the caller's vertex order and the target space.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`.
@@ -362,8 +359,8 @@ impl Session {
         Ok(self.readable()?.avatar_positions())
     }
 
-    /// Counts intersections exactly, of the garment as a caller reads it in `precision`, against itself and the avatar at
-    /// full size.
+    /// Counts intersections exactly, of the garment as a caller reads it in `precision`, against itself and the avatar with
+    /// its layers at full size.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`, `Cancelled` by a request that no call has answered yet; the stage stays.
@@ -410,7 +407,7 @@ fn not_verified(counted: &Verification) -> Error {
         ErrorKind::NotVerified,
         format!(
             "the result, in the precision and space in which it would be read, has {} intersecting pairs of garment triangles \
-             that did not intersect at the start, and {} of garment and avatar triangles; it is not handed out as good. Set \
+             that did not intersect at the start, and {} of garment triangles and those of the avatar or its layers; it is not handed out as good. Set \
              and read the garment in 64 bits, or move the avatar nearer to the origin",
             counted.new_garment_garment(),
             counted.garment_avatar

@@ -10,8 +10,19 @@ fn root() -> &'static Path {
 /// The header that the sources give now.
 fn generated() -> String {
     let config = cbindgen::Config::from_root_or_default(root());
-    let files =
-        ["status", "version", "view", "session", "inputs", "options", "running", "control", "results", "diagnostics"];
+    let files = [
+        "status",
+        "version",
+        "view",
+        "session",
+        "inputs",
+        "layers",
+        "options",
+        "running",
+        "control",
+        "results",
+        "diagnostics",
+    ];
     let builder = files.iter().fold(cbindgen::Builder::new().with_config(config), |builder, file| {
         builder.with_src(root().join(format!("src/capi/{file}.rs")))
     });
