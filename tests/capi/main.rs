@@ -7,6 +7,7 @@ mod diagnostics;
 mod distortion;
 mod faults;
 mod header;
+mod layers;
 mod meshes;
 mod results;
 mod retarget;

@@ -5,4 +5,5 @@ mod support;
 
 mod frame;
 mod initialize;
+mod layers;
 mod retreat;
