@@ -77,8 +77,13 @@ bool diagnostics_write(const BespokeSession *session, FILE *file, Message *messa
                 NAME(kinds, item->kind), NAME(severities, item->severity));
         for (uint32_t e = 0; e < item->element_count; e++) {
             const BespokeElement *element = &item->elements[e];
-            fprintf(file, "%s{ \"of\": \"%s\", \"%s\": %" PRIu32 " }", e > 0 ? ", " : "", NAME(subjects, element->subject),
-                    NAME(elements, element->kind), element->index);
+            fputs(e > 0 ? ", { " : "{ ", file);
+            if (element->subject >= BESPOKE_SUBJECT_LAYER) {
+                fprintf(file, "\"of\": \"layer\", \"layer\": %" PRIu32, element->subject - BESPOKE_SUBJECT_LAYER);
+            } else {
+                fprintf(file, "\"of\": \"%s\"", NAME(subjects, element->subject));
+            }
+            fprintf(file, ", \"%s\": %" PRIu32 " }", NAME(elements, element->kind), element->index);
         }
         fputs("], ", file);
         if (isfinite(item->distance)) {

@@ -1,5 +1,6 @@
 #include "options.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const char *const options_usage =
@@ -15,6 +16,7 @@ const char *const options_usage =
     "\n"
     "  --source-avatar FILE    the body the garment was modelled on; the fit then aims at the looseness it had there\n"
     "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
+    "  --layer FILE            a garment that the avatar wears already, in the avatar's space; may be given several times\n"
     "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
     "  --pins FILE             garment vertices to hold, a line each: the vertex (from 0) alone goes with its bone, or the\n"
     "                          vertex and the x y z where it is to be; the same in all lines\n"
@@ -37,6 +39,8 @@ const char *const options_usage =
     "  --threads N             0: all cores (0)\n"
     "  --memory-limit MB       give up where more memory would be needed (no limit)\n"
     "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
+    "  --distortion FILE       how much each triangle is distorted: a number a line, in the order of the faces and of the\n"
+    "                          triangles of their fans; 0 where the garment is similar to its design\n"
     "  --report FILE           a JSON file with times, iterations, energies, distances, counts and diagnostics\n"
     "  --quiet                 no progress on standard output, no warnings\n"
     "  --help, --version\n"
@@ -67,6 +71,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         {"--rigid", &options->rigid, false},
         {"--output-avatar", &options->output_avatar, false},
         {"--report", &options->report, false},
+        {"--distortion", &options->distortion, false},
     };
     const struct {
         const char *name;
@@ -105,6 +110,10 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
     for (size_t k = 0; k < number_count; k++) {
         *numbers[k].place = -1.0;
     }
+    options->layers = array_new((size_t)count, sizeof *options->layers);
+    if (options->layers == NULL) {
+        return fail(message, "the command line does not fit into memory");
+    }
     for (int i = 1; i < count; i++) {
         const char *name = strcmp(words[i], "-o") == 0 ? "--output" : words[i];
         bool is_flag = false;
@@ -120,7 +129,8 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         /* --name value or --name=value */
         const char *equals = strchr(name, '=');
         const size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
-        const char **path = NULL;
+        const bool is_layer = strlen("--layer") == length && strncmp(name, "--layer", length) == 0;
+        const char **path = is_layer ? &options->layers[options->layer_count++] : NULL;
         double *number = NULL;
         bool is_positive = false;
         for (size_t k = 0; k < path_count; k++) {
@@ -159,8 +169,8 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
             return fail(message, "%s is missing; see retarget --help", paths[k].name);
         }
     }
-    const char *outputs[] = {options->output, options->output_avatar, options->report};
-    for (size_t a = 0; a < 3; a++) {
+    const char *outputs[] = {options->output, options->output_avatar, options->report, options->distortion};
+    for (size_t a = 0; a < sizeof outputs / sizeof *outputs; a++) {
         for (size_t b = 0; b < a; b++) {
             if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {
                 return fail(message, "%s is named for two different outputs", outputs[a]);
@@ -171,4 +181,9 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
         return fail(message, "option --threads must be a whole number up to 1024");
     }
     return true;
+}
+
+void options_free(Options *options) {
+    free(options->layers);
+    memset(options, 0, sizeof *options);
 }

@@ -20,6 +20,10 @@ typedef struct Options {
     const char *rigid;
     const char *output_avatar;
     const char *report;
+    const char *distortion;
+    /* Garments that the avatar wears already. */
+    const char **layers;
+    size_t layer_count;
     /* Negative: not given. */
     double fit_weight;
     double designed_clearance;
@@ -42,7 +46,10 @@ typedef struct Options {
     bool version;
 } Options;
 
+/* Whatever it says, options_free is to be called afterwards. */
 bool options_parse(Options *options, int count, char **words, Message *message);
+
+void options_free(Options *options);
 
 /* What --help prints. */
 extern const char *const options_usage;

@@ -6,6 +6,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 
 /* JSON has no infinity and no NaN. */
@@ -34,6 +35,32 @@ static uint64_t peak_memory(void) {
 #else
     return (uint64_t)usage.ru_maxrss * 1024;
 #endif
+}
+
+/* Mean and maximum over the garment's triangles. */
+static bool write_distortion(const BespokeSession *session, FILE *file, Message *message) {
+    size_t count = 0;
+    BespokeBuffer buffer = {NULL, 0, 0, BESPOKE_COMPONENT_F64};
+    if (bespoke_session_read_distortion(session, &buffer, &count) != BESPOKE_STATUS_OK) {
+        return fail(message, "the distortion cannot be read");
+    }
+    double *values = array_new(count, sizeof *values);
+    buffer.data = values;
+    buffer.capacity = count;
+    if (values == NULL || bespoke_session_read_distortion(session, &buffer, NULL) != BESPOKE_STATUS_OK) {
+        free(values);
+        return fail(message, "the distortion cannot be read");
+    }
+    double sum = 0.0, largest = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        sum += values[k];
+        largest = values[k] > largest ? values[k] : largest;
+    }
+    free(values);
+    fputs("  \"distortion\": { ", file);
+    write_number(file, "mean", sum / (double)count, ", ");
+    write_number(file, "max", largest, " },\n");
+    return true;
 }
 
 bool report_write(const BespokeSession *session, double seconds, FILE *file, Message *message) {
@@ -69,6 +96,9 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
     fputs("  \"min_distance\": { ", file);
     write_number(file, "garment_garment", report.garment_distance, ", ");
     write_number(file, "garment_avatar", report.avatar_distance, " },\n");
+    if (!write_distortion(session, file, message)) {
+        return false;
+    }
     fprintf(file, "  \"active_contacts\": %" PRIu64 ",\n", report.active_contacts);
     fputs("  ", file);
     write_number(file, "separation_floor", report.separation_floor, ",\n");

@@ -39,6 +39,9 @@ static void watch_signal(int number) {
     }
 }
 
+/* Garment, avatar, distortion, report. */
+#define OUTPUTS 4
+
 /* All that is open during a run. */
 typedef struct Run {
     const Options *options;
@@ -46,7 +49,7 @@ typedef struct Run {
     BespokeControl *control;
     Obj garment;
     Obj avatar;
-    Output outputs[3];
+    Output outputs[OUTPUTS];
     double start;
     bool is_terminal;
     bool has_progress_line;
@@ -98,14 +101,26 @@ static bool set_skeleton(Run *run, const char *path,
     return good;
 }
 
-static bool set_source_avatar(Run *run, const char *path) {
+/* A mesh of which nothing is needed later. */
+static bool set_further_mesh(Run *run, const char *path,
+                             BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
     Obj obj;
     if (!obj_read(&obj, path, &run->message)) {
         return false;
     }
-    const bool good = set_mesh(run, &obj, path, bespoke_session_set_source_avatar);
+    const bool good = set_mesh(run, &obj, path, set);
     obj_free(&obj);
     return good;
+}
+
+static bool add_layers(Run *run) {
+    const Options *options = run->options;
+    for (size_t k = 0; k < options->layer_count; k++) {
+        if (!set_further_mesh(run, options->layers[k], bespoke_session_add_layer)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static bool set_skin_weights(Run *run, const char *path) {
@@ -226,8 +241,8 @@ static bool set_options(Run *run) {
 
 static bool set_inputs(Run *run) {
     const Options *options = run->options;
-    const char *outputs[] = {options->output, options->output_avatar, options->report};
-    for (size_t k = 0; k < 3; k++) {
+    const char *outputs[OUTPUTS] = {options->output, options->output_avatar, options->distortion, options->report};
+    for (size_t k = 0; k < OUTPUTS; k++) {
         if (outputs[k] != NULL && !output_check(outputs[k], &run->message)) {
             return false;
         }
@@ -238,7 +253,9 @@ static bool set_inputs(Run *run) {
            obj_read(&run->avatar, options->avatar, &run->message) &&
            set_mesh(run, &run->avatar, options->avatar, bespoke_session_set_target_avatar) &&
            set_skeleton(run, options->target_skeleton, bespoke_session_set_target_skeleton) &&
-           (options->source_avatar == NULL || set_source_avatar(run, options->source_avatar)) &&
+           (options->source_avatar == NULL ||
+            set_further_mesh(run, options->source_avatar, bespoke_session_set_source_avatar)) &&
+           add_layers(run) &&
            (options->skin_weights == NULL || set_skin_weights(run, options->skin_weights)) &&
            (options->no_fit == NULL || set_no_fit(run, options->no_fit)) &&
            (options->pins == NULL || set_pins(run, options->pins)) &&
@@ -312,6 +329,25 @@ static bool write_mesh(Run *run, Output *output, const Obj *obj, const char *pat
     return good;
 }
 
+static bool write_distortion(Run *run, Output *output, const char *path) {
+    const size_t count = run->garment.triangle_count;
+    double *values = array_new(count, sizeof *values);
+    if (values == NULL) {
+        return fail(&run->message, "the distortion does not fit into memory");
+    }
+    const BespokeBuffer buffer = {values, count, 0, BESPOKE_COMPONENT_F64};
+    bool good = succeeded(run, bespoke_session_read_distortion(run->session, &buffer, NULL), NULL) &&
+                output_open(output, path, &run->message);
+    if (good) {
+        for (size_t k = 0; k < count; k++) {
+            fprintf(output->file, "%.9g\n", values[k]);
+        }
+        good = output_finish(output, &run->message);
+    }
+    free(values);
+    return good;
+}
+
 /* All files are whole under their other names before the first gets its own. */
 static bool write_outputs(Run *run) {
     const Options *options = run->options;
@@ -322,8 +358,11 @@ static bool write_outputs(Run *run) {
                                                       bespoke_session_read_avatar_vertices)) {
         return false;
     }
+    if (options->distortion != NULL && !write_distortion(run, &run->outputs[2], options->distortion)) {
+        return false;
+    }
     if (options->report != NULL) {
-        Output *output = &run->outputs[2];
+        Output *output = &run->outputs[3];
         if (!output_open(output, options->report, &run->message) ||
             !report_write(run->session, now() - run->start, output->file, &run->message) ||
             !output_finish(output, &run->message)) {
@@ -333,7 +372,7 @@ static bool write_outputs(Run *run) {
     if (stop_signal != 0) {
         return fail(&run->message, "stopped");
     }
-    for (size_t k = 0; k < 3; k++) {
+    for (size_t k = 0; k < OUTPUTS; k++) {
         if (!output_commit(&run->outputs[k], &run->message)) {
             return false;
         }
@@ -370,15 +409,17 @@ int main(int count, char **words) {
     run.start = now();
     run.is_terminal = isatty(STDOUT_FILENO) != 0;
     if (!options_parse(&options, count, words, &run.message)) {
+        options_free(&options);
         fprintf(stderr, "retarget: %s\n", run.message.text);
         return 2;
     }
-    if (options.help) {
-        fputs(options_usage, stdout);
-        return 0;
-    }
-    if (options.version) {
-        printf("retarget %s\n", bespoke_version_text());
+    if (options.help || options.version) {
+        if (options.help) {
+            fputs(options_usage, stdout);
+        } else {
+            printf("retarget %s\n", bespoke_version_text());
+        }
+        options_free(&options);
         return 0;
     }
     watch_signal(SIGINT);
@@ -388,7 +429,7 @@ int main(int count, char **words) {
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     const bool good = dress(&run);
-    for (size_t k = 0; k < 3; k++) {
+    for (size_t k = 0; k < OUTPUTS; k++) {
         output_discard(&run.outputs[k]);
     }
     obj_free(&run.garment);
@@ -396,6 +437,7 @@ int main(int count, char **words) {
     bespoke_session_destroy(run.session);
     stop_control = NULL;
     bespoke_control_destroy(run.control);
+    options_free(&options);
     if (good) {
         return 0;
     }

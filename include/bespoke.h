@@ -3,7 +3,7 @@
    This file is generated from the library's sources, and it is the manual. The whole way of a caller:
 
      bespoke_session_create -> set_garment, set_source_skeleton, set_target_avatar, set_target_skeleton
-       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, set_options, ...)
+       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, add_layer, set_options, ...)
        -> prepare -> step, step, step ... (or run) -> read_garment_vertices -> destroy
 
    What holds for all functions:
@@ -432,6 +432,11 @@ enum BespokeSubject
    The skeleton of the body to dress.
    */
   BESPOKE_SUBJECT_TARGET_SKELETON = 5,
+  /*
+   The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
+   here on is a layer.
+   */
+  BESPOKE_SUBJECT_LAYER = 256,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -657,7 +662,7 @@ typedef struct BespokeIntersections {
    */
   uint64_t since_start;
   /*
-   Of the garment with the avatar.
+   Of the garment with the avatar or the layers that it wears.
    */
   uint64_t garment_avatar;
 } BespokeIntersections;
@@ -726,19 +731,20 @@ typedef struct BespokeProgress {
 } BespokeProgress;
 
 /*
- An array of the caller that points are written to. Bytes between them stay as they are.
+ An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
+ as they are.
  */
 typedef struct BespokeBuffer {
   /*
-   The first point. May be null where `capacity` is 0.
+   The first element. May be null where `capacity` is 0.
    */
   void *data;
   /*
-   Points that fit.
+   Elements that fit.
    */
   size_t capacity;
   /*
-   Bytes from one point to the next; 0: they are packed.
+   Bytes from one element to the next; 0: they are packed.
    */
   size_t stride;
   /*
@@ -819,7 +825,7 @@ typedef struct BespokeReport {
    */
   double garment_distance;
   /*
-   Smallest distance of the garment to the avatar; infinite where no pair is near.
+   Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
    */
   double avatar_distance;
   /*
@@ -831,7 +837,7 @@ typedef struct BespokeReport {
    */
   uint64_t garment_intersections;
   /*
-   Intersecting pairs of garment and avatar that the verifier found.
+   Intersecting pairs of garment and avatar, its layers included, that the verifier found.
    */
   uint64_t avatar_intersections;
   /*
@@ -843,7 +849,7 @@ typedef struct BespokeReport {
    */
   uint64_t garment_triangles;
   /*
-   Vertices of the target avatar.
+   Vertices of the target avatar, here and below without its layers.
    */
   uint64_t avatar_vertices;
   /*
@@ -912,7 +918,7 @@ typedef struct BespokeEnergy {
  */
 typedef struct BespokeElement {
   /*
-   One of BespokeSubject; 0 where there is no element.
+   One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
    */
   uint32_t subject;
   /*
@@ -1174,6 +1180,29 @@ BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session,
 BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session);
 
 /*
+ Optional: a garment that the avatar wears already, such as one that was read from another session. It joins the avatar as
+ an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and is verified against both.
+ Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
+ is set and after bespoke_session_reset.
+
+ `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
+ each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
+ is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
+ (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
+ Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
+                                        const struct BespokeView *positions,
+                                        const struct BespokeView *triangles);
+
+/*
+ Takes all layers off the avatar.
+
+ State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
+
+/*
  Replaces all options by these.
 
  State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
@@ -1298,13 +1327,28 @@ BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession 
                                                     size_t *count);
 
 /*
- Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+ Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
 
  `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
  */
 BespokeStatus bespoke_session_read_avatar_vertices(const struct BespokeSession *session,
                                                    const struct BespokeBuffer *points,
                                                    size_t *count);
+
+/*
+ Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
+ and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
+ a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
+ similarity of the garment as a whole, and for triangles without area or neighbours.
+
+ `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
+ written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
+ it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_distortion(const struct BespokeSession *session,
+                                              const struct BespokeBuffer *values,
+                                              size_t *count);
 
 /*
  Fills a struct with what the session has done so far. The caller sets `struct_size` first.

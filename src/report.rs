@@ -36,7 +36,7 @@ pub struct Verification {
     pub garment_garment: u64,
     /// Those of them that intersected or touched at the start, too.
     pub since_start: u64,
-    /// Pairs of a garment and an avatar triangle.
+    /// Pairs of a garment triangle and one of the avatar or a layer that it wears.
     pub garment_avatar: u64,
 }
 
@@ -73,7 +73,7 @@ pub struct Report {
     pub terms: Vec<TermReport>,
     /// Smallest distance between garment primitives that d-hat still sees; infinite where there is none.
     pub min_distance_self: f64,
-    /// Smallest distance between garment and avatar that d-hat still sees; infinite where there is none.
+    /// Smallest distance between garment and avatar or layers that d-hat still sees; infinite where there is none.
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
@@ -86,9 +86,9 @@ pub struct Report {
     pub tangled_at_start: usize,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],
-    /// Avatar vertices and triangles.
+    /// Avatar vertices and triangles, without its layers.
     pub avatar_size: [usize; 2],
-    /// Vertices and triangles of the avatar subdivided onto the skeleton.
+    /// Vertices and triangles of the avatar without its layers, subdivided onto the skeleton.
     pub projected_size: [usize; 2],
     /// Contact pairs closer than d-hat.
     pub active_contacts: usize,

@@ -47,7 +47,7 @@ impl Moment {
             garment: &weld.mesh,
             weld: Arc::new(weld.clone()),
             source_skeleton: &skeleton(&jacket),
-            avatar: &mesh(&body),
+            avatar: &mesh(&body).into(),
             target_skeleton: &skeleton(&body),
             skin: None,
             source_avatar: None,

@@ -74,6 +74,9 @@ pub enum BespokeSubject {
     SourceSkeleton = 4,
     /// The skeleton of the body to dress.
     TargetSkeleton = 5,
+    /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
+    /// here on is a layer.
+    Layer = 256,
 }
 
 /// What the index of an element counts.
@@ -92,7 +95,7 @@ pub enum BespokeElementKind {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BespokeElement {
-    /// One of BespokeSubject; 0 where there is no element.
+    /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
     pub subject: u32,
     /// One of BespokeElementKind.
     pub kind: u32,
@@ -124,18 +127,19 @@ pub struct BespokeDiagnostic {
 impl From<&Element> for BespokeElement {
     fn from(element: &Element) -> Self {
         let subject = match element.subject {
-            Subject::Garment => BespokeSubject::Garment,
-            Subject::TargetAvatar => BespokeSubject::TargetAvatar,
-            Subject::SourceAvatar => BespokeSubject::SourceAvatar,
-            Subject::SourceSkeleton => BespokeSubject::SourceSkeleton,
-            Subject::TargetSkeleton => BespokeSubject::TargetSkeleton,
+            Subject::Garment => BespokeSubject::Garment as u32,
+            Subject::TargetAvatar => BespokeSubject::TargetAvatar as u32,
+            Subject::SourceAvatar => BespokeSubject::SourceAvatar as u32,
+            Subject::SourceSkeleton => BespokeSubject::SourceSkeleton as u32,
+            Subject::TargetSkeleton => BespokeSubject::TargetSkeleton as u32,
+            Subject::Layer(layer) => (BespokeSubject::Layer as u32).saturating_add(layer),
         };
         let kind = match element.kind {
             ElementKind::Vertex => BespokeElementKind::Vertex,
             ElementKind::Triangle => BespokeElementKind::Triangle,
             ElementKind::Bone => BespokeElementKind::Bone,
         };
-        Self { subject: subject as u32, kind: kind as u32, index: element.index }
+        Self { subject, kind: kind as u32, index: element.index }
     }
 }
 

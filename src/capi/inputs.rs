@@ -16,7 +16,7 @@ use crate::session::Precision;
 ///
 /// # Safety
 /// Each pointer is null or points to a view that tells the truth.
-unsafe fn mesh(
+pub(super) unsafe fn mesh(
     positions: *const BespokeView,
     triangles: *const BespokeView,
     what: &str,

@@ -15,6 +15,8 @@ pub mod inputs;
 
 pub mod fit;
 
+pub mod layers;
+
 pub mod options;
 
 pub mod running;

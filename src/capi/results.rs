@@ -15,13 +15,14 @@ use crate::session::{Precision, StageReport};
 
 const GARMENT_VERTICES: &str = "garment vertices";
 const AVATAR_VERTICES: &str = "avatar vertices";
+const DISTORTION: &str = "distortion";
 
 /// # Safety
 /// `count` is null or points to a number.
-unsafe fn write_count(count: *mut usize, points: usize) {
+unsafe fn write_count(count: *mut usize, elements: usize) {
     if !count.is_null() {
         // SAFETY: not null, and the caller vouches for a number.
-        unsafe { count.write(points) };
+        unsafe { count.write(elements) };
     }
 }
 
@@ -62,7 +63,7 @@ pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     }
 }
 
-/// Writes where the target avatar's vertices are now: shrunk onto the skeleton at first, as they were set at the end.
+/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
 ///
 /// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 #[unsafe(no_mangle)]
@@ -77,6 +78,35 @@ pub unsafe extern "C" fn bespoke_session_read_avatar_vertices(
             let positions = session.avatar_positions()?;
             write_count(count, positions.len());
             write_points(&positions, &view::points_out(points, AVATAR_VERTICES)?, AVATAR_VERTICES)
+        })
+    }
+}
+
+/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
+/// and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
+/// a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
+/// similarity of the garment as a whole, and for triangles without area or neighbours.
+///
+/// `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
+/// written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
+/// it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_distortion(
+    session: *const BespokeSession,
+    values: *const BespokeBuffer,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            let distortion = session.distortion()?;
+            write_count(count, distortion.len());
+            let out = view::points_out(values, DISTORTION)?;
+            if out.capacity == 0 && out.data.is_null() {
+                return Ok(());
+            }
+            buffer::write_scalars(&out, &distortion, DISTORTION)
         })
     }
 }
@@ -134,19 +164,19 @@ pub struct BespokeReport {
     pub gradient_norm: f64,
     /// Smallest distance of the garment to itself; infinite where no pair is near.
     pub garment_distance: f64,
-    /// Smallest distance of the garment to the avatar; infinite where no pair is near.
+    /// Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
     pub avatar_distance: f64,
     /// Contact pairs closer than dhat.
     pub active_contacts: u64,
     /// Intersecting pairs within the garment that the verifier found.
     pub garment_intersections: u64,
-    /// Intersecting pairs of garment and avatar that the verifier found.
+    /// Intersecting pairs of garment and avatar, its layers included, that the verifier found.
     pub avatar_intersections: u64,
     /// Vertices of the garment.
     pub garment_vertices: u64,
     /// Triangles of the garment.
     pub garment_triangles: u64,
-    /// Vertices of the target avatar.
+    /// Vertices of the target avatar, here and below without its layers.
     pub avatar_vertices: u64,
     /// Triangles of the target avatar.
     pub avatar_triangles: u64,

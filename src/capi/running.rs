@@ -107,7 +107,7 @@ pub struct BespokeIntersections {
     /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
     /// some of them.
     pub since_start: u64,
-    /// Of the garment with the avatar.
+    /// Of the garment with the avatar or the layers that it wears.
     pub garment_avatar: u64,
 }
 

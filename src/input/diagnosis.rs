@@ -15,6 +15,8 @@ pub enum Subject {
     SourceSkeleton,
     /// The skeleton of the body to dress.
     TargetSkeleton,
+    /// A garment that the body wears already: which one, in the order in which they were added, from 0.
+    Layer(u32),
 }
 
 /// What an index counts.

@@ -1,5 +1,6 @@
 //! What a caller hands in, checked and turned into ours.
 
+pub mod body;
 pub mod buffer;
 pub mod cap;
 pub mod diagnosis;

@@ -1,12 +1,16 @@
-//! Skin weights, as far as the projection onto the skeleton needs them: each vertex's joint of largest weight.
+//! Skin weights: which joints move a vertex, and which of them most.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::memory::bytes;
 
-/// For each vertex of an avatar, the joint that moves it most.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// For each vertex of an avatar, the joints that move it.
+#[derive(Clone, Debug, PartialEq)]
 pub struct SkinWeights {
     joint_count: usize,
-    dominant: Vec<Option<u32>>,
+    /// Where the influences of each vertex end.
+    ends: Vec<usize>,
+    /// Joints with weights above 0, vertex after vertex, ascending and each once a vertex.
+    influences: Vec<(u32, f64)>,
 }
 
 fn fail<T>(message: String) -> Result<T> {
@@ -45,21 +49,30 @@ impl SkinWeights {
             return fail(format!("{what}: there are no joints"));
         }
         check_size(what, "weights", weights.len(), [joint_count, vertex_count], ["joints", "vertices"])?;
-        let mut largest = vec![0.0; vertex_count];
-        let mut dominant = vec![None; vertex_count];
-        if vertex_count > 0 {
-            for (joint, row) in (0u32..).zip(weights.chunks_exact(vertex_count)) {
-                for (vertex, &weight) in row.iter().enumerate() {
-                    check_weight(what, weight, vertex, joint)?;
-                    // Strictly larger: of equal weights, the lowest joint stays.
-                    if weight > largest[vertex] {
-                        largest[vertex] = weight;
-                        dominant[vertex] = Some(joint);
-                    }
-                }
+        let mut counts = vec![0; vertex_count];
+        // No rows of no numbers.
+        let width = vertex_count.max(1);
+        for (joint, row) in (0u32..).zip(weights.chunks_exact(width)) {
+            for (vertex, &weight) in row.iter().enumerate() {
+                check_weight(what, weight, vertex, joint)?;
+                counts[vertex] += usize::from(weight > 0.0);
             }
         }
-        Ok(Self { joint_count, dominant })
+        let mut ends = Vec::with_capacity(vertex_count);
+        let mut total = 0;
+        for count in counts {
+            // Where the vertex begins; what is written moves it to its end.
+            ends.push(total);
+            total += count;
+        }
+        let mut influences = vec![(0, 0.0); total];
+        for (joint, row) in (0u32..).zip(weights.chunks_exact(width)) {
+            for (end, &weight) in ends.iter_mut().zip(row).filter(|(_, weight)| **weight > 0.0) {
+                influences[*end] = (joint, weight);
+                *end += 1;
+            }
+        }
+        Ok(Self { joint_count, ends, influences })
     }
 
     /// From `influences` pairs of joint and weight a vertex, vertex after vertex, as engines keep them. `what` names
@@ -83,7 +96,7 @@ impl SkinWeights {
         let shape = ["vertices", "influences"];
         check_size(what, "joint indices", joints.len(), [vertex_count, influences], shape)?;
         check_size(what, "weights", weights.len(), [vertex_count, influences], shape)?;
-        let mut dominant = Vec::with_capacity(vertex_count);
+        let mut skin = Self { joint_count, ends: Vec::with_capacity(vertex_count), influences: Vec::new() };
         let mut own: Vec<(u32, f64)> = Vec::new();
         for (vertex, (js, ws)) in joints.chunks_exact(influences).zip(weights.chunks_exact(influences)).enumerate() {
             own.clear();
@@ -99,14 +112,47 @@ impl SkinWeights {
                 }
                 own.push((joint, weight));
             }
-            own.sort_by_key(|&(joint, _)| joint);
-            let sums =
-                own.chunk_by(|a, b| a.0 == b.0).map(|same| (same[0].0, same.iter().map(|&(_, w)| w).sum::<f64>()));
-            // Strictly larger: of equal weights, the lowest joint stays.
-            let best = sums.reduce(|best, next| if next.1 > best.1 { next } else { best });
-            dominant.push(best.map(|(joint, _)| joint));
+            skin.push(&mut own);
         }
-        Ok(Self { joint_count, dominant })
+        Ok(skin)
+    }
+
+    /// Adds a vertex. A joint may be listed several times.
+    fn push(&mut self, own: &mut [(u32, f64)]) {
+        own.sort_by_key(|&(joint, _)| joint);
+        let sums = own.chunk_by(|a, b| a.0 == b.0).map(|same| (same[0].0, same.iter().map(|&(_, w)| w).sum::<f64>()));
+        self.influences.extend(sums);
+        self.ends.push(self.influences.len());
+    }
+
+    /// These, and those of further vertices: each lies in a triangle of vertices that are here, at barycentric coordinates,
+    /// or nowhere, and then has no weights.
+    pub fn extended(&self, places: &[Option<([u32; 3], [f64; 3])>]) -> Self {
+        let mut extended = self.clone();
+        let mut own = Vec::new();
+        for place in places {
+            own.clear();
+            for (vertex, share) in place.iter().flat_map(|(corners, shares)| corners.iter().zip(shares)) {
+                let weights = self.weights(*vertex as usize);
+                // Those of one vertex need not sum to 1.
+                let sum: f64 = weights.iter().map(|&(_, weight)| weight).sum();
+                own.extend(weights.iter().map(|&(joint, weight)| (joint, share * weight / sum)));
+            }
+            own.retain(|&(_, weight)| weight > 0.0);
+            extended.push(&mut own);
+        }
+        extended
+    }
+
+    /// Joints with their weights, ascending, each once.
+    fn weights(&self, vertex: usize) -> &[(u32, f64)] {
+        let first = if vertex == 0 { 0 } else { self.ends[vertex - 1] };
+        &self.influences[first..self.ends[vertex]]
+    }
+
+    /// Bytes that they hold.
+    pub fn memory(&self) -> u64 {
+        bytes(&self.ends) + bytes(&self.influences)
     }
 
     /// Number of joints that the weights are for.
@@ -116,13 +162,14 @@ impl SkinWeights {
 
     /// Number of vertices that the weights are for.
     pub fn vertex_count(&self) -> usize {
-        self.dominant.len()
+        self.ends.len()
     }
 
     /// The joint of largest weight (the lowest of several), or `None` where all weights of the vertex are 0 and
     /// the nearest bone decides.
-    #[inline]
     pub fn dominant_joint(&self, vertex: usize) -> Option<u32> {
-        self.dominant[vertex]
+        // Strictly larger: of equal weights, the lowest joint stays.
+        let best = self.weights(vertex).iter().reduce(|best, next| if next.1 > best.1 { next } else { best });
+        best.map(|&(joint, _)| joint)
     }
 }

@@ -226,6 +226,20 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
     best
 }
 
+/// Barycentric coordinates of a point of a triangle: at least 0, of sum 1. In a triangle without area, the nearest corner
+/// has it all.
+pub fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+    let opposite = |q: DVec3, r: DVec3| (q - p).cross(r - p).length();
+    let areas = [opposite(b, c), opposite(c, a), opposite(a, b)];
+    let total: f64 = areas.iter().sum();
+    if total > 0.0 && total.is_finite() {
+        return areas.map(|area| area / total);
+    }
+    let squared = [a, b, c].map(|corner| corner.distance_squared(p));
+    let nearest = (0..3).min_by(|&i, &j| squared[i].total_cmp(&squared[j])).unwrap_or(0);
+    std::array::from_fn(|k| if k == nearest { 1.0 } else { 0.0 })
+}
+
 /// The point of the segment from `a` along `edge` closest to `p`.
 #[inline]
 pub fn closest_on_segment(p: DVec3, a: DVec3, edge: DVec3) -> DVec3 {

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::{Precision, Session, Stage};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::body::Body;
 use crate::input::diagnosis::Finding;
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
@@ -34,6 +35,7 @@ pub(super) struct Inputs {
     pub(super) garment: Option<(Arc<TriangleMesh>, Precision)>,
     source_skeleton: Option<Arc<Skeleton>>,
     pub(super) avatar: Option<Arc<TriangleMesh>>,
+    pub(super) layers: Vec<Arc<TriangleMesh>>,
     target_skeleton: Option<Arc<Skeleton>>,
     source_avatar: Option<Arc<TriangleMesh>>,
     skin: Option<Arc<SkinWeights>>,
@@ -92,6 +94,34 @@ impl Session {
         mesh.check("target avatar")?;
         self.inputs.avatar = Some(Arc::new(mesh));
         Ok(())
+    }
+
+    /// Adds a garment that the avatar wears already, in the target space, such as the result of another session: from now on
+    /// it is treated as a part of the avatar, exactly as it is given. Layers are numbered from 0 in the order in which they
+    /// are added, and stay with another avatar and after `reset`.
+    ///
+    /// # Errors
+    /// `InvalidMesh`, `InvalidState`.
+    pub fn add_layer(&mut self, mesh: TriangleMesh) -> Result<()> {
+        self.setting("a layer")?;
+        mesh.check(&format!("layer {}", self.layer_count()))?;
+        self.inputs.layers.push(Arc::new(mesh));
+        Ok(())
+    }
+
+    /// Takes all layers off.
+    ///
+    /// # Errors
+    /// `InvalidState`.
+    pub fn clear_layers(&mut self) -> Result<()> {
+        self.setting("the layers")?;
+        self.inputs.layers.clear();
+        Ok(())
+    }
+
+    /// Layers that the avatar wears.
+    pub fn layer_count(&self) -> usize {
+        self.inputs.layers.len()
     }
 
     /// The skeleton of the body to dress, in the target space: the same joints and bones as the source skeleton, the bones
@@ -233,9 +263,12 @@ impl Inputs {
     pub(super) fn memory(&self) -> u64 {
         let mesh = |mesh: &Arc<TriangleMesh>| bytes(&mesh.positions) + bytes(&mesh.triangles);
         let meshes = [self.garment.as_ref().map(|g| &g.0), self.avatar.as_ref(), self.source_avatar.as_ref()];
+        let worn = self.layers.iter().map(mesh).sum::<u64>();
+        // With layers, the body is a mesh of its own.
+        let body = if worn == 0 { 0 } else { worn + self.avatar.as_ref().map_or(0, mesh) };
         let weights = self.fit_weights.as_ref().map_or(0, |w| size_of_val(&w[..]) as u64);
-        let skin = self.skin.as_ref().map_or(0, |s| (s.vertex_count() * size_of::<Option<u32>>()) as u64);
-        meshes.into_iter().flatten().map(mesh).sum::<u64>() + weights + skin
+        let skin = self.skin.as_ref().map_or(0, |skin| skin.memory());
+        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + weights + skin
     }
 
     /// The sizes that are known before anything is done.
@@ -244,16 +277,17 @@ impl Inputs {
         let triangles = |mesh: &Arc<TriangleMesh>| mesh.triangles.len();
         Sizes {
             garment_vertices: self.garment.as_ref().map_or(0, |g| vertices(&g.0)),
-            avatar_triangles: self.avatar.as_ref().map_or(0, triangles),
+            avatar_triangles: self.avatar.iter().chain(&self.layers).map(triangles).sum(),
             field: 0,
         }
     }
 
-    /// Checks the inputs against each other and poses the problem. What is worth knowing goes to `findings`.
+    /// Checks the inputs against each other and poses the problem, of the body as its caller has it. What is worth knowing
+    /// goes to `findings`.
     ///
     /// # Errors
     /// `InvalidState` where an input is missing, those of [`Problem::new`].
-    pub(super) fn pose_problem(&self, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Problem> {
+    pub(super) fn pose_problem(&self, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<(Problem, Body)> {
         let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
         let Some(source) = &self.source_skeleton else {
             return missing("the source skeleton", "set_source_skeleton");
@@ -292,11 +326,12 @@ impl Inputs {
         cancel.check()?;
         let pins = self.welded_pins(&weld)?;
         let rigid_groups = self.welded_groups(&weld)?;
-        Problem::new(
+        let body = Body::new(avatar, &self.layers)?;
+        let problem = Problem::new(
             &Posed {
                 garment: &mesh_to_ours(&self.source_space, &weld.mesh),
                 source_skeleton: &skeleton_to_ours(&self.source_space, source),
-                avatar: &mesh_to_ours(&self.target_space, avatar),
+                avatar: &body.with_mesh(mesh_to_ours(&self.target_space, &body.mesh)),
                 target_skeleton: &skeleton_to_ours(&self.target_space, &target),
                 skin: self.skin.as_deref(),
                 source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
@@ -305,12 +340,13 @@ impl Inputs {
                 rigid_groups: &rigid_groups,
                 offset: self.target_space.metres_per_unit * self.options.offset,
                 weld: Arc::new(weld),
-                coordinate_error: self.target_space.metres_per_unit * precision.error_near(avatar),
+                coordinate_error: self.target_space.metres_per_unit * precision.error_near(&body.mesh),
             },
             &self.options,
             cancel,
             findings,
-        )
+        )?;
+        Ok((problem, body))
     }
 }
 

@@ -1,7 +1,10 @@
 //! What the exact verifier says of a garment as its caller would read it, against what it was at the start.
 
+use std::sync::Arc;
+
 use crate::control::Cancel;
 use crate::error::Result;
+use crate::input::body::Body;
 use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::input::mesh::TriangleMesh;
 use crate::input::weld::Weld;
@@ -13,8 +16,9 @@ pub(super) struct Judgement {
     pub(super) counted: Verification,
     /// Pairs of garment triangles that did not intersect at the start.
     own: Vec<[u32; 2]>,
-    /// Pairs of a garment and an avatar triangle.
+    /// Pairs of a garment triangle and one of `body`.
     avatar: Vec<[u32; 2]>,
+    body: Arc<Body>,
 }
 
 impl Judgement {
@@ -26,12 +30,12 @@ impl Judgement {
     pub(super) fn new(
         garment: &TriangleMesh,
         weld: &Weld,
-        avatar: &TriangleMesh,
+        body: &Arc<Body>,
         tangled: &[[u32; 2]],
         cancel: &Cancel,
     ) -> Result<Self> {
         let own = intersections_unless(cancel, garment, None, usize::MAX)?;
-        let avatar = intersections_unless(cancel, garment, Some(avatar), usize::MAX)?;
+        let avatar = intersections_unless(cancel, garment, Some(&body.mesh), usize::MAX)?;
         let callers = |t: u32| weld.triangle_of[t as usize];
         let new = own.pairs.iter().filter(|pair| tangled.binary_search(pair).is_err());
         let new: Vec<[u32; 2]> = new.map(|pair| pair.map(callers)).collect();
@@ -43,6 +47,7 @@ impl Judgement {
             },
             own: new,
             avatar: avatar.pairs.into_iter().map(|[s, t]| [callers(s), t]).collect(),
+            body: body.clone(),
         })
     }
 
@@ -61,10 +66,11 @@ impl Judgement {
         };
         describe(&mut findings, &self.own, own, "pairs of garment triangles intersect in the result");
         let avatar = |&[s, t]: &[u32; 2]| {
-            let elements = [Element::triangle(Subject::Garment, s), Element::triangle(Subject::TargetAvatar, t)];
-            finding(elements, format!("result: garment triangle {s} and avatar triangle {t} intersect"))
+            let elements = [Element::triangle(Subject::Garment, s), self.body.triangle(t)];
+            finding(elements, format!("result: garment triangle {s} and {} intersect", self.body.name(t)))
         };
-        describe(&mut findings, &self.avatar, avatar, "pairs of garment and avatar triangles intersect in the result");
+        let others = "pairs of garment triangles and those of the avatar or its layers intersect in the result";
+        describe(&mut findings, &self.avatar, avatar, others);
         findings
     }
 }

@@ -150,11 +150,8 @@ impl Session {
                 return Err(error);
             }
         };
-        let Some(avatar) = self.inputs.avatar.clone() else {
-            return inputs::missing("the target avatar", "set_target_avatar");
-        };
         self.report = work.report.clone();
-        self.view = Some(View::of(&work, avatar, self.inputs.target_space));
+        self.view = Some(View::of(&work, self.inputs.target_space));
         self.work = Some(work);
         self.enter(Stage::Prepared);
         Ok(())
@@ -345,7 +342,18 @@ impl Session {
         }
     }
 
-    /// The avatar as far as it is inflated now, in the caller's vertex order and the target space.
+    /// How much each garment triangle is distorted now, in the caller's order: the mean of Eq. 2 over its hinges, without
+    /// their weights, in the form that is free for any similarity, over the ratio of the garment's whole area now to that of
+    /// the design. No unit; 0 for any similarity of the garment as a whole. Of triangles in one place, all get the same;
+    /// those without a shape get 0.
+    ///
+    /// # Errors
+    /// `InvalidState` before `prepare`.
+    pub fn distortion(&self) -> Result<Vec<f64>> {
+        Ok(self.readable()?.distortion())
+    }
+
+    /// The avatar without its layers, as far as it is inflated now, in the caller's vertex order and the target space.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`.
@@ -353,8 +361,8 @@ impl Session {
         Ok(self.readable()?.avatar_positions())
     }
 
-    /// Counts intersections exactly, of the garment as a caller reads it in `precision`, against itself and the avatar at
-    /// full size.
+    /// Counts intersections exactly, of the garment as a caller reads it in `precision`, against itself and the avatar with
+    /// its layers at full size.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`, `Cancelled` by a request that no call has answered yet; the stage stays.
@@ -401,7 +409,7 @@ fn not_verified(counted: &Verification) -> Error {
         ErrorKind::NotVerified,
         format!(
             "the result, in the precision and space in which it would be read, has {} intersecting pairs of garment triangles \
-             that did not intersect at the start, and {} of garment and avatar triangles; it is not handed out as good. Set \
+             that did not intersect at the start, and {} of garment triangles and those of the avatar or its layers; it is not handed out as good. Set \
              and read the garment in 64 bits, or move the avatar nearer to the origin",
             counted.new_garment_garment(),
             counted.garment_avatar

@@ -8,7 +8,9 @@ use super::Precision;
 use super::judgement::Judgement;
 use super::work::Work;
 use crate::control::Cancel;
+use crate::energy::distortion::distortion;
 use crate::error::Result;
+use crate::input::body::Body;
 use crate::input::mesh::TriangleMesh;
 use crate::input::space::Space;
 use crate::stage::problem::Problem;
@@ -18,7 +20,7 @@ use crate::stage::problem::Problem;
 pub(super) struct View {
     problem: Arc<Problem>,
     /// As the caller gave it.
-    avatar: Arc<TriangleMesh>,
+    body: Arc<Body>,
     space: Space,
     /// Pairs of garment triangles that intersected at the start.
     tangled: Arc<[[u32; 2]]>,
@@ -31,11 +33,11 @@ pub(super) struct View {
 }
 
 impl View {
-    /// What `work` has reached. The target is `avatar`, in `space`.
-    pub(super) fn of(work: &Work, avatar: Arc<TriangleMesh>, space: Space) -> Self {
+    /// What `work` has reached. The target is in `space`.
+    pub(super) fn of(work: &Work, space: Space) -> Self {
         Self {
             problem: work.problem.clone(),
-            avatar,
+            body: work.body.clone(),
             space,
             tangled: work.tangled.clone(),
             x: work.state.x.clone(),
@@ -59,10 +61,17 @@ impl View {
     pub(super) fn avatar_positions(&self) -> Vec<DVec3> {
         if self.t >= 1.0 {
             // To the bit as it came, not through the normalised space and back.
-            return self.avatar.positions.clone();
+            return self.body.avatar_positions().to_vec();
         }
         let between = self.problem.projected.shrunk.iter().zip(&self.problem.avatar.positions);
-        between.map(|(&a, &b)| self.restored(a.lerp(b, self.t))).collect()
+        let [vertices, _] = self.body.avatar_size();
+        between.take(vertices).map(|(&a, &b)| self.restored(a.lerp(b, self.t))).collect()
+    }
+
+    /// One number for each of the caller's garment triangles.
+    pub(super) fn distortion(&self) -> Vec<f64> {
+        let problem = &self.problem;
+        problem.weld.spread_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
     }
 
     fn restored(&self, p: DVec3) -> DVec3 {
@@ -73,6 +82,6 @@ impl View {
     pub(super) fn judge(&self, precision: Precision, cancel: &Cancel) -> Result<Judgement> {
         let positions = self.x.iter().map(|&p| precision.round(self.restored(p))).collect();
         let garment = TriangleMesh { positions, triangles: self.problem.triangles.clone() };
-        Judgement::new(&garment, &self.problem.weld, &self.avatar, &self.tangled, cancel)
+        Judgement::new(&garment, &self.problem.weld, &self.body, &self.tangled, cancel)
     }
 }

@@ -8,6 +8,7 @@ use super::field_task::FieldTask;
 use super::inputs::Inputs;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::body::Body;
 use crate::input::diagnosis::Finding;
 use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
@@ -39,6 +40,8 @@ pub(super) struct Context {
 pub(super) struct Work {
     options: Options,
     pub(super) problem: Arc<Problem>,
+    /// The body to dress with its layers, as the caller gave them.
+    pub(super) body: Arc<Body>,
     pub(super) state: State,
     objective: Objective,
     newton: Newton,
@@ -87,7 +90,7 @@ impl Work {
         let held = inputs.memory();
         let sizes = inputs.sizes();
         limit.beside(held).check(&sizes.estimate())?;
-        let problem = inputs.pose_problem(stop, findings)?;
+        let (problem, body) = inputs.pose_problem(stop, findings)?;
         stop.check()?;
         let expected = Field::estimate(&problem.avatar, inputs.options.voxel)?;
         let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
@@ -102,8 +105,8 @@ impl Work {
         objective.watch(stop.clone());
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
-            avatar_size: [problem.avatar.positions.len(), problem.avatar.triangles.len()],
-            projected_size: [problem.projected.start.len(), problem.projected.triangles.len()],
+            avatar_size: body.avatar_size(),
+            projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
             separation_floor: objective.floor(),
             tangled_at_start: objective.tangle().triangle_pairs().len(),
             threads,
@@ -117,6 +120,7 @@ impl Work {
         let mut work = Self {
             options,
             problem,
+            body: Arc::new(body),
             state,
             objective,
             newton,

@@ -189,6 +189,14 @@ fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], skeleton: &Ske
 }
 
 impl ProjectedAvatar {
+    /// Vertices and triangles that the first `count` of the caller's triangles have been split into.
+    pub fn size_of_first(&self, count: usize) -> [usize; 2] {
+        // Both are in the order in which the caller's triangles came.
+        let triangles = self.origins.partition_point(|&origin| (origin as usize) < count);
+        let last = self.triangles[..triangles].iter().flatten().max();
+        [last.map_or(0, |&v| v as usize + 1), triangles]
+    }
+
     fn push(&mut self, piece: &[Corner; 3], bone: Option<u32>, origin: u32, merged: &mut HashMap<[u64; 6], u32>) {
         let corners = piece.map(|c| {
             let key = [c.start.x, c.start.y, c.start.z, c.end.x, c.end.y, c.end.z].map(f64::to_bits);

@@ -7,6 +7,7 @@ pub mod frame;
 pub mod inflate;
 pub mod initialize;
 pub mod lattice;
+pub mod layers;
 pub mod objective;
 pub mod pins;
 pub mod problem;

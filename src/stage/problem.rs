@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::enclosure;
 use super::frame::Frame;
 use super::initialize::{ProjectedAvatar, project};
+use super::layers::skin_with_layers;
 use super::objective::{NO_DISTANCE, Objective, Shape};
 use super::pins::{self, AskedPin};
 use super::region::fit_region;
@@ -23,6 +24,7 @@ use crate::energy::position::Position;
 use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::body::Body;
 use crate::input::cap::without_caps;
 use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::input::guide::choose_guides;
@@ -44,11 +46,11 @@ pub struct Inputs<'a> {
     pub weld: Arc<Weld>,
     /// The skeleton that the garment was designed on.
     pub source_skeleton: &'a Skeleton,
-    /// The body to dress.
-    pub avatar: &'a TriangleMesh,
+    /// The body to dress, with the layers it wears.
+    pub avatar: &'a Body,
     /// Its skeleton, bones in the order and direction of the source's.
     pub target_skeleton: &'a Skeleton,
-    /// Its skin.
+    /// The skin of the avatar without its layers.
     pub skin: Option<&'a SkinWeights>,
     /// The body that the garment was designed on, in the garment's space.
     pub source_avatar: Option<&'a TriangleMesh>,
@@ -76,9 +78,9 @@ pub struct Problem {
     pub triangles: Vec<[u32; 3]>,
     /// The way to the caller's indices.
     pub weld: Arc<Weld>,
-    /// The avatar at full size, its own vertices and triangles.
+    /// The avatar with its layers at full size, their own vertices and triangles.
     pub avatar: Arc<TriangleMesh>,
-    /// The avatar between skeleton and full size.
+    /// The avatar with its layers between skeleton and full size.
     pub projected: ProjectedAvatar,
     /// The shape terms.
     shape: Arc<Shape>,
@@ -113,12 +115,14 @@ impl Problem {
         let target = skeleton(&target_frame, inputs.target_skeleton);
         let rest: Vec<DVec3> = normalised(&source_frame, &inputs.garment.positions);
         let mut avatar = TriangleMesh {
-            positions: normalised(&target_frame, &inputs.avatar.positions),
-            triangles: inputs.avatar.triangles.clone(),
+            positions: normalised(&target_frame, &inputs.avatar.mesh.positions),
+            triangles: inputs.avatar.mesh.triangles.clone(),
         };
         gather_unused(&mut avatar);
+        let avatar = inputs.avatar.with_mesh(avatar);
         cancel.check()?;
-        let mut projected = project(&avatar, &target, &source, inputs.skin);
+        let skin = inputs.skin.map(|skin| skin_with_layers(skin, &avatar));
+        let mut projected = project(&avatar.mesh, &target, &source, skin.as_deref());
         cancel.check()?;
         let garment = TriangleMesh { positions: rest, triangles: inputs.garment.triangles.clone() };
         let gaps = Gaps::of(options).widened(inputs.coordinate_error * target_frame.scale, &garment)?;
@@ -186,7 +190,7 @@ impl Problem {
             rest: garment.positions,
             triangles: garment.triangles,
             weld: inputs.weld.clone(),
-            avatar: Arc::new(avatar),
+            avatar: avatar.mesh,
             projected,
             shape: Arc::new(shape),
             fit_weights,

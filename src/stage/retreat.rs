@@ -11,6 +11,7 @@ use super::initialize::ProjectedAvatar;
 use super::route::{Route, Scene, Search, around};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::body::Body;
 use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject};
 use crate::input::mesh::TriangleMesh;
 use crate::input::skeleton::{Location, Skeleton};
@@ -37,7 +38,7 @@ const NAMED: usize = 8;
 /// Findings of one error, at most.
 const MOST_FINDINGS: usize = 64;
 
-/// A garment triangle that the shrunk avatar passes through, the bone, and the avatar's triangle.
+/// A garment triangle that the shrunk avatar passes through, the bone, and the triangle of the avatar or a layer.
 struct Poke {
     garment: u32,
     bone: Option<u32>,
@@ -51,7 +52,7 @@ struct Poke {
 /// `NotEnclosed` where that cannot be done, naming bone and triangles, which are also added to `findings`; `Cancelled`.
 pub fn resolve(
     garment: &TriangleMesh,
-    avatar: &TriangleMesh,
+    avatar: &Body,
     projected: &mut ProjectedAvatar,
     source: &Skeleton,
     callers: &[u32],
@@ -65,8 +66,8 @@ pub fn resolve(
         let line = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
         return Ok(extents.iter().zip(0..).map(line).collect());
     }
-    let Some((route, start)) = search(garment, avatar, projected, source, &pokes, cancel)? else {
-        findings.extend(pokes.iter().take(MOST_FINDINGS).map(|poke| refusal_of(poke, source)));
+    let Some((route, start)) = search(garment, &avatar.mesh, projected, source, &pokes, cancel)? else {
+        findings.extend(pokes.iter().take(MOST_FINDINGS).map(|poke| refusal_of(poke, source, avatar)));
         return Err(refusal(&pokes, source));
     };
     findings.extend(repairs(&pokes, &route, source));
@@ -250,14 +251,14 @@ fn place(bone: Option<u32>, source: &Skeleton) -> String {
     }
 }
 
-fn refusal_of(poke: &Poke, source: &Skeleton) -> Finding {
+fn refusal_of(poke: &Poke, source: &Skeleton, avatar: &Body) -> Finding {
     let mut elements = vec![Element::triangle(Subject::Garment, poke.garment)];
     elements.extend(poke.bone.map(|bone| Element::bone(Subject::SourceSkeleton, bone)));
-    elements.push(Element::triangle(Subject::TargetAvatar, poke.avatar));
+    elements.push(avatar.triangle(poke.avatar));
     let sentence = format!(
-        "garment: avatar triangle {}, shrunk onto the source skeleton, pokes through triangle {} {}, and no way around it \
+        "garment: {}, shrunk onto the source skeleton, pokes through triangle {} {}, and no way around it \
          was found",
-        poke.avatar,
+        avatar.name(poke.avatar),
         poke.garment,
         place(poke.bone, source)
     );

@@ -17,6 +17,7 @@ fn generated() -> String {
         "session",
         "inputs",
         "fit",
+        "layers",
         "options",
         "running",
         "control",

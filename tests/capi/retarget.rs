@@ -426,3 +426,33 @@ fn ctrl_c_stops_without_a_file() {
     assert!(sentence.contains("Ctrl-C") && sentence.matches('\n').count() == 1, "{sentence}");
     assert_eq!(folder.names(), before, "files were left behind");
 }
+
+#[test]
+fn layers_and_distortion() {
+    let folder = Folder::new("layers");
+    folder.accepts(&["-o", "inner.obj"]);
+    folder.accepts(&["--layer", "inner.obj", "-o", "middle.obj"]);
+    let before = folder.names();
+    let further = ["--layer=inner.obj", "--layer", "middle.obj", "--distortion", "d.txt", "--report", "r.json"];
+    folder.accepts(&further);
+    let mut expected = [&before[..], &["d.txt", "out.obj", "r.json"].map(String::from)].concat();
+    expected.sort();
+    assert_eq!(folder.names(), expected);
+    let radius = |name: &str| {
+        let points = numbers(&folder.read(name), "v ");
+        points.iter().map(|p| p[0].hypot(p[2])).sum::<f32>()
+    };
+    assert!(radius("inner.obj") < radius("middle.obj") && radius("middle.obj") < radius("out.obj"));
+    let values: Vec<f64> = folder.read("d.txt").lines().map(|line| line.parse().expect("a number a line")).collect();
+    assert_eq!(values.len(), Sample::new().garment.1.len());
+    assert!(values.iter().all(|&d| d >= 0.0) && values.iter().any(|&d| d > 0.0));
+    assert!(folder.read("r.json").contains("\"distortion\": { \"mean\": "));
+
+    folder.refuses(&["--layer"], 2, &["--layer", "value"]);
+    folder.refuses(&["--layers", "inner.obj"], 2, &["--layers"]);
+    folder.refuses(&["--layer", "inner.obj", "--layer", "nothing.obj"], 1, &["nothing.obj"]);
+    folder.refuses(&["--distortion", "out.obj"], 2, &["out.obj"]);
+    folder.refuses(&["--distortion", "nowhere/d.txt"], 1, &["nowhere/d.txt"]);
+    folder.write("bad.obj", "v 0 0 0\nv 1 0 0\n");
+    folder.refuses(&["--layer", "bad.obj"], 1, &["bad.obj", "layer 0"]);
+}

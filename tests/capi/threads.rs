@@ -4,6 +4,7 @@ use std::sync::mpsc;
 use std::thread;
 
 use bespoke::capi::control::*;
+use bespoke::capi::layers::bespoke_session_clear_layers;
 use bespoke::capi::results::*;
 use bespoke::capi::running::*;
 use bespoke::capi::session::*;
@@ -58,8 +59,10 @@ fn a_second_thread_is_told_busy_and_changes_nothing() {
             bespoke_session_prepare(session),
             bespoke_session_step(session, 0, 0, std::ptr::null_mut()),
             bespoke_session_run(session),
+            bespoke_session_clear_layers(session),
             bespoke_session_reset(session),
             bespoke_session_read_energy(session, 0, &mut energy),
+            bespoke_session_read_distortion(session, std::ptr::null(), std::ptr::null_mut()),
             bespoke_session_destroy(session),
         ] {
             assert_eq!(status, Busy);

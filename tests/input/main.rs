@@ -1,5 +1,6 @@
 //! What a caller hands in: checks, connectivity, skeleton, weights, buffers, spaces, guides of boundary loops.
 
+mod body;
 mod buffer;
 mod cap;
 mod guide;

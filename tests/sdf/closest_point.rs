@@ -1,7 +1,7 @@
 //! The search tree against brute force and against known answers.
 
 use bespoke::input::mesh::TriangleMesh;
-use bespoke::sdf::closest_point::{ClosestPoint, closest_on_triangle};
+use bespoke::sdf::closest_point::{ClosestPoint, barycentric, closest_on_triangle};
 use glam::DVec3;
 
 use crate::support::Random;
@@ -78,4 +78,25 @@ fn no_triangle_is_infinitely_far() {
     let tree = ClosestPoint::new(&TriangleMesh::default());
     assert_eq!(tree.distance(DVec3::ZERO), f64::INFINITY);
     assert!(tree.closest(DVec3::ZERO).is_none());
+}
+
+#[test]
+fn barycentric_coordinates_give_the_point_back() {
+    let mut random = Random::new(9);
+    for k in 0..200 {
+        let mut corners = [random.vector(), random.vector(), random.vector()];
+        if k % 10 == 0 {
+            // Without area: the corners on a line, or in one place.
+            corners[2] = if k % 20 == 0 { corners[0] } else { corners[0].lerp(corners[1], 0.25) };
+        }
+        let p = closest_on_triangle(2.0 * random.vector(), &corners);
+        let b = barycentric(p, corners);
+        assert!((b.iter().sum::<f64>() - 1.0).abs() < 1e-12 && b.iter().all(|&b| b >= 0.0));
+        if k % 10 != 0 {
+            let back: DVec3 = corners.iter().zip(b).map(|(&c, b)| b * c).sum();
+            assert!(back.distance(p) < 1e-9, "{back} {p}");
+        }
+    }
+    let [a, b] = [DVec3::ZERO, DVec3::X];
+    assert_eq!(barycentric(DVec3::new(0.9, 0.0, 0.0), [a, b, a]), [0.0, 1.0, 0.0]);
 }

@@ -118,7 +118,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         garment: &weld.mesh,
         weld: Arc::new(weld.clone()),
         source_skeleton: &skeleton,
-        avatar: &avatar,
+        avatar: &avatar.into(),
         target_skeleton: &skeleton,
         skin: None,
         source_avatar: None,

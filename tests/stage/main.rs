@@ -5,6 +5,7 @@ mod support;
 
 mod frame;
 mod initialize;
+mod layers;
 mod pins;
 mod region;
 mod retreat;

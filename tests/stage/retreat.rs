@@ -80,7 +80,7 @@ impl Case {
             garment: &weld.mesh,
             weld: Arc::new(weld.clone()),
             source_skeleton: &self.source,
-            avatar: &self.avatar,
+            avatar: &self.avatar.clone().into(),
             target_skeleton: &self.target,
             skin: None,
             source_avatar: None,

@@ -169,7 +169,7 @@ impl Scene {
                 garment: &mesh(&self.source_space, &weld.mesh),
                 weld: Arc::new(weld.clone()),
                 source_skeleton: &skeleton(&self.source_space, &self.source_skeleton),
-                avatar: &mesh(&self.target_space, &self.avatar),
+                avatar: &mesh(&self.target_space, &self.avatar).into(),
                 target_skeleton: &skeleton(
                     &self.target_space,
                     &self.target_skeleton.aligned_to(&self.source_skeleton)?,

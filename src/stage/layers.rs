@@ -1,0 +1,31 @@
+//! Skin weights of the layers that an avatar wears: those of the avatar beneath.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use crate::input::body::Body;
+use crate::input::mesh::TriangleMesh;
+use crate::input::skin::SkinWeights;
+use crate::sdf::closest_point::{ClosestPoint, barycentric};
+
+/// `skin`, that of the avatar of `body`, with weights for the vertices of all layers as well: each has those of the nearest
+/// point of the avatar.
+pub fn skin_with_layers<'a>(skin: &'a SkinWeights, body: &Body) -> Cow<'a, SkinWeights> {
+    if body.layer_positions().is_empty() {
+        return Cow::Borrowed(skin);
+    }
+    let [_, triangles] = body.avatar_size();
+    let avatar = TriangleMesh {
+        positions: body.avatar_positions().to_vec(),
+        triangles: body.mesh.triangles[..triangles].to_vec(),
+    };
+    let tree = ClosestPoint::new(&avatar);
+    let beneath = |&p| {
+        let closest = tree.closest(p)?;
+        let triangle = avatar.triangles[closest.triangle as usize];
+        Some((triangle, barycentric(closest.point, triangle.map(|v| avatar.positions[v as usize]))))
+    };
+    let places: Vec<_> = body.layer_positions().par_iter().map(beneath).collect();
+    Cow::Owned(skin.extended(&places))
+}
