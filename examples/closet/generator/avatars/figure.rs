@@ -148,7 +148,7 @@ pub fn collar(clay: &mut Clay, skeleton: &Skeleton, inner: f64, outer: f64) {
     let j = &skeleton.joints;
     for [shoulder, _, _] in ARMS {
         let from = Trunk::of(skeleton).spine(2.45);
-        let to = j[shoulder] + DVec3::Z * 0.1 * outer;
+        let to = j[shoulder] - DVec3::Z * 0.1 * outer;
         let sections = [
             Section::ellipse(0.0, inner, 1.1 * inner),
             Section::ellipse(0.5, f64::midpoint(inner, outer), 0.55 * (inner + outer)),
@@ -193,14 +193,14 @@ pub fn arms(clay: &mut Clay, skeleton: &Skeleton, arm: &Arm) {
             let rotation = DMat3::from_cols(out, out.cross(along), along);
             let centre = a + t * length * along + out_by * out + back_by * DVec3::Y;
             let [across, deep, long] = radii;
-            let radii = DVec3::new(across, deep, long * length);
+            let radii = DVec3::new(across, deep, long);
             clay.add(Shape::Ellipsoid { centre, radii, rotation }, 0.45 * arm.upper, own);
         };
         if m > 0.0 {
             let (s, u) = (arm.shoulder, arm.upper);
-            muscle(0.10, 0.24 * m * s, 0.0, [0.90 * s, 1.08 * s, 0.30]);
-            muscle(0.56, -0.06 * u, -0.36 * m * u, [0.76 * u, 0.82 * u, 0.30]);
-            muscle(0.50, 0.08 * u, 0.36 * m * u, [0.80 * u, 0.82 * u, 0.34]);
+            muscle(0.40 * s / length, 0.24 * m * s, 0.0, [0.90 * s, 1.08 * s, 1.10 * s]);
+            muscle(0.56, -0.06 * u, -0.36 * m * u, [0.76 * u, 0.82 * u, 0.30 * length]);
+            muscle(0.50, 0.08 * u, 0.36 * m * u, [0.80 * u, 0.82 * u, 0.34 * length]);
         }
         clay.refine_along([a.lerp(b, 0.35), b], 1.2 * arm.upper, FACETS * arm.upper);
         clay.refine_along([b, c], 1.2 * arm.forearm, FACETS * f64::midpoint(arm.forearm, arm.wrist));

@@ -104,22 +104,22 @@ pub fn giant() -> Sample {
         let tusk = [
             (0.024, -0.100, 0.014, 0.010),
             (0.031, -0.122, 0.026, 0.0095),
-            (0.034, -0.126, 0.052, 0.0065),
-            (0.030, -0.118, 0.074, 0.001),
+            (0.035, -0.128, 0.042, 0.0065),
+            (0.033, -0.122, 0.060, 0.001),
         ]
         .map(|(x, y, z, r)| sweep::ring(frame.at(side * x, y, z), r, r));
         parts.push(rigid(sweep::sweep(&tusk, frame.rotation.x_axis, 8, 8), NECK));
     }
     // A crest of hair from the forehead to the nape.
     let crest = [
-        (-0.078, 0.168, 0.012),
-        (-0.045, 0.212, 0.026),
-        (0.020, 0.222, 0.034),
-        (0.076, 0.186, 0.034),
-        (0.094, 0.130, 0.030),
-        (0.080, 0.070, 0.012),
+        (-0.082, 0.160, 0.014),
+        (-0.052, 0.204, 0.034),
+        (0.012, 0.226, 0.044),
+        (0.074, 0.196, 0.044),
+        (0.100, 0.136, 0.038),
+        (0.090, 0.070, 0.014),
     ]
-    .map(|(y, z, high)| sweep::ring(frame.at(0.0, y, z), 0.62 * high, high));
-    parts.push(rigid(sweep::sweep(&crest, frame.rotation.x_axis.cross(glam::DVec3::new(0.0, 1.0, 0.3)), 8, 14), NECK));
+    .map(|(y, z, high)| sweep::ring(frame.at(0.0, y, z), high, 0.45 * high));
+    parts.push(rigid(sweep::sweep(&crest, frame.rotation.x_axis, 8, 14), NECK));
     assemble(skeleton, parts)
 }

@@ -49,7 +49,7 @@ pub fn heavy() -> Sample {
     for side in SIDES {
         // Hips over the belt, breast, seat and the fold under the shoulder blade.
         clay.ball(place.at(side * 0.150, 0.000, 0.60), [0.095, 0.125, 0.090], 0.06, own);
-        clay.ball(place.at(side * 0.088, -0.118, 1.62), [0.098, 0.064, 0.074], 0.035, Owner::Joint(WAIST));
+        clay.ball(place.at(side * 0.084, -0.112, 1.60), [0.086, 0.066, 0.076], 0.055, Owner::Joint(WAIST));
         clay.ball(place.at(side * 0.092, 0.085, -0.12), [0.110, 0.095, 0.110], 0.045, Owner::Joint(ROOT));
         clay.ball(place.at(side * 0.100, 0.070, 1.66), [0.100, 0.064, 0.110], 0.07, Owner::Joint(WAIST));
     }

@@ -35,7 +35,7 @@ pub fn long_arms() -> Sample {
         &mut clay,
         &skeleton,
         &[
-            ring(-0.55, 0.075, 0.055, 0.065),
+            ring(-0.48, 0.080, 0.048, 0.062),
             ring(-0.05, 0.124, 0.080, 0.078),
             ring(0.40, 0.120, 0.100, 0.070),
             ring(0.90, 0.108, 0.098, 0.062),
@@ -57,13 +57,13 @@ pub fn long_arms() -> Sample {
         let rib = [
             place.at(side * 0.018, -0.082, 1.48),
             place.at(side * 0.070, -0.060, 1.32),
-            place.at(side * 0.100, -0.010, 1.22),
+            place.at(side * 0.088, 0.010, 1.24),
         ];
         clay.tube(&rib, &[0.018, 0.022, 0.022], 0.022, chest);
     }
     let arm = Arm { shoulder: 0.050, upper: 0.040, elbow: 0.033, forearm: 0.042, wrist: 0.026, muscle: 0.6 };
     let leg = Leg { thigh: 0.066, knee: 0.045, calf: 0.047, ankle: 0.033, muscle: 0.5 };
-    collar(&mut clay, &skeleton, 0.034, 0.038);
+    collar(&mut clay, &skeleton, 0.034, 0.031);
     arms(&mut clay, &skeleton, &arm);
     let hand = Hand { size: 1.42, fingers: &[1.05, 1.2, 1.0], thickness: 1.12, curl: 0.16, spread: 44.0, edge: 0.0125 };
     hands(&mut clay, &skeleton, &hand, arm.wrist);

@@ -26,7 +26,7 @@ pub fn tall() -> Sample {
         arm_angle: 56.0,
     }
     .skeleton();
-    let mut clay = Clay::new(0.034, 0.010);
+    let mut clay = Clay::new(0.038, 0.010);
     trunk(
         &mut clay,
         &skeleton,

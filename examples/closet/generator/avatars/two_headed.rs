@@ -31,7 +31,7 @@ pub fn two_headed() -> Sample {
         arm_angle: 50.0,
     }
     .skeleton();
-    let mut clay = Clay::new(0.037, 0.011);
+    let mut clay = Clay::new(0.040, 0.011);
     trunk(
         &mut clay,
         &skeleton,
@@ -65,7 +65,7 @@ pub fn two_headed() -> Sample {
     collar(&mut clay, &skeleton, 0.060, 0.062);
     arms(&mut clay, &skeleton, &arm);
     let hand =
-        Hand { size: 1.35, fingers: &[0.85, 0.95, 0.80], thickness: 1.40, curl: 0.22, spread: 46.0, edge: 0.0165 };
+        Hand { size: 1.35, fingers: &[0.85, 0.95, 0.80], thickness: 1.40, curl: 0.22, spread: 46.0, edge: 0.018 };
     hands(&mut clay, &skeleton, &hand, arm.wrist);
     legs(&mut clay, &skeleton, &leg);
     feet(&mut clay, &skeleton, &Foot { size: 1.20, width: 1.35, toes: 3, edge: 0.017 }, leg.ankle);
@@ -82,16 +82,16 @@ pub fn two_headed() -> Sample {
             [place.at(side * 0.060, 0.010, 2.15), place.at(side * 0.105, 0.016, 2.95), frame.at(0.0, 0.040, 0.080)];
         clay.tube(&line, &[0.115, 0.088, 0.076], 0.05, place.throat());
         parts.extend(head(&mut clay, &frame));
-        // The mane: tufts down the back of the neck.
-        for k in 0..4 {
-            let t = f64::from(k) / 3.0;
-            let root = place
-                .at(side * (0.075 + 0.03 * t), 0.055 + 0.02 * (1.0 - t), 2.55)
-                .lerp(frame.at(0.0, 0.085, 0.125), t);
-            let away = frame.rotation * DVec3::new(0.0, 0.75, -0.65 + 0.35 * t);
-            let rings = [(-0.030, 0.030), (0.025, 0.030), (0.065, 0.018), (0.105, 0.001)]
-                .map(|(along, r)| sweep::ring(root + along * away, 1.15 * r, 0.8 * r));
-            parts.push(rigid(sweep(&rings, DVec3::Z, 8, 7), NECK));
+        // The mane: a ridge of tufts down the back of the neck, each as long as its neighbours are apart.
+        const TUFTS: usize = 5;
+        for k in 0..TUFTS {
+            let t = k as f64 / (TUFTS - 1) as f64;
+            let nape = sweep::spline(0.7 + 1.2 * t, 2, |i| line[i]) + DVec3::new(-0.01 * side, 0.068, 0.01);
+            let away = DVec3::new(0.15 * side, 0.80, 0.25 * t - 0.60).normalize();
+            let long = 0.85 + 0.15 * t;
+            let rings = [(-0.050, 0.040), (0.010, 0.044), (0.070, 0.026), (0.115, 0.001)]
+                .map(|(along, r)| sweep::ring(nape + long * along * away, 0.62 * r, r));
+            parts.push(rigid(sweep(&rings, frame.rotation.z_axis, 7, 6), NECK));
         }
     }
     parts.insert(0, clay.harden());
@@ -106,7 +106,7 @@ fn head(clay: &mut Clay, frame: &Frame) -> Vec<Part> {
     lump(clay, [0.0, 0.010, 0.100], [0.078, 0.088, 0.074], 0.04);
     // Muzzle and jaw: tapering lofts, the jaw a little shorter.
     let up = frame.rotation.z_axis;
-    let mut bar = |clay: &mut Clay, from: DVec3, to: DVec3, table: &[(f64, f64, f64)], blend: f64| {
+    let bar = |clay: &mut Clay, from: DVec3, to: DVec3, table: &[(f64, f64, f64)], blend: f64| {
         let sections: Vec<Section> = table.iter().map(|&(t, w, d)| Section::ellipse(t, w * size, d * size)).collect();
         clay.add(Shape::Loft(Loft::new(from, to, up, &sections).capped(0.8)), blend * size, HEAD);
     };
@@ -118,13 +118,14 @@ fn head(clay: &mut Clay, frame: &Frame) -> Vec<Part> {
         lump(clay, [side * 0.052, -0.030, 0.062], [0.034, 0.044, 0.040], 0.03);
         clay.hollow(frame, [side * 0.048, -0.088, 0.122], [0.020, 0.024, 0.016], 0.016, HEAD);
         let ridge = [
-            frame.at(side * 0.014, -0.078, 0.124),
-            frame.at(side * 0.042, -0.066, 0.144),
+            frame.at(side * 0.014, -0.070, 0.124),
+            frame.at(side * 0.042, -0.060, 0.142),
             frame.at(side * 0.068, -0.036, 0.148),
         ];
-        clay.tube(&ridge, &[0.012, 0.014, 0.010].map(|r| r * size), 0.020 * size, HEAD);
+        clay.tube(&ridge, &[0.013, 0.016, 0.013].map(|r| r * size), 0.030 * size, HEAD);
     }
-    clay.refine_along([frame.at(0.0, -0.03, 0.08), frame.at(0.0, -0.17, 0.05)], 0.055 * size, 0.0125 * size);
+    clay.refine_along([frame.at(0.0, -0.03, 0.08), frame.at(0.0, -0.17, 0.05)], 0.055 * size, 0.0145 * size);
+    clay.refine(frame.at(0.0, -0.055, 0.125), 0.07 * size, 0.0120 * size);
 
     let mut parts = Vec::new();
     let axes = [DVec3::X * 0.019, DVec3::Y * 0.015, DVec3::Z * 0.014].map(|axis| frame.rotation * axis * size);
