@@ -1,5 +1,7 @@
 //! The child: a large head with big eyes and two bunches of hair, a round belly, short limbs.
 
+use glam::DVec3;
+
 use super::super::Sample;
 use super::super::implicit::Owner;
 use super::super::skeleton::{NECK, Proportions, ROOT};
@@ -56,7 +58,8 @@ pub fn child() -> Sample {
     legs(&mut clay, &skeleton, &leg);
     feet(&mut clay, &skeleton, &Foot { size: 0.72, width: 1.20, toes: 0, edge: 0.011 }, leg.ankle);
 
-    let frame = Frame::upright(skeleton.joints[NECK], 1.22);
+    // Higher than on the others, or no collar would find room under the large head.
+    let frame = Frame::upright(skeleton.joints[NECK] + 0.022 * DVec3::Z, 1.22);
     let face = Face {
         skull: 1.10,
         wide: 1.12,

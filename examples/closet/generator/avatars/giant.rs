@@ -1,5 +1,7 @@
 //! The giant: a trunk like an inverted triangle, a small head with tusks, thick forearms, fists like hammers.
 
+use glam::DVec3;
+
 use super::super::Sample;
 use super::super::implicit::Owner;
 use super::super::skeleton::{NECK, Proportions, ROOT, WAIST};
@@ -78,7 +80,7 @@ pub fn giant() -> Sample {
     legs(&mut clay, &skeleton, &leg);
     feet(&mut clay, &skeleton, &Foot { size: 1.30, width: 1.35, toes: 3, edge: 0.018 }, leg.ankle);
 
-    let frame = Frame::upright(skeleton.joints[NECK] + glam::DVec3::new(0.0, -0.050, 0.0), 1.12);
+    let frame = Frame::upright(skeleton.joints[NECK] + DVec3::new(0.0, -0.050, 0.0), 1.12);
     let face = Face {
         skull: 0.92,
         wide: 1.15,

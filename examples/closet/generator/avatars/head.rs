@@ -156,8 +156,10 @@ pub fn features(frame: &Frame, face: &Face, open: f64, frown: f64) -> Vec<Part> 
     }
     // Two lips; the line of the mouth is where they meet.
     let (l, m) = (face.lips * size, face.mouth);
+    // They go back with a small chin.
+    let back = 0.006 * (1.0 - face.chin).max(0.0);
     for (z, thick, wide, bow) in [(0.0285, 0.0052, 0.027, 0.0022), (0.0195, 0.0062, 0.024, -0.002)] {
-        let at = |x: f64, y: f64, up: f64| frame.at(x * m, y, 0.024 + (z - 0.024) * face.lips + up);
+        let at = |x: f64, y: f64, up: f64| frame.at(x * m, y + back, 0.024 + (z - 0.024) * face.lips + up);
         let flat = 0.024 + 0.3 * (z - 0.024) - z;
         let rings = [
             ring(at(-wide, -0.0935, flat), 0.0015 * size, 0.0018 * l),

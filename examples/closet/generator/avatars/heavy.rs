@@ -58,7 +58,7 @@ pub fn heavy() -> Sample {
     collar(&mut clay, &skeleton, 0.052, 0.054);
     arms(&mut clay, &skeleton, &arm);
     let fingers = [0.88, 0.95, 0.90, 0.75];
-    let hand = Hand { size: 1.05, fingers: &fingers, thickness: 1.22, curl: 0.14, spread: 36.0, edge: 0.0115 };
+    let hand = Hand { size: 1.05, fingers: &fingers, thickness: 1.16, curl: 0.14, spread: 46.0, edge: 0.0115 };
     hands(&mut clay, &skeleton, &hand, arm.wrist);
     legs(&mut clay, &skeleton, &leg);
     feet(&mut clay, &skeleton, &Foot { size: 1.0, width: 1.22, toes: 0, edge: 0.014 }, leg.ankle);
