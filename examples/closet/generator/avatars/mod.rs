@@ -2,6 +2,7 @@
 
 mod child;
 mod clay;
+mod extremities;
 mod figure;
 mod giant;
 mod head;

@@ -4,7 +4,8 @@ use super::super::Sample;
 use super::super::implicit::Owner;
 use super::super::skeleton::{NECK, Proportions, ROOT, WAIST};
 use super::clay::{Clay, Frame, SIDES, assemble, rigid};
-use super::figure::{Arm, Foot, Hand, Leg, Trunk, arms, collar, feet, hands, legs, neck, ring, trunk};
+use super::extremities::{Foot, Hand, feet, hands};
+use super::figure::{Arm, Leg, Trunk, arms, collar, legs, neck, ring, trunk};
 use super::head::{Face, PLAIN, features, hair, head};
 use super::sweep;
 

@@ -7,7 +7,8 @@ use super::super::implicit::{Owner, Shape};
 use super::super::loft::{Loft, Section};
 use super::super::skeleton::{NECK, Proportions, ROOT, WAIST};
 use super::clay::{Clay, Frame, Part, SIDES, assemble, rigid};
-use super::figure::{Arm, Foot, Hand, Leg, Trunk, arms, collar, feet, hands, legs, ring, trunk};
+use super::extremities::{Foot, Hand, feet, hands};
+use super::figure::{Arm, Leg, Trunk, arms, collar, legs, ring, trunk};
 use super::head::eyeball;
 use super::sweep::{self, sweep};
 
