@@ -8,7 +8,7 @@ use super::super::skeleton::{NECK, Proportions, ROOT, WAIST};
 use super::clay::{Clay, Frame, SIDES, assemble, rigid};
 use super::extremities::{Foot, Hand, feet, hands};
 use super::figure::{Arm, Leg, Trunk, arms, collar, legs, neck, ring, trunk};
-use super::head::{Face, PLAIN, features, head};
+use super::head::{Face, features, head};
 use super::sweep;
 
 /// Models the body.
@@ -97,7 +97,6 @@ pub fn giant() -> Sample {
         ears: 0.95,
         eyebrows: 0.0,
         edge: 0.0095,
-        ..PLAIN
     };
     neck(&mut clay, &skeleton, frame.at(0.0, 0.012, 0.070), 0.105, 0.085);
     head(&mut clay, &frame, &face);
