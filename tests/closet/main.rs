@@ -1,5 +1,6 @@
 //! The samples of the closet hold what the demo and the other tests take for granted.
 
+mod avatars;
 #[allow(dead_code)]
 #[path = "../../examples/closet/generator/mod.rs"]
 mod closet;

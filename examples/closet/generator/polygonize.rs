@@ -30,25 +30,63 @@ pub fn polygonize(function: &dyn Fn(DVec3) -> f64, [low, high]: [DVec3; 2], cell
     let reach = 1.5 * 0.5 * BLOCK as f64 * cell * 3f64.sqrt();
     debug_assert!(reach <= REACH, "cells of {cell} m are too coarse");
     let mut values = vec![f64::NAN; count.iter().product()];
+    let evaluate = |values: &mut [f64], corner: [usize; 3]| {
+        for k in corner[2]..=corner[2] + BLOCK {
+            for j in corner[1]..=corner[1] + BLOCK {
+                for i in corner[0]..=corner[0] + BLOCK {
+                    let value = &mut values[i + j * stride[1] + k * stride[2]];
+                    if value.is_nan() {
+                        *value = function(place(i, j, k));
+                    }
+                }
+            }
+        }
+    };
     let mut near = Vec::new();
+    let mut is_near = vec![false; blocks.iter().product()];
+    let number = |corner: [usize; 3]| {
+        let [i, j, k] = corner.map(|n| n / BLOCK);
+        i + blocks[0] * (j + blocks[1] * k)
+    };
     for bk in 0..blocks[2] {
         for bj in 0..blocks[1] {
             for bi in 0..blocks[0] {
                 let corner = [bi * BLOCK, bj * BLOCK, bk * BLOCK];
                 let middle = place(corner[0], corner[1], corner[2]) + 0.5 * BLOCK as f64 * cell;
-                if function(middle).abs() > reach {
+                if function(middle).abs() <= reach {
+                    near.push(corner);
+                    is_near[number(corner)] = true;
+                    evaluate(&mut values, corner);
+                }
+            }
+        }
+    }
+    // Where the function is steeper still, the surface may leave the blocks found so far: it is followed.
+    let mut next = 0;
+    while next < near.len() {
+        let corner: [usize; 3] = near[next];
+        next += 1;
+        for axis in 0..3 {
+            let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+            for ahead in [false, true] {
+                let mut other = corner;
+                if ahead {
+                    other[axis] += BLOCK;
+                } else if other[axis] >= BLOCK {
+                    other[axis] -= BLOCK;
+                }
+                if other == corner || other[axis] + 1 >= count[axis] || is_near[number(other)] {
                     continue;
                 }
-                near.push(corner);
-                for k in corner[2]..=corner[2] + BLOCK {
-                    for j in corner[1]..=corner[1] + BLOCK {
-                        for i in corner[0]..=corner[0] + BLOCK {
-                            let value = &mut values[i + j * stride[1] + k * stride[2]];
-                            if value.is_nan() {
-                                *value = function(place(i, j, k));
-                            }
-                        }
-                    }
+                let face = corner[axis] + if ahead { BLOCK } else { 0 };
+                let inside = |n: usize| {
+                    let at = (corner[u] + n % (BLOCK + 1)) * stride[u] + (corner[v] + n / (BLOCK + 1)) * stride[v];
+                    values[face * stride[axis] + at] < 0.0
+                };
+                if (1..(BLOCK + 1).pow(2)).any(|n| inside(n) != inside(0)) {
+                    near.push(other);
+                    is_near[number(other)] = true;
+                    evaluate(&mut values, other);
                 }
             }
         }

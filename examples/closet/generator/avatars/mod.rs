@@ -1,5 +1,18 @@
 //! The bodies to dress, and the mannequin.
 
+mod child;
+mod clay;
+mod extremities;
+mod figure;
+mod giant;
+mod head;
+mod heavy;
+mod long_arms;
+mod slim;
+mod sweep;
+mod tall;
+mod two_headed;
+
 use super::{Kind, Sample, sample};
 
 /// A body of the closet.
@@ -66,8 +79,14 @@ impl Avatar {
 /// Models a body. The result depends on `avatar` alone.
 pub fn avatar(avatar: Avatar) -> Sample {
     match avatar {
-        Avatar::Heavy => sample(Kind::Heavy),
-        Avatar::LongArms | Avatar::Dinosaur | Avatar::TwoHeaded => sample(Kind::Creature),
+        Avatar::Slim => slim::slim(),
+        Avatar::Heavy => heavy::heavy(),
+        Avatar::Tall => tall::tall(),
+        Avatar::Child => child::child(),
+        Avatar::Giant => giant::giant(),
+        Avatar::LongArms => long_arms::long_arms(),
+        Avatar::TwoHeaded => two_headed::two_headed(),
+        Avatar::Dinosaur => sample(Kind::Creature),
         _ => sample(Kind::Mannequin),
     }
 }
