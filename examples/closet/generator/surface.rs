@@ -30,6 +30,12 @@ pub struct Design<'a> {
 impl Design<'_> {
     /// Makes the mesh: the largest component of the surface.
     pub fn mesh(&self) -> Mesh {
+        self.mesh_with_corners(&[])
+    }
+
+    /// The same, with a vertex of the boundary at the point of the surface nearest to each corner: where a cut turns
+    /// sharply.
+    pub fn mesh_with_corners(&self, corners: &[DVec3]) -> Mesh {
         let mut mesh = polygonize(&self.solid, self.bounds, self.cell);
         let mut marks = vec![0; mesh.positions.len()];
         for (index, cut) in self.cuts.iter().enumerate() {
@@ -43,6 +49,20 @@ impl Design<'_> {
         let largest = (0..count as u32).max_by_key(|&c| (sizes[c as usize], std::cmp::Reverse(c)));
         let old = mesh.retain(|triangle| Some(component[triangle[0] as usize]) == largest);
         marks = old.iter().map(|&v| marks[v as usize]).collect();
+        for &corner in corners {
+            let mut point = corner;
+            for _ in 0..5 {
+                let (f, df) = value_and_gradient(&self.solid, point);
+                point -= f * df / df.length_squared().max(1e-3);
+            }
+            let on_boundary = (0..marks.len()).filter(|&v| marks[v] != 0);
+            let distance = |v: &usize| mesh.positions[*v].distance_squared(point);
+            if let Some(nearest) = on_boundary.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+                mesh.positions[nearest] = point;
+                // A vertex on all the cuts stays where it is, and is an end for each of them.
+                marks[nearest] = u32::MAX;
+            }
+        }
         remesh(&mut mesh, &mut marks, self, self.rounds);
         mesh
     }

@@ -10,7 +10,7 @@ use super::super::skeleton::{ARMS, LEGS, NECK, ROOT, WAIST};
 use super::super::surface::{Design, Function};
 use super::folds::{ridge, step};
 use super::limb::Limb;
-use super::panels::{panels, trunk_angle};
+use super::panels::panels;
 use super::upper::{Upper, cuffs, sleeves, trunk};
 use super::{Mannequin, Piece};
 
@@ -18,8 +18,8 @@ use super::{Mannequin, Piece};
 const CLEARANCE: f64 = 0.014;
 
 /// Edge length in metres, and as a share of it along the stitches.
-const EDGE: f64 = 0.0188;
-const FINE: f64 = 0.72;
+const EDGE: f64 = 0.0208;
+const FINE: f64 = 0.53;
 
 /// Rings between stitches.
 #[derive(Clone, Debug)]
@@ -40,15 +40,18 @@ impl Rings {
         Self { stitches, heights: (0..count).map(|_| height * (1.0 + 0.10 * random.signed())).collect() }
     }
 
-    /// How far the cloth stands out: a round bulge with a sharp valley on both sides.
+    /// How far the cloth stands out: a round bulge with a narrow valley on both sides.
     fn height(&self, along: f64) -> f64 {
         let after = self.stitches.partition_point(|&stitch| stitch <= along);
         if after == 0 || after == self.stitches.len() {
             return 0.0;
         }
         let (from, to) = (self.stitches[after - 1], self.stitches[after]);
-        let x = 2.0 * (along - from) / (to - from) - 1.0;
-        self.heights[after - 1] * (1.0 - x.abs().powf(2.4)).powf(0.72)
+        // Rounded at the stitch just so much that the triangles can follow.
+        const ROUND: f64 = 0.010;
+        let from_stitch = (along - from).min(to - along).hypot(ROUND) - ROUND;
+        let half = (0.5 * (to - from)).hypot(ROUND) - ROUND;
+        self.heights[after - 1] * (1.0 - (1.0 - from_stitch / half).powf(2.8))
     }
 
     /// Metres to the nearest stitch.
@@ -97,27 +100,18 @@ pub fn coat(mannequin: &Mannequin) -> Piece {
     };
 
     let top = up(0.93);
-    let trunk_rings = Rings::new([hem + 0.012, top], 7, 0.026, &mut random);
-    let sleeve_rings = Rings::new([0.055, arms[0].length() * 0.90], 6, 0.020, &mut random);
+    let trunk_rings = Rings::new([hem + 0.012, top], 7, 0.025, &mut random);
+    let sleeve_rings = Rings::new([0.055, arms[0].length() * 0.90], 6, 0.019, &mut random);
     // Height above the collar's seam, which rises to the back as its rim does.
     let rise = move |p: DVec3| p.z - 0.30 * (p.y - neck.y);
-    let collar_rings = Rings::new([neck.z - 0.070, neck.z + 0.006], 2, 0.012, &mut random);
+    let collar_rings = Rings::new([neck.z - 0.070, neck.z + 0.006], 1, 0.014, &mut random);
     let side = |p: DVec3| usize::from(p.x < 0.0);
-    // The cloth puckers at the stitches.
-    let pucker = |phase: f64, stitch: f64| 0.0020 * phase.sin() * (-(stitch / 0.022).powi(2)).exp();
     let puffs = |p: DVec3| {
-        let share = upper.on_sleeve(p);
-        let mut height = 0.0;
-        if share > 0.0 {
-            let place = arms[side(p)].place(p);
-            height += share
-                * (sleeve_rings.height(place.along) + pucker(7.0 * place.angle, sleeve_rings.stitch(place.along)));
-        }
-        if share < 1.0 {
-            height +=
-                (1.0 - share) * (trunk_rings.height(p.z) + pucker(19.0 * trunk_angle(p), trunk_rings.stitch(p.z)));
-        }
-        height
+        let apart = upper.apart(p);
+        let height =
+            if apart > 0.0 { sleeve_rings.height(arms[side(p)].place(p).along) } else { trunk_rings.height(p.z) };
+        // Flat along the armhole, where the sleeves are sewn on; below it sleeve and trunk must not meet.
+        smooth_min(height, 0.42 * apart.abs(), 0.010).max(0.0)
     };
     let zip = |p: DVec3| if p.y < 0.0 { 0.010 * ridge(p.x, 0.020) } else { 0.0 };
     let solid = |p: DVec3| {
@@ -125,11 +119,13 @@ pub fn coat(mannequin: &Mannequin) -> Piece {
         smooth_min(shell + zip(p), body.value(p) - CLEARANCE, 0.015)
     };
     let edge_length = |p: DVec3| {
-        let share = upper.on_sleeve(p);
-        let stitch =
-            if share > 0.5 { sleeve_rings.stitch(arms[side(p)].place(p).along) } else { trunk_rings.stitch(p.z) };
+        let stitch = if upper.apart(p) > 0.0 {
+            sleeve_rings.stitch(arms[side(p)].place(p).along)
+        } else {
+            trunk_rings.stitch(p.z)
+        };
         let near = |distance: f64, reach: f64| FINE + (1.0 - FINE) * step(distance - reach, 0.020);
-        let mut length = near(stitch, 0.012);
+        let mut length = near(stitch, 0.010);
         if p.y < 0.0 {
             length = length.min(near(p.x.abs(), 0.020));
         }

@@ -49,7 +49,7 @@ pub fn jumpsuit(mannequin: &Mannequin) -> Piece {
             if p.y < 0.0 && p.z > waist.z {
                 // The placket with the zip in its middle.
                 height += 0.0045 * (step(p.x + 0.024, 0.006) - step(p.x - 0.024, 0.006));
-                height -= 0.006 * ridge(p.x, 0.012);
+                height -= 0.006 * ridge(p.x, 0.013);
             }
         }
         height

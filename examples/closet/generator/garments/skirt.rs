@@ -141,7 +141,7 @@ impl Drape {
         let spacing = TAU / FOLDS as f64;
         let folds = (0..FOLDS)
             .map(|i| Fold {
-                angle: spacing * (i as f64 + 0.16 * random.signed()),
+                angle: spacing * (i as f64 + 0.11 * random.signed()),
                 begin: 0.13 + 0.07 * random.signed(),
                 size: 1.0 + 0.22 * random.signed(),
             })

@@ -71,7 +71,7 @@ pub fn sweater(mannequin: &Mannequin) -> Piece {
         if share < 1.0 {
             let angle = trunk_angle(p);
             height += (1.0 - share)
-                * (trunk_folds.height([angle * TRUNK, p.z]) + gathers(angle * 20.0, p.z - hem - HEM_BAND, 0.003));
+                * (trunk_folds.height([angle * TRUNK, p.z]) + gathers(angle * 19.0, p.z - hem - HEM_BAND, 0.0032));
         }
         height + 0.004 * step(neckline(p) + NECK_BAND, 0.006)
     };
@@ -95,12 +95,13 @@ pub fn sweater(mannequin: &Mannequin) -> Piece {
     Piece { mesh, texture, no_fit: Vec::new() }
 }
 
-/// Small pleats that start at a band and fade out over the cloth above it.
+/// Small pleats that start at a band and fade out over the cloth above it, some sooner than others.
 fn gathers(phase: f64, above: f64, height: f64) -> f64 {
     if above < -0.01 {
         return 0.0;
     }
-    height * phase.cos() * step(above, 0.010) * (-(above / 0.035).powi(2)).exp()
+    let reach = 0.060 * (1.0 + 0.35 * (0.37 * phase).sin());
+    height * phase.cos() * step(above - 0.004, 0.012) * (-(above / reach).powi(2)).exp()
 }
 
 /// Cloth that gathers inside the elbow, stacks above the cuff and pulls from the armpit.

@@ -38,9 +38,9 @@ pub fn trousers(mannequin: &Mannequin) -> Piece {
         (hip - 0.03, 0.188, 0.110, 0.128),
         (hip + 0.03, 0.186, 0.118, 0.126),
         (j[ROOT].z + 0.01, 0.172, 0.118, 0.108),
-        (top - 0.035, 0.150, 0.113, 0.096),
-        (top, 0.144, 0.111, 0.094),
-        (high, 0.144, 0.111, 0.094),
+        (top - 0.035, 0.140, 0.104, 0.086),
+        (top, 0.128, 0.098, 0.080),
+        (high, 0.122, 0.098, 0.080),
     ]
     .map(|(z, width, front, back)| Section { t: (z - low) / (high - low), centre: [0.0; 2], width, front, back });
     cloth.add(Shape::Loft(Loft::new(axis(low), axis(high), DVec3::Y, &seat).capped(0.3)), 0.02, own);
@@ -75,7 +75,7 @@ pub fn trousers(mannequin: &Mannequin) -> Piece {
         let seat = step(p.z - crotch - 0.03, 0.05);
         let mut height = (1.0 - seat) * leg_folds.height(chart(p));
         height += seat * seat_folds.height([trunk_angle(p).abs() * TRUNK, p.z]);
-        height += 0.005 * step(p.z - band, 0.006);
+        height += 0.006 * step(p.z - band, 0.005);
         if fly(p) {
             height -= 0.004 * ridge(p.x, 0.012);
         }

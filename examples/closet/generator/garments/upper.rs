@@ -52,8 +52,13 @@ impl Upper {
 
     /// From 0 on the trunk to 1 on a sleeve, passing over about 3 cm around the armhole.
     pub fn on_sleeve(&self, point: DVec3) -> f64 {
+        step(self.apart(point), 0.016)
+    }
+
+    /// How much farther the trunk is than the sleeves, in metres: on the trunk, the distance to the sleeves, negative.
+    pub fn apart(&self, point: DVec3) -> f64 {
         let sleeve = self.sleeves.iter().flatten().map(|half| half.distance(point)).fold(f64::INFINITY, f64::min);
-        step(self.trunk.distance(point) - sleeve, 0.016)
+        self.trunk.distance(point) - sleeve
     }
 }
 
@@ -97,6 +102,8 @@ pub fn round_neck(skeleton: &Skeleton, [wide, deep]: [f64; 2], forward: f64) -> 
     let neck = skeleton.joints[NECK];
     move |p: DVec3| {
         let (x, y) = (p.x / wide, (p.y - neck.y + forward) / deep);
-        if p.z < neck.z - 0.16 { -1.0 } else { (1.0 - x.hypot(y)) * wide.min(deep) }
+        // All that the head adds in front of it goes too.
+        let head = p.z - (neck.z + 0.03 + p.y - neck.y);
+        if p.z < neck.z - 0.16 { -1.0 } else { ((1.0 - x.hypot(y)) * wide.min(deep)).max(head) }
     }
 }

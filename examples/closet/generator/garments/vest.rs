@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::super::implicit::smooth_min;
-use super::super::skeleton::{ARMS, LEGS, NECK, WAIST};
+use super::super::skeleton::{ARMS, LEGS, NECK, ROOT, WAIST};
 use super::super::surface::{Design, Function};
 use super::folds::{Fold, Folds, step};
 use super::panels::{TRUNK, panels, trunk_angle};
@@ -35,7 +35,7 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
     let trunk = trunk(&[
         [hem - 0.06, 0.204, 0.128, 0.142],
         [hem + 0.040, 0.202, 0.128, 0.142],
-        [j[super::super::skeleton::ROOT].z + 0.02, 0.182, 0.126, 0.120],
+        [j[ROOT].z + 0.02, 0.182, 0.126, 0.120],
         [waist, 0.152, 0.120, 0.102],
         [up(0.30), 0.152, 0.124, 0.104],
         [up(0.65), 0.170, 0.138, 0.122],
@@ -43,7 +43,7 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
         [shoulder + 0.30 * (neck.z - shoulder), 0.126, 0.076, 0.100],
         [neck.z - 0.03, 0.072, 0.058, 0.066],
     ]);
-    let upper = Upper::new(skeleton, trunk, 0.040, Vec::new());
+    let upper = Upper::new(skeleton, trunk, 0.034, Vec::new());
 
     let point = up(0.62);
     let neckline = move |p: DVec3| {
@@ -55,15 +55,16 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
         front + (back - front) * share
     };
     let armhole = move |p: DVec3| {
-        let low = (up(0.70) - p.z).max(0.0);
+        // Rounded towards front and back.
+        let low = (up(0.78) + 3.0 * p.y * p.y - p.z).max(0.0);
         let inset = 0.142 + 0.010 * (p.y / 0.1).powi(2);
         // Below the armhole everything up to the arm stays.
-        p.x.abs() - (inset + 80.0 * low * low + 0.4 * low).min(0.182 + 0.6 * low)
+        p.x.abs() - (inset + 9.0 * low * low).min(0.182 + 0.6 * low)
     };
     let folds = folds(waist, shoulder);
     let raised = |p: DVec3| {
         let trim = step(neckline(p) + TRIM, 0.005) + step(armhole(p) + TRIM, 0.005) + step(hem + 0.045 - p.z, 0.005);
-        folds.height([trunk_angle(p) * TRUNK, p.z]) + 0.0045 * trim.min(1.0)
+        folds.height([trunk_angle(p) * TRUNK, p.z]) + 0.006 * trim.min(1.0)
     };
     let solid = |p: DVec3| smooth_min(upper.cloth.value(p) - raised(p), body.value(p) - CLEARANCE, 0.015);
     let edge_length = |p: DVec3| {
@@ -80,7 +81,7 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
     let bounds = body.bounds();
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 4 }
-            .mesh();
+            .mesh_with_corners(&[DVec3::new(0.0, -0.15, point)]);
     let texture = panels(&mesh, hem, &[], &|_| None);
     Piece { mesh, texture, no_fit: Vec::new() }
 }
