@@ -7,7 +7,7 @@ use super::super::implicit::{Field, Owner, Shape, smooth_min};
 use super::super::loft::{Loft, Section};
 use super::super::random::Random;
 use super::super::skeleton::{ARMS, LEGS, NECK, ROOT, WAIST};
-use super::super::surface::{Design, Function};
+use super::super::surface::{Design, Function, Seam};
 use super::folds::{ridge, step};
 use super::limb::Limb;
 use super::panels::panels;
@@ -18,8 +18,8 @@ use super::{Mannequin, Piece};
 const CLEARANCE: f64 = 0.014;
 
 /// Edge length in metres, and as a share of it along the stitches.
-const EDGE: f64 = 0.0208;
-const FINE: f64 = 0.53;
+const EDGE: f64 = 0.0200;
+const FINE: f64 = 0.66;
 
 /// Rings between stitches.
 #[derive(Clone, Debug)]
@@ -47,8 +47,8 @@ impl Rings {
             return 0.0;
         }
         let (from, to) = (self.stitches[after - 1], self.stitches[after]);
-        // Rounded at the stitch just so much that the triangles can follow.
-        const ROUND: f64 = 0.010;
+        // Edges run along the stitches, so the valley may be narrow.
+        const ROUND: f64 = 0.003;
         let from_stitch = (along - from).min(to - along).hypot(ROUND) - ROUND;
         let half = (0.5 * (to - from)).hypot(ROUND) - ROUND;
         self.heights[after - 1] * (1.0 - (1.0 - from_stitch / half).powf(2.8))
@@ -113,7 +113,7 @@ pub fn coat(mannequin: &Mannequin) -> Piece {
         // Flat along the armhole, where the sleeves are sewn on; below it sleeve and trunk must not meet.
         smooth_min(height, 0.42 * apart.abs(), 0.010).max(0.0)
     };
-    let zip = |p: DVec3| if p.y < 0.0 { 0.010 * ridge(p.x, 0.020) } else { 0.0 };
+    let zip = |p: DVec3| if p.y < 0.0 { 0.011 * ridge(p.x, 0.017) } else { 0.0 };
     let solid = |p: DVec3| {
         let shell = smooth_min(upper.cloth.value(p) - puffs(p), collar.value(p) - collar_rings.height(rise(p)), 0.014);
         smooth_min(shell + zip(p), body.value(p) - CLEARANCE, 0.015)
@@ -134,11 +134,21 @@ pub fn coat(mannequin: &Mannequin) -> Piece {
     let mut cuts: Vec<Function> = cuffs(&arms, 0.955);
     cuts.push(Box::new(move |p| hem - p.z));
     cuts.push(Box::new(move |p| if p.x.abs() < 0.13 { rise(p) - (neck.z - 0.002) } else { -1.0 }));
+    let mut seams = vec![Seam { function: Box::new(|p| p.x), within: Box::new(|p| p.y < 0.0) }];
+    for &stitch in &trunk_rings.stitches {
+        seams.push(Seam { function: Box::new(move |p| p.z - stitch), within: Box::new(|p| upper.apart(p) < -0.006) });
+    }
+    for &stitch in &sleeve_rings.stitches {
+        seams.push(Seam {
+            function: Box::new(move |p| arms[side(p)].place(p).along - stitch),
+            within: Box::new(|p| upper.apart(p) > 0.006),
+        });
+    }
     let bounds = upper.cloth.bounds();
     let bounds = [bounds[0] - 0.03, bounds[1] + DVec3::new(0.03, 0.03, 0.08)];
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0150, rounds: 4 }
-            .mesh();
+            .sewn(&seams, &[]);
     let no_fit = (0..mesh.positions.len() as u32)
         .filter(|&v| {
             let p = mesh.positions[v as usize];

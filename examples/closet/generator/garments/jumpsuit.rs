@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::super::skeleton::{ARMS, LEGS, NECK, WAIST};
-use super::super::surface::{Design, Function};
+use super::super::surface::{Design, Function, Seam};
 use super::folds::{Fold, Folds, ridge, step};
 use super::limb::{Limb, Place};
 use super::panels::{LIMB, panels};
@@ -79,10 +79,16 @@ pub fn jumpsuit(mannequin: &Mannequin) -> Piece {
         }
     }
     cuts.push(Box::new(move |p| if p.x.abs() < 0.13 { p.z - (neck.z - 0.012 + 0.42 * (p.y - neck.y)) } else { -1.0 }));
+    // The zip, and both edges of the belt.
+    let seams = [
+        Seam { function: Box::new(|p| p.x), within: Box::new(|p| p.y < 0.0 && p.z > waist.z) },
+        Seam { function: Box::new(|p| p.z - waist.z + 0.045), within: Box::new(|p| p.x.abs() < 0.25) },
+        Seam { function: Box::new(|p| p.z - waist.z + 0.002), within: Box::new(|p| p.x.abs() < 0.25) },
+    ];
     let bounds = body.bounds();
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 4 }
-            .mesh();
+            .sewn(&seams, &[]);
     let limbs = [arms, legs].concat();
     let texture = panels(&mesh, crotch, &limbs, &|p| match side(p) {
         side if sleeve(p, &arms[side].place(p)) => Some(side),

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::implicit::smooth_min;
 use super::super::skeleton::{ARMS, LEGS, NECK, WAIST};
-use super::super::surface::{Design, Function};
+use super::super::surface::{Design, Function, Seam};
 use super::folds::{Fold, Folds, step};
 use super::limb::Limb;
 use super::panels::{LIMB, TRUNK, panels, trunk_angle};
@@ -22,7 +22,7 @@ const FINE: f64 = 0.68;
 
 /// Height of the bands at hem, cuffs and neck in metres.
 const HEM_BAND: f64 = 0.058;
-const NECK_BAND: f64 = 0.022;
+const NECK_BAND: f64 = 0.024;
 
 /// Designs the sweater.
 pub fn sweater(mannequin: &Mannequin) -> Piece {
@@ -87,10 +87,15 @@ pub fn sweater(mannequin: &Mannequin) -> Piece {
     let mut cuts: Vec<Function> = cuffs(&arms, 0.945);
     cuts.push(Box::new(move |p| hem - p.z));
     cuts.push(Box::new(neckline));
+    // Where the bands begin.
+    let seams = [
+        Seam { function: Box::new(|p| neckline(p) + NECK_BAND), within: Box::new(|_| true) },
+        Seam { function: Box::new(|p| p.z - hem - 0.044), within: Box::new(|p| upper.apart(p) < 0.0) },
+    ];
     let bounds = upper.cloth.bounds();
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0150, rounds: 4 }
-            .mesh();
+            .sewn(&seams, &[]);
     let texture = panels(&mesh, hem, &arms, &|p| upper.sleeve(p));
     Piece { mesh, texture, no_fit: Vec::new() }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::implicit::{Field, Owner, Shape, smooth_min};
 use super::super::loft::{Loft, Section};
 use super::super::skeleton::{LEGS, ROOT, WAIST};
-use super::super::surface::{Design, Function};
+use super::super::surface::{Design, Function, Seam};
 use super::folds::{Fold, Folds, ridge, step};
 use super::limb::Limb;
 use super::panels::{LIMB, TRUNK, panels, trunk_angle};
@@ -99,10 +99,14 @@ pub fn trousers(mannequin: &Mannequin) -> Piece {
         let (centre, axis) = limb.bone(true, 0.955);
         cuts.push(Box::new(move |p| if p.distance(centre) < 0.2 { axis.dot(p - centre) } else { -1.0 }));
     }
+    let seams = [
+        Seam { function: Box::new(|p| p.z - band), within: Box::new(|_| true) },
+        Seam { function: Box::new(|p| p.x), within: Box::new(fly) },
+    ];
     let bounds = cloth.bounds();
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 4 }
-            .mesh();
+            .sewn(&seams, &[]);
     let texture = panels(&mesh, crotch, &legs, &|p| (p.z < crotch).then_some(side(p)));
     Piece { mesh, texture, no_fit: Vec::new() }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::implicit::smooth_min;
 use super::super::skeleton::{ARMS, LEGS, NECK, ROOT, WAIST};
-use super::super::surface::{Design, Function};
+use super::super::surface::{Design, Function, Seam};
 use super::folds::{Fold, Folds, step};
 use super::panels::{TRUNK, panels, trunk_angle};
 use super::upper::{Upper, trunk};
@@ -78,10 +78,16 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
         Box::new(move |p| if p.x < 0.0 { armhole(p) } else { -1.0 }),
         Box::new(move |p| hem - p.z),
     ];
+    // Where the trims begin.
+    let seams = [
+        Seam { function: Box::new(|p| neckline(p) + TRIM), within: Box::new(|_| true) },
+        Seam { function: Box::new(|p| armhole(p) + TRIM), within: Box::new(|_| true) },
+        Seam { function: Box::new(|p| hem + 0.045 - p.z), within: Box::new(|_| true) },
+    ];
     let bounds = body.bounds();
     let mesh =
         Design { solid: Box::new(solid), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 4 }
-            .mesh_with_corners(&[DVec3::new(0.0, -0.15, point)]);
+            .sewn(&seams, &[DVec3::new(0.0, -0.15, point)]);
     let texture = panels(&mesh, hem, &[], &|_| None);
     Piece { mesh, texture, no_fit: Vec::new() }
 }
