@@ -75,14 +75,16 @@ pub fn trousers(mannequin: &Mannequin) -> Piece {
         let seat = step(p.z - crotch - 0.03, 0.05);
         let mut height = (1.0 - seat) * leg_folds.height(chart(p));
         height += seat * seat_folds.height([trunk_angle(p).abs() * TRUNK, p.z]);
-        height += 0.006 * step(p.z - band, 0.005);
         if fly(p) {
             height -= 0.004 * ridge(p.x, 0.012);
         }
         let along = legs[side(p)].place(p).along;
         height + if p.z < crotch { 0.003 * step(along - 0.905 * legs[0].length(), 0.006) } else { 0.0 }
     };
-    let solid = |p: DVec3| smooth_min(cloth.value(p) - raised(p), body.value(p) - CLEARANCE, 0.012);
+    let solid = |p: DVec3| {
+        let loose = smooth_min(cloth.value(p) - raised(p), body.value(p) - CLEARANCE, 0.012);
+        loose - 0.006 * step(p.z - band, 0.004)
+    };
     let edge_length = |p: DVec3| {
         let seat = step(p.z - crotch - 0.03, 0.05);
         let legs = leg_folds.fineness(chart(p), FINE);
