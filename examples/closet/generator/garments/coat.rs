@@ -113,7 +113,10 @@ pub fn coat(mannequin: &Mannequin) -> Piece {
         // Flat along the armhole, where the sleeves are sewn on; below it sleeve and trunk must not meet.
         smooth_min(height, 0.42 * apart.abs(), 0.010).max(0.0)
     };
-    let zip = |p: DVec3| if p.y < 0.0 { 0.011 * ridge(p.x, 0.017) } else { 0.0 };
+    // It ends below the collar's rim.
+    let zip = |p: DVec3| {
+        if p.y < 0.0 { 0.011 * ridge(p.x, 0.017) * step(neck.z - 0.024 - rise(p), 0.014) } else { 0.0 }
+    };
     let solid = |p: DVec3| {
         let shell = smooth_min(upper.cloth.value(p) - puffs(p), collar.value(p) - collar_rings.height(rise(p)), 0.014);
         smooth_min(shell + zip(p), body.value(p) - CLEARANCE, 0.015)

@@ -47,9 +47,10 @@ pub fn jumpsuit(mannequin: &Mannequin) -> Piece {
         } else {
             height += 0.007 * belt(p.z);
             if p.y < 0.0 && p.z > waist.z {
-                // The placket with the zip in its middle.
-                height += 0.0045 * (step(p.x + 0.024, 0.006) - step(p.x - 0.024, 0.006));
-                height -= 0.006 * ridge(p.x, 0.013);
+                // The placket with the zip in its middle, from the belt to below the collar's rim.
+                let shown = step(p.z - waist.z - 0.008, 0.008) * step(neck.z - 0.060 - p.z, 0.015);
+                let placket = 0.0045 * (step(p.x + 0.024, 0.006) - step(p.x - 0.024, 0.006));
+                height += shown * (placket - 0.006 * ridge(p.x, 0.013));
             }
         }
         height

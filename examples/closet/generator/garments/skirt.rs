@@ -28,7 +28,7 @@ const FLARE: f64 = 0.24;
 
 /// Number of folds, and how far they stand out at the hem, in metres.
 const FOLDS: usize = 11;
-const DEPTH: f64 = 0.040;
+const DEPTH: f64 = 0.038;
 
 /// Directions and steps down in which the hanging shape is worked out.
 const DIRECTIONS: usize = 180;
@@ -166,7 +166,7 @@ impl Drape {
         let valley = -0.8 * f64::midpoint(from, to);
         let end = if t < 0.5 { from } else { to };
         let wave = 0.5 + 0.5 * (TAU * t).cos();
-        valley + (end - valley) * (0.8 * wave + 0.2 * wave * wave)
+        valley + (end - valley) * wave
     }
 
     /// The point in a direction at a length along the cloth.
