@@ -53,7 +53,7 @@ pub fn sweater(mannequin: &Mannequin) -> Piece {
 
     let sleeve_folds = [0, 1].map(|side| sleeve_folds(arms[0].middle(), arms[0].length(), side));
     let trunk_folds = trunk_folds(waist, shoulder, hem);
-    let neckline = round_neck(skeleton, [0.086, 0.080], -0.010);
+    let neckline = round_neck(skeleton, [0.096, 0.080], -0.010);
     let side = |p: DVec3| usize::from(p.x < 0.0);
     let chart = |p: DVec3| {
         let place = arms[side(p)].place(p);
