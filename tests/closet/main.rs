@@ -5,6 +5,7 @@ mod avatars;
 #[path = "../../examples/closet/generator/mod.rs"]
 mod closet;
 mod distance;
+mod garments;
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::LazyLock;

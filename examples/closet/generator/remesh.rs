@@ -13,6 +13,9 @@ pub trait Surface {
 
     /// The point of the surface near `point`; with one bit in `mark`, of that boundary curve of the surface.
     fn settle(&self, point: DVec3, mark: u32) -> DVec3;
+
+    /// The bits of the curves that run inside the surface; the others are boundary curves.
+    fn seams(&self) -> u32;
 }
 
 /// An edge is split above and collapsed below these multiples of the wanted length.
@@ -67,13 +70,13 @@ pub fn remesh(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface, roun
             }
         }
         for _ in 0..2 {
-            flip(mesh, 2 * round < rounds);
+            flip(mesh, marks, surface.seams(), 2 * round < rounds);
         }
         relax(mesh, marks, surface, false);
-        flip(mesh, 2 * round < rounds);
+        flip(mesh, marks, surface.seams(), 2 * round < rounds);
         relax(mesh, marks, surface, true);
     }
-    flip(mesh, false);
+    flip(mesh, marks, surface.seams(), false);
     relax(mesh, marks, surface, true);
 }
 
@@ -88,7 +91,8 @@ fn split(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) {
         if p.distance(q) <= LONG * f64::midpoint(wanted[v as usize], wanted[w as usize]) {
             continue;
         }
-        let mark = if edge.is_boundary() { marks[v as usize] & marks[w as usize] } else { 0 };
+        let both = marks[v as usize] & marks[w as usize];
+        let mark = if edge.is_boundary() { both } else { both & surface.seams() };
         let new = mesh.positions.len() as u32;
         mesh.positions.push(middle);
         marks.push(mark);
@@ -118,9 +122,9 @@ fn split(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) {
     }
 }
 
-/// How freely a vertex moves: inside (0), along a boundary curve (1), not at all (2).
-fn rank(boundary: bool, mark: u32) -> u32 {
-    if !boundary { 0 } else { mark.count_ones().clamp(1, 2) }
+/// How freely a vertex moves: inside (0), along a curve (1), not at all (2).
+fn rank(curve: bool, mark: u32) -> u32 {
+    if !curve { 0 } else { mark.count_ones().clamp(1, 2) }
 }
 
 fn boundary_vertices(edges: &[Edge], count: usize) -> Vec<bool> {
@@ -133,6 +137,21 @@ fn boundary_vertices(edges: &[Edge], count: usize) -> Vec<bool> {
     boundary
 }
 
+/// The vertices on the boundary or on a seam.
+fn curve_vertices(edges: &[Edge], marks: &[u32], seams: u32) -> Vec<bool> {
+    let mut curve = boundary_vertices(edges, marks.len());
+    for (curve, mark) in curve.iter_mut().zip(marks) {
+        *curve |= mark & seams != 0;
+    }
+    curve
+}
+
+/// True for an edge of the boundary or of a seam.
+fn on_curve(edge: &Edge, marks: &[u32], seams: u32) -> bool {
+    let [v, w] = edge.vertices.map(|v| marks[v as usize]);
+    edge.is_boundary() || v & w & seams != 0
+}
+
 /// The wanted edge length at each vertex.
 fn wanted_lengths(mesh: &Mesh, surface: &dyn Surface) -> Vec<f64> {
     mesh.positions.iter().map(|&p| surface.edge_length(p)).collect()
@@ -142,7 +161,7 @@ fn wanted_lengths(mesh: &Mesh, surface: &dyn Surface) -> Vec<f64> {
 fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> usize {
     let wanted = wanted_lengths(mesh, surface);
     let edges = mesh.edges();
-    let boundary = boundary_vertices(&edges, mesh.positions.len());
+    let curve = curve_vertices(&edges, marks, surface.seams());
     let stars = Stars::new(mesh);
     let mut short: Vec<(f64, usize)> = Vec::new();
     for (index, edge) in edges.iter().enumerate() {
@@ -159,12 +178,13 @@ fn collapse(mesh: &mut Mesh, marks: &mut Vec<u32>, surface: &dyn Surface) -> usi
     for (_, index) in short {
         let edge = edges[index];
         let [mut keep, mut gone] = edge.vertices;
-        let mut ranks = [keep, gone].map(|v| rank(boundary[v as usize], marks[v as usize]));
+        let mut ranks = [keep, gone].map(|v| rank(curve[v as usize], marks[v as usize]));
         if ranks[1] > ranks[0] {
             (keep, gone) = (gone, keep);
             ranks.swap(0, 1);
         }
-        if touched[keep as usize] || touched[gone as usize] || ranks[1] == 2 || (ranks[1] == 1 && !edge.is_boundary()) {
+        let across = ranks[1] == 1 && !on_curve(&edge, marks, surface.seams());
+        if touched[keep as usize] || touched[gone as usize] || ranks[1] == 2 || across {
             continue;
         }
         if ranks == [1, 1] && marks[keep as usize] != marks[gone as usize] {
@@ -256,7 +276,7 @@ fn sharpest([a, b, c]: [DVec3; 3]) -> f64 {
 }
 
 /// Flips edges: towards six triangles around each vertex (`regular`), or else towards larger smallest angles.
-fn flip(mesh: &mut Mesh, regular: bool) {
+fn flip(mesh: &mut Mesh, marks: &[u32], seams: u32, regular: bool) {
     let edges = mesh.edges();
     let boundary = boundary_vertices(&edges, mesh.positions.len());
     let mut surplus: Vec<i32> = boundary.iter().map(|&b| if b { -4 } else { -6 }).collect();
@@ -276,6 +296,15 @@ fn flip(mesh: &mut Mesh, regular: bool) {
         let Some(first) = old[0].iter().position(|v| !edge.vertices.contains(v)) else { continue };
         let Some(&d) = old[1].iter().find(|v| !edge.vertices.contains(v)) else { continue };
         let [c, a, b] = [0, 1, 2].map(|i| old[0][(first + i) % 3]);
+        // An edge of a seam stays, unless it cuts off a corner of the seam: the seam goes along the two other sides.
+        let cuts_off = |corner: u32| {
+            let [p, q, r] = [corner, a, b].map(|v| mesh.positions[v as usize]);
+            marks[corner as usize] & marks[a as usize] & marks[b as usize] & seams != 0 && (q - p).dot(r - p) < 0.0
+        };
+        let stays = on_curve(edge, marks, seams) && !cuts_off(c) && !cuts_off(d);
+        if stays || marks[c as usize] & marks[d as usize] & seams != 0 {
+            continue;
+        }
         let key = [c.min(d), c.max(d)];
         if c == d || new_edges.contains(&key) || edges.binary_search_by(|other| other.vertices.cmp(&key)).is_ok() {
             continue;
@@ -309,30 +338,32 @@ fn flip(mesh: &mut Mesh, regular: bool) {
     }
 }
 
-/// Moves each vertex towards the middle of its neighbours, along the surface or along its boundary curve; `settle`
+/// Moves each vertex towards the middle of its neighbours, along the surface or along its curve; `settle`
 /// brings it back onto them, which costs more than the move.
 fn relax(mesh: &mut Mesh, marks: &[u32], surface: &dyn Surface, settle: bool) {
     const STEP: f64 = 0.6;
     let edges = mesh.edges();
-    let boundary = boundary_vertices(&edges, mesh.positions.len());
+    let curve = curve_vertices(&edges, marks, surface.seams());
     let normals = mesh.normals();
     let mut sum = vec![DVec3::ZERO; mesh.positions.len()];
     let mut weight = vec![0.0; mesh.positions.len()];
     for edge in &edges {
         for [v, w] in [edge.vertices, [edge.vertices[1], edge.vertices[0]]] {
-            if !boundary[v as usize] || edge.is_boundary() {
+            if !curve[v as usize] || on_curve(edge, marks, surface.seams()) {
                 sum[v as usize] += mesh.positions[w as usize];
                 weight[v as usize] += 1.0;
             }
         }
     }
     for v in 0..mesh.positions.len() {
-        if rank(boundary[v], marks[v]) == 2 {
+        // The end of a seam stays too.
+        let end = marks[v] & surface.seams() != 0 && weight[v] != 2.0;
+        if end || rank(curve[v], marks[v]) == 2 {
             continue;
         }
         let position = mesh.positions[v];
         let mut step = STEP * (sum[v] / weight[v] - position);
-        if !boundary[v] {
+        if !curve[v] {
             step -= normals[v] * step.dot(normals[v]);
         }
         mesh.positions[v] = if settle { surface.settle(position + step, marks[v]) } else { position + step };

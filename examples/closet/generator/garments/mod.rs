@@ -1,6 +1,22 @@
 //! The six garments, each designed on the mannequin.
 
-use super::{Sample, jacket};
+mod coat;
+mod folds;
+mod jumpsuit;
+mod limb;
+mod panels;
+mod skirt;
+mod sweater;
+mod trousers;
+mod upper;
+mod vest;
+
+use super::body;
+use super::implicit::Field;
+use super::mesh::Mesh;
+use super::skeleton::Skeleton;
+use super::texture::Texture;
+use super::{Kind, Sample, shape};
 
 /// A garment of the closet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,11 +52,34 @@ impl Garment {
     }
 }
 
+/// The body around which the garments are designed.
+struct Mannequin {
+    skeleton: Skeleton,
+    body: Field,
+}
+
+/// A garment as its designer hands it over.
+struct Piece {
+    mesh: Mesh,
+    texture: Texture,
+    /// The vertices that hang or stand freely.
+    no_fit: Vec<u32>,
+}
+
 /// Models a garment around the mannequin. The result depends on `garment` alone.
 pub fn garment(garment: Garment) -> Sample {
-    match garment {
-        Garment::Jumpsuit | Garment::Coat | Garment::Skirt | Garment::Sweater | Garment::Vest | Garment::Trousers => {
-            jacket(1.0)
-        }
-    }
+    let (proportions, build) = shape(Kind::Mannequin);
+    let skeleton = proportions.skeleton();
+    let body = body::body(&skeleton, &build);
+    let mannequin = Mannequin { skeleton, body };
+    let design = match garment {
+        Garment::Jumpsuit => jumpsuit::jumpsuit,
+        Garment::Coat => coat::coat,
+        Garment::Skirt => skirt::skirt,
+        Garment::Sweater => sweater::sweater,
+        Garment::Vest => vest::vest,
+        Garment::Trousers => trousers::trousers,
+    };
+    let Piece { mesh, texture, no_fit } = design(&mannequin);
+    Sample { mesh, skeleton: mannequin.skeleton, skin: Vec::new(), texture, no_fit }
 }
