@@ -704,19 +704,20 @@ typedef struct BespokeProgress {
 } BespokeProgress;
 
 /*
- An array of the caller that points are written to. Bytes between them stay as they are.
+ An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
+ as they are.
  */
 typedef struct BespokeBuffer {
   /*
-   The first point. May be null where `capacity` is 0.
+   The first element. May be null where `capacity` is 0.
    */
   void *data;
   /*
-   Points that fit.
+   Elements that fit.
    */
   size_t capacity;
   /*
-   Bytes from one point to the next; 0: they are packed.
+   Bytes from one element to the next; 0: they are packed.
    */
   size_t stride;
   /*
@@ -1250,6 +1251,21 @@ BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession 
 BespokeStatus bespoke_session_read_avatar_vertices(const struct BespokeSession *session,
                                                    const struct BespokeBuffer *points,
                                                    size_t *count);
+
+/*
+ Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
+ and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
+ a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
+ similarity of the garment as a whole, and for triangles without area or neighbours.
+
+ `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
+ written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
+ it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+ INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+ */
+BespokeStatus bespoke_session_read_distortion(const struct BespokeSession *session,
+                                              const struct BespokeBuffer *values,
+                                              size_t *count);
 
 /*
  Fills a struct with what the session has done so far. The caller sets `struct_size` first.

@@ -15,13 +15,14 @@ use crate::session::{Precision, StageReport};
 
 const GARMENT_VERTICES: &str = "garment vertices";
 const AVATAR_VERTICES: &str = "avatar vertices";
+const DISTORTION: &str = "distortion";
 
 /// # Safety
 /// `count` is null or points to a number.
-unsafe fn write_count(count: *mut usize, points: usize) {
+unsafe fn write_count(count: *mut usize, elements: usize) {
     if !count.is_null() {
         // SAFETY: not null, and the caller vouches for a number.
-        unsafe { count.write(points) };
+        unsafe { count.write(elements) };
     }
 }
 
@@ -77,6 +78,35 @@ pub unsafe extern "C" fn bespoke_session_read_avatar_vertices(
             let positions = session.avatar_positions()?;
             write_count(count, positions.len());
             write_points(&positions, &view::points_out(points, AVATAR_VERTICES)?, AVATAR_VERTICES)
+        })
+    }
+}
+
+/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
+/// and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
+/// a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
+/// similarity of the garment as a whole, and for triangles without area or neighbours.
+///
+/// `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
+/// written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
+/// it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_distortion(
+    session: *const BespokeSession,
+    values: *const BespokeBuffer,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            let distortion = session.distortion()?;
+            write_count(count, distortion.len());
+            let out = view::points_out(values, DISTORTION)?;
+            if out.capacity == 0 && out.data.is_null() {
+                return Ok(());
+            }
+            buffer::write_scalars(&out, &distortion, DISTORTION)
         })
     }
 }

@@ -37,15 +37,16 @@ pub struct BespokeView {
     pub component: u32,
 }
 
-/// An array of the caller that points are written to. Bytes between them stay as they are.
+/// An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
+/// as they are.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct BespokeBuffer {
-    /// The first point. May be null where `capacity` is 0.
+    /// The first element. May be null where `capacity` is 0.
     pub data: *mut c_void,
-    /// Points that fit.
+    /// Elements that fit.
     pub capacity: usize,
-    /// Bytes from one point to the next; 0: they are packed.
+    /// Bytes from one element to the next; 0: they are packed.
     pub stride: usize,
     /// BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
     pub component: u32,

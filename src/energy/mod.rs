@@ -8,6 +8,7 @@
 pub mod attachment;
 pub mod barrier;
 pub mod curve;
+pub mod distortion;
 pub mod fit;
 mod frame;
 pub mod inflation;

@@ -133,6 +133,13 @@ impl Element {
     }
 }
 
+/// `|tau1 x - tau2 x|^2` of one hinge, without its weight, in the similarity form; none for a degenerate hinge.
+pub(super) fn l_surf(rest: &[DVec3], x: &[DVec3], hinge: &Hinge) -> Option<f64> {
+    let form = SurfaceForm::Similarity;
+    let element = Element::new(rest, hinge, form)?;
+    Some(Shape::new(x, element.vertices, form).residual(&element).length_squared())
+}
+
 impl Energy for Surface {
     fn name(&self) -> &'static str {
         "surface"

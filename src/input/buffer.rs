@@ -71,16 +71,16 @@ pub type PositionsView = View<Component>;
 /// Triangles (3 indices an element), bones (2), or plain indices (1).
 pub type IndicesView = View<IndexComponent>;
 
-/// Positions in the caller's memory, to be written.
+/// Positions, or other numbers, in the caller's memory, to be written.
 #[derive(Clone, Copy, Debug)]
 pub struct PositionsViewMut {
-    /// The first position. May be null where nothing is written.
+    /// The first element. May be null where nothing is written.
     pub data: *mut c_void,
-    /// Number of positions that fit.
+    /// Number of elements that fit.
     pub capacity: usize,
-    /// Bytes from one position to the next; 0 means that they are packed.
+    /// Bytes from one element to the next; 0 means that they are packed.
     pub stride: usize,
-    /// How each coordinate is stored.
+    /// How each number is stored.
     pub component: Component,
 }
 
@@ -257,26 +257,52 @@ pub unsafe fn read_indices(view: &IndicesView, width: usize, what: &str) -> Resu
 /// Where `view.data` is not null, the `view.capacity` elements that it describes must be writable memory that nobody
 /// else accesses during the call.
 pub unsafe fn write_positions(view: &PositionsViewMut, positions: &[DVec3], what: &str) -> Result<()> {
-    let count = positions.len();
+    // SAFETY: the caller's promise, handed on with 3 numbers an element.
+    unsafe { write_floats(view, positions.iter().map(DVec3::to_array), "position", what) }
+}
+
+/// Writes one number an element, otherwise as [`write_positions`].
+///
+/// # Errors
+/// As for [`write_positions`].
+///
+/// # Safety
+/// As for [`write_positions`].
+pub unsafe fn write_scalars(view: &PositionsViewMut, values: &[f64], what: &str) -> Result<()> {
+    // SAFETY: the caller's promise, handed on with one number an element.
+    unsafe { write_floats(view, values.iter().map(|&value| [value]), "number", what) }
+}
+
+/// # Safety
+/// As for [`write_positions`], with `N` numbers an element.
+unsafe fn write_floats<const N: usize>(
+    view: &PositionsViewMut,
+    elements: impl ExactSizeIterator<Item = [f64; N]> + Clone,
+    noun: &str,
+    what: &str,
+) -> Result<()> {
+    let count = elements.len();
     let size = view.component.size();
     if view.capacity < count {
-        return invalid(format!("{what}: the capacity is {} but there are {count} positions", view.capacity));
+        return invalid(format!("{what}: the capacity is {} but there are {count} {noun}s", view.capacity));
     }
-    let stride = check_layout(view.data.is_null(), count, view.stride, 3, size, what)?;
+    let stride = check_layout(view.data.is_null(), count, view.stride, N, size, what)?;
+    let too_large =
+        |element: &[f64; N]| element.iter().all(|v| v.is_finite()) && element.iter().any(|&v| !(v as f32).is_finite());
     if view.component == Component::F32
-        && let Some(i) = positions.iter().position(|p| p.is_finite() && !p.as_vec3().is_finite())
+        && let Some((i, element)) = elements.clone().enumerate().find(|(_, element)| too_large(element))
     {
-        return invalid(format!("{what}: position {i} is {}, too large for 32-bit numbers", positions[i]));
+        return invalid(format!("{what}: {noun} {i} is {element:?}, too large for 32-bit numbers"));
     }
-    for (i, p) in positions.iter().enumerate() {
-        for (k, &value) in p.as_ref().iter().enumerate() {
+    for (i, element) in elements.enumerate() {
+        for (k, value) in element.into_iter().enumerate() {
             // SAFETY: element i < count <= capacity is inside the caller's array (the caller's promise), and
             // `check_layout` has made sure that the offset neither overflows nor passes isize::MAX.
             let address = unsafe { view.data.cast::<u8>().add(i * stride + k * size) };
             match view.component {
-                // SAFETY: the 4 bytes of this coordinate are writable, by the same promise.
+                // SAFETY: the 4 bytes of this number are writable, by the same promise.
                 Component::F32 => unsafe { address.cast::<f32>().write_unaligned(value as f32) },
-                // SAFETY: the 8 bytes of this coordinate are writable, by the same promise.
+                // SAFETY: the 8 bytes of this number are writable, by the same promise.
                 Component::F64 => unsafe { address.cast::<f64>().write_unaligned(value) },
             }
         }

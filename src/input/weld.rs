@@ -17,6 +17,8 @@ pub struct Weld {
     pub vertex_of: Vec<u32>,
     /// The caller's triangle that each triangle of the welded garment is.
     pub triangle_of: Vec<u32>,
+    /// The triangle of the welded garment that each of the caller's is, or is a duplicate of; none where it is left out.
+    pub to_kept: Vec<Option<u32>>,
 }
 
 /// A triangle with two corners in one place.
@@ -44,7 +46,10 @@ impl Weld {
             positions: vertex_of.iter().map(|&v| garment.positions[v as usize]).collect(),
             triangles: triangle_of.iter().map(|&t| corners[t as usize]).collect(),
         };
-        let weld = Self { mesh, to_welded, vertex_of, triangle_of };
+        let mut to_kept = vec![None; corners.len()];
+        (0u32..).zip(&triangle_of).for_each(|(k, &t)| to_kept[t as usize] = Some(k));
+        duplicates.iter().for_each(|&[copy, first]| to_kept[copy as usize] = to_kept[first as usize]);
+        let weld = Self { mesh, to_welded, vertex_of, triangle_of, to_kept };
         let mut findings = weld.split_vertices();
         report_duplicates(&mut findings, &duplicates);
         weld.report_degenerate(&mut findings, garment, &collapsed);
@@ -56,6 +61,12 @@ impl Weld {
     /// Values of the welded vertices, for each of the caller's: copies of one vertex get the same bits.
     pub fn spread<T: Copy>(&self, welded: &[T]) -> Vec<T> {
         self.to_welded.iter().map(|&w| welded[w as usize]).collect()
+    }
+
+    /// Values of the welded garment's triangles, for each of the caller's: duplicates get that of the one that counts, and
+    /// triangles that are left out 0.
+    pub fn spread_triangles(&self, values: &[f64]) -> Vec<f64> {
+        self.to_kept.iter().map(|kept| kept.map_or(0.0, |k| values[k as usize])).collect()
     }
 
     /// Values of the caller's vertices, for each welded one: the mean over the copies, so that no side of a seam

@@ -343,6 +343,17 @@ impl Session {
         }
     }
 
+    /// How much each garment triangle is distorted now, in the caller's order: the mean of Eq. 2 over its hinges, without
+    /// their weights, in the form that is free for any similarity, over the ratio of the garment's whole area now to that of
+    /// the design. No unit; 0 for any similarity of the garment as a whole. Of triangles in one place, all get the same;
+    /// those without a shape get 0.
+    ///
+    /// # Errors
+    /// `InvalidState` before `prepare`.
+    pub fn distortion(&self) -> Result<Vec<f64>> {
+        Ok(self.readable()?.distortion())
+    }
+
     /// The avatar as far as it is inflated now, in the caller's vertex order and the target space.
     ///
     /// # Errors

@@ -8,6 +8,7 @@ use super::Precision;
 use super::judgement::Judgement;
 use super::work::Work;
 use crate::control::Cancel;
+use crate::energy::distortion::distortion;
 use crate::error::Result;
 use crate::input::mesh::TriangleMesh;
 use crate::input::space::Space;
@@ -63,6 +64,12 @@ impl View {
         }
         let between = self.problem.projected.shrunk.iter().zip(&self.problem.avatar.positions);
         between.map(|(&a, &b)| self.restored(a.lerp(b, self.t))).collect()
+    }
+
+    /// One number for each of the caller's garment triangles.
+    pub(super) fn distortion(&self) -> Vec<f64> {
+        let problem = &self.problem;
+        problem.weld.spread_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
     }
 
     fn restored(&self, p: DVec3) -> DVec3 {

@@ -53,6 +53,7 @@ fn null_sessions_are_refused() {
             bespoke_session_read_energy(session, 0, null_mut()),
             bespoke_session_read_garment_vertices(session, null(), null_mut()),
             bespoke_session_read_avatar_vertices(session, null(), null_mut()),
+            bespoke_session_read_distortion(session, null(), null_mut()),
             bespoke_session_create_control(session, &mut control),
             bespoke_session_create_control(session, null_mut()),
             bespoke_control_cancel(null()),

@@ -4,6 +4,7 @@ mod caller;
 mod cancel;
 mod control;
 mod diagnostics;
+mod distortion;
 mod faults;
 mod header;
 mod meshes;

@@ -60,6 +60,7 @@ fn a_second_thread_is_told_busy_and_changes_nothing() {
             bespoke_session_run(session),
             bespoke_session_reset(session),
             bespoke_session_read_energy(session, 0, &mut energy),
+            bespoke_session_read_distortion(session, std::ptr::null(), std::ptr::null_mut()),
             bespoke_session_destroy(session),
         ] {
             assert_eq!(status, Busy);

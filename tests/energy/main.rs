@@ -6,6 +6,7 @@ mod support;
 mod attachment;
 mod barrier;
 mod curve;
+mod distortion;
 mod fit;
 mod harness;
 mod inflation;

@@ -3,6 +3,7 @@
 mod assets;
 mod cancel;
 mod determinism;
+mod distortion;
 mod memory;
 mod profile;
 mod shifted;
