@@ -5,12 +5,14 @@ use crate::generator::garments::Garment;
 use crate::generator::skeleton::BONES;
 use crate::generator::{Sample, mesh};
 use crate::pair::Outcome;
-use crate::sheet::{Cell, Heading, Layer, Role, Sheet, View};
+use crate::sheet::{Cell, Heading, Layer, Role, Scale, Sheet, Values, View};
 use crate::table::{Summary, figures};
 
 const BODY: &str = "#cdc5ba";
 const MANNEQUIN: &str = "#e4dfd7";
 const BONE: &str = "#c2452d";
+/// What differs by less than this from its design looks undistorted, and by more than that all the same.
+const DISTORTION: [f64; 2] = [1e-3, 1.0];
 
 /// One colour a garment.
 fn colour(garment: Garment) -> &'static str {
@@ -58,19 +60,26 @@ impl Column {
 pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet {
     let view = View { azimuth: 24.0, elevation: 7.0, ..View::default() };
     let mut sheet = Sheet::new("The gallery", &format!("{}.", summary.sentence()), view);
+    sheet.scales.push(Scale {
+        label: "distortion".into(),
+        minimum: DISTORTION[0],
+        maximum: DISTORTION[1],
+        logarithmic: true,
+        map: "heat".into(),
+    });
     let mut columns = vec![Column::new(&mut sheet, &closet.mannequin, MANNEQUIN)];
-    sheet.columns.push(Heading { label: "mannequin".into(), note: "as designed".into(), reference: None });
+    sheet.columns.push(Heading { label: "Mannequin".into(), note: "as designed".into(), reference: None });
     for (avatar, body) in &closet.avatars {
         columns.push(Column::new(&mut sheet, body, BODY));
-        sheet.columns.push(Heading { label: words(avatar.name()), ..Heading::default() });
+        sheet.columns.push(Heading { label: heading(avatar.name()), ..Heading::default() });
     }
-    sheet.rows.push(Heading { label: "undressed".into(), ..Heading::default() });
+    sheet.rows.push(Heading { label: "Undressed".into(), ..Heading::default() });
     for (column, body) in columns.iter().enumerate() {
         sheet.cells.push(Cell { column, layers: body.layers(None), ..Cell::default() });
     }
     for (row, (garment, worn)) in (1..).zip(&closet.garments) {
         let note = format!("{} vertices", worn.mesh.positions.len());
-        sheet.rows.push(Heading { label: words(garment.name()), note, reference: Some(0) });
+        sheet.rows.push(Heading { label: heading(garment.name()), note, reference: Some(0) });
         let mesh = sheet.add_mesh(&positions(&worn.mesh), &worn.mesh.triangles);
         let design = surface(Role::Garment, mesh, colour(*garment), 70.0);
         sheet.cells.push(Cell { row, layers: columns[0].layers(Some(design)), ..Cell::default() });
@@ -82,10 +91,14 @@ pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet 
                 Some(error) => cell.message = Some(error.clone()),
                 None => {
                     let mesh = sheet.add_mesh(&outcome.positions, &worn.mesh.triangles);
-                    let garment = surface(Role::Garment, mesh, colour(*garment), 70.0);
+                    let mut garment = surface(Role::Garment, mesh, colour(*garment), 70.0);
+                    let array = sheet.add_floats(&outcome.distortions);
+                    if let Layer::Surface { values, .. } = &mut garment {
+                        *values = Some(Values { array, scale: 0, shown: false });
+                    }
                     cell.layers = columns[column].layers(Some(garment));
                     let [inflate, fit] = outcome.iterations;
-                    cell.caption = format!("{:.1} s · {inflate} + {fit} iterations", outcome.seconds);
+                    cell.caption = format!("{:.1} s\n{inflate} + {fit} iterations", outcome.seconds);
                 }
             }
             sheet.cells.push(cell);
@@ -103,7 +116,9 @@ fn positions(mesh: &mesh::Mesh) -> Vec<[f32; 3]> {
     mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
 }
 
-/// A name as people write it.
-fn words(name: &str) -> String {
-    name.replace('-', " ")
+/// A name as a heading.
+fn heading(name: &str) -> String {
+    let words = name.replace('-', " ");
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

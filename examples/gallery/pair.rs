@@ -34,11 +34,16 @@ pub struct Outcome {
     pub converged: bool,
     /// Smallest distance of the garment to itself and to the avatar; none where it is beyond d-hat.
     pub distances: [Option<f64>; 2],
+    /// Mean and maximum over the garment's triangles; no unit, 0 for any similarity of the design. None without a result.
+    pub distortion: Option<[f64; 2]>,
     /// Vertices of garment and avatar.
     pub vertices: [usize; 2],
     /// The garment on the avatar, in the avatar's space; empty without a result.
     #[serde(skip)]
     pub positions: Vec<[f32; 3]>,
+    /// The distortion of each triangle; empty without a result.
+    #[serde(skip)]
+    pub distortions: Vec<f32>,
 }
 
 impl Outcome {
@@ -68,7 +73,9 @@ pub fn dress(
         converged: false,
         distances: [None; 2],
         vertices: [&garment.mesh, &body.mesh].map(|mesh| mesh.positions.len()),
+        distortion: None,
         positions: Vec::new(),
+        distortions: Vec::new(),
     };
     let clock = Instant::now();
     let ran = catch_unwind(AssertUnwindSafe(|| run(garment, body, mannequin, options, &mut outcome)))
@@ -95,6 +102,10 @@ fn run(
     outcome.converged = report.converged;
     outcome.distances = [report.min_distance_self, report.min_distance_avatar].map(|d| d.is_finite().then_some(d));
     ended?;
+    let distortion = session.distortion()?;
+    let mean = distortion.iter().sum::<f64>() / distortion.len().max(1) as f64;
+    outcome.distortion = Some([mean, distortion.iter().copied().fold(0.0, f64::max)]);
+    outcome.distortions = distortion.into_iter().map(|d| d as f32).collect();
     outcome.positions = session.garment_as_read(Precision::F32)?.into_iter().map(|p| p.as_vec3().to_array()).collect();
     Ok(())
 }

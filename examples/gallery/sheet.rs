@@ -66,7 +66,7 @@ pub struct View {
 pub struct Cell {
     pub column: usize,
     pub row: usize,
-    /// Below the picture.
+    /// Below the picture, in as many lines as it has.
     pub caption: String,
     /// Shown instead of a picture: why there is none.
     pub message: Option<String>,

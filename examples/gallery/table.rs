@@ -40,7 +40,7 @@ pub fn markdown(outcomes: &[Outcome], summary: &Summary) -> String {
         let _ = writeln!(text, "| {} | {} | {} |", outcome.garment, outcome.avatar, values.join(" | "));
     }
     text += "\nIntersections are pairs of triangles: of the garment, and of garment and avatar. The gaps are the smallest \
-             distances, where a skeleton is 2 long.\n";
+             distances, where a skeleton is 2 long. The distortion is 0 for a scaled design, over all triangles.\n";
     for outcome in outcomes {
         if let Some(error) = &outcome.error {
             let _ = writeln!(text, "\n{} on {}: {error}", outcome.garment, outcome.avatar);
@@ -87,6 +87,10 @@ pub fn figures(outcome: &Outcome) -> Vec<[String; 2]> {
         ("iterations (inflate + fit)", format!("{inflate} + {fit}")),
         ("gap to itself", gap(outcome.distances[0])),
         ("gap to the avatar", gap(outcome.distances[1])),
+        (
+            "distortion (mean, max)",
+            outcome.distortion.map_or("-".into(), |[mean, most]| format!("{mean:.3}, {most:.2}")),
+        ),
         ("ended", ended.to_string()),
     ]
     .map(|(name, value)| [name.to_string(), value])

@@ -86,6 +86,8 @@ fn every_pair_of_the_slice_is_verified() {
         assert_eq!(o.error, None, "{} on {}", o.garment, o.avatar);
         assert!(o.is_verified(), "{o:?}");
         assert_eq!(o.t, 1.0);
+        let [mean, most] = o.distortion.unwrap();
+        assert!(0.0 < mean && mean < most && most.is_finite(), "distortion {mean}, at most {most}");
         assert!(o.converged, "{} on {} did not converge", o.garment, o.avatar);
         // What is kept is what was verified: judged once more, as 32-bit positions and apart from the session.
         let (worn, body) = CLOSET.samples(o);
@@ -131,13 +133,16 @@ fn the_sheet_holds_the_numbers_of_all_pairs() {
     let sheet = &files.sheet;
     assert_eq!(sheet.format, FORMAT);
     let labels: Vec<&str> = sheet.columns.iter().chain(&sheet.rows).map(|h| h.label.as_str()).collect();
-    assert_eq!(labels, ["mannequin", "child", "giant", "skeleton", "undressed", "jumpsuit", "skirt", "vest"]);
+    assert_eq!(labels, ["Mannequin", "Child", "Giant", "Skeleton", "Undressed", "Jumpsuit", "Skirt", "Vest"]);
     assert_eq!(sheet.cells.len(), 16);
     for cell in &sheet.cells {
-        let mut garments = Vec::new();
+        let (mut garments, mut distortions) = (Vec::new(), Vec::new());
         for layer in &cell.layers {
             match layer {
-                Layer::Surface { role: sheet::Role::Garment, mesh, .. } => garments.push(sheet.meshes[*mesh]),
+                Layer::Surface { role: sheet::Role::Garment, mesh, values, .. } => {
+                    garments.push(sheet.meshes[*mesh]);
+                    distortions.extend(*values);
+                }
                 Layer::Surface { mesh, .. } => {
                     let mesh = sheet.meshes[*mesh];
                     let vertices = files.floats(mesh.positions).len() as u32 / 3;
@@ -154,6 +159,8 @@ fn the_sheet_holds_the_numbers_of_all_pairs() {
             let o = &OUTCOMES[3 * (cell.row - 1) + cell.column - 1];
             let (worn, _) = CLOSET.samples(o);
             assert_eq!(files.floats(garments[0].positions), o.positions.as_flattened());
+            assert_eq!(o.distortions.len(), worn.mesh.triangles.len());
+            assert_eq!(files.floats(distortions[0].array), o.distortions);
             assert_eq!(files.indices(garments[0].triangles), worn.mesh.triangles.as_flattened());
             assert_eq!(cell.figures, table::figures(o));
         }

@@ -2,11 +2,11 @@
 
 import { access, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { delimiter, join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const PLACES = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const NAMES = ["chromium", "chromium-browser", "google-chrome"];
 
 const FLAGS = [
     "--use-angle=swiftshader",
@@ -21,7 +21,9 @@ const FLAGS = [
 ];
 
 async function executable() {
-    for (const path of [process.env.CHROMIUM, ...PLACES]) {
+    const folders = (process.env.PATH ?? "").split(delimiter);
+    const places = NAMES.flatMap((name) => folders.map((folder) => join(folder, name)));
+    for (const path of [process.env.CHROMIUM, ...places]) {
         if (path && (await access(path).then(() => true, () => false))) return path;
     }
     throw new Error("there is no Chromium; install it (Debian: apt-get install chromium) or set CHROMIUM to its path");

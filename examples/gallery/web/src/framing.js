@@ -34,6 +34,7 @@ export function extent(arrays, view) {
             ground = Math.min(ground, points[i + 2]);
         }
     }
+    // Of nothing, so that something can be computed with.
     if (ground === Infinity) return { low: [-1, -1, -1], high: [1, 1, 1], ground: 0 };
     return { low, high, ground };
 }
@@ -58,26 +59,50 @@ export function pointAt(view, [x, y, z]) {
     return new THREE.Vector3().addScaledVector(right, x).addScaledVector(up, y).addScaledVector(back, z);
 }
 
-/**
- * For each column of a sheet: its width in pixels where cells are `height` pixels high, how many metres a cell shows, and
- * what is in the middle.
- */
-export function columns(sheet, height) {
-    const boxes = sheet.columns.map((_, column) => {
-        const cells = sheet.cells.filter((cell) => cell.column === column);
-        return extent(cells.flatMap((cell) => sheet.points(cell)), sheet.view);
-    });
-    const [tall, wide] = [1, 0].map((k) => boxes.map(({ low, high }) => (1 + 2 * MARGIN) * (high[k] - low[k])));
-    const tallest = Math.max(...tall);
-    return boxes.map(({ low, high, ground }, column) => {
-        const metres = tallest ** (1 - sheet.evenness) * tall[column] ** sheet.evenness;
-        const middle = [
-            (low[0] + high[0]) / 2,
-            // Feet are at one height in all cells.
-            low[1] - (tall[column] - (high[1] - low[1])) / 2 + metres / 2,
-            (low[2] + high[2]) / 2,
-        ];
-        const width = Math.round(Math.max((height * wide[column]) / metres, 0.22 * height));
-        return { width, metres, centre: pointAt(sheet.view, middle), ground };
-    });
+/** The middle of a box. */
+function middleOf({ low, high }) {
+    return [0, 1, 2].map((k) => (low[k] + high[k]) / 2);
+}
+
+/** The frames of all cells of a sheet, which are so many pixels high. */
+export class Framing {
+    constructor(sheet, height) {
+        this.sheet = sheet;
+        this.height = height;
+        // Cells of a column that are seen in one way share a box.
+        this.boxes = sheet.columns.map(() => new Map());
+        const key = (cell) => JSON.stringify(cell.view ?? sheet.view);
+        sheet.columns.forEach((_, column) => {
+            const cells = sheet.cells.filter((cell) => cell.column === column && cell.layers.length > 0);
+            for (const view of new Set(cells.map(key))) {
+                const points = cells.filter((cell) => key(cell) === view).flatMap((cell) => sheet.points(cell));
+                this.boxes[column].set(view, extent(points, JSON.parse(view)));
+            }
+        });
+        this.box = (cell) => this.boxes[cell.column].get(key(cell));
+        const [wide, tall] = [0, 1].map((k) => this.boxes.map((boxes) => this.largest(boxes, k)));
+        const tallest = Math.max(...tall);
+        this.metres = tall.map((own) => tallest ** (1 - sheet.evenness) * own ** sheet.evenness);
+        this.widths = wide.map((own, c) => Math.round(Math.max((height * own) / this.metres[c], 0.22 * height)));
+    }
+
+    /** The largest extent of a column along an axis; cells that say themselves how much they show do not count. */
+    largest(boxes, axis) {
+        const all = [...boxes].map(([view, { low, high }]) => [JSON.parse(view), high[axis] - low[axis]]);
+        const free = all.filter(([view]) => view.height == null);
+        return (1 + 2 * MARGIN) * Math.max(...(free.length ? free : all).map(([, extent]) => extent), 1e-6);
+    }
+
+    /** How a cell is seen. */
+    of(cell) {
+        const view = cell.view ?? this.sheet.view;
+        const [box, column] = [this.box(cell), cell.column];
+        const aspect = this.widths[column] / this.height;
+        const metres = view.height ?? this.metres[column];
+        const middle = middleOf(box);
+        // Feet are at one height in all cells.
+        if (view.height == null) middle[1] = box.low[1] + (0.5 - MARGIN / (1 + 2 * MARGIN)) * metres;
+        const centre = view.centre ? new THREE.Vector3(...view.centre) : pointAt(view, middle);
+        return { view, aspect, metres, centre, ground: box.ground };
+    }
 }

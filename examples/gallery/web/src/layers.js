@@ -37,6 +37,18 @@ function edges(triangles, vertices) {
     return pairs;
 }
 
+/** Whether each edge has two sides: nothing is seen of the inside. */
+function isClosed(triangles, vertices) {
+    const open = new Set();
+    for (let t = 0; t < triangles.length; t += 3) {
+        for (let k = 0; k < 3; k++) {
+            const [a, b] = [triangles[t + k], triangles[t + ((k + 1) % 3)]];
+            if (!open.delete(b * vertices + a)) open.add(a * vertices + b);
+        }
+    }
+    return open.size === 0;
+}
+
 function wires(positions, triangles) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
@@ -46,9 +58,9 @@ function wires(positions, triangles) {
 }
 
 /** Cloth is matte with a soft rim; bodies are matte. */
-function material(layer, coloured) {
+function material(layer, coloured, closed) {
     const common = {
-        side: THREE.DoubleSide,
+        side: closed ? THREE.FrontSide : THREE.DoubleSide,
         shadowSide: THREE.DoubleSide,
         vertexColors: coloured,
         color: coloured ? "#ffffff" : layer.colour,
@@ -76,7 +88,8 @@ function surface(sheet, layer, { values, wireframe }) {
         const colours = triangleColours(sheet.floats(layer.values.array), sheet.scales[layer.values.scale]);
         geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
     }
-    const solid = new THREE.Mesh(geometry, material(layer, Boolean(coloured)));
+    const closed = isClosed(triangles, positions.length / 3);
+    const solid = new THREE.Mesh(geometry, material(layer, Boolean(coloured), closed));
     solid.castShadow = solid.receiveShadow = layer.opacity === 1;
     const group = new THREE.Group().add(solid);
     if (layer.wireframe || wireframe) group.add(wires(positions, triangles));

@@ -8,7 +8,7 @@ import { Viewer } from "./viewer.js";
 
 /** `#row/column`, as words. */
 function address(sheet, cell) {
-    const word = (heading) => heading.label.replaceAll(" ", "-");
+    const word = (heading) => heading.label.toLowerCase().replaceAll(" ", "-");
     return `#${word(sheet.rows[cell.row])}/${word(sheet.columns[cell.column])}`;
 }
 
@@ -20,7 +20,8 @@ function picture(thumbnail, name) {
 
 function button(sheet, cell, thumbnail, open) {
     const name = [sheet.rows[cell.row].label, sheet.columns[cell.column].label].join(" on ");
-    const made = el("button", { type: "button", "aria-label": name, title: cell.message ?? name });
+    const figures = cell.figures.map(([figure, value]) => `\n${figure}: ${value}`).join("");
+    const made = el("button", { type: "button", "aria-label": name, title: cell.message ?? name + figures });
     made.append(picture(thumbnail, name), el("span", { class: "name" }, sheet.columns[cell.column].label));
     if (cell.caption) made.append(el("span", { class: "caption" }, cell.caption));
     made.addEventListener("click", () => open(cell));
@@ -59,7 +60,7 @@ function start() {
     const viewer = new Viewer(sheet, {
         opened: (cell) => history.replaceState(null, "", address(sheet, cell)),
         closed: (cell) => {
-            history.replaceState(null, "", location.pathname + location.search);
+            history.replaceState(null, "", "#");
             buttons.get(cell)?.focus();
         },
     });

@@ -4,10 +4,9 @@ import "./base.css";
 import "./sheet.css";
 import { legend } from "./colours.js";
 import { readSheet } from "./data.js";
-import { camera, columns, extent, pointAt } from "./framing.js";
+import { Framing, camera, extent, pointAt } from "./framing.js";
 import { cellObject, dispose } from "./layers.js";
 import { Studio } from "./studio.js";
-import * as THREE from "three";
 
 /** Pixels of a cell. */
 const HEIGHT = 340;
@@ -29,13 +28,13 @@ function heading(className, { label, note }) {
 }
 
 /** The grid with an empty canvas for each cell. */
-function layOut(sheet, frames) {
+function layOut(sheet, widths) {
     const main = document.querySelector("main");
     const header = element("header", "");
     header.append(element("h1", "", sheet.title), element("p", "", sheet.subtitle));
     const grid = element("div", "grid");
     const labelled = sheet.rows.some((row) => row.label);
-    grid.style.gridTemplateColumns = [labelled ? "7.5rem" : "0", ...frames.map((frame) => `${frame.width}px`)].join(" ");
+    grid.style.gridTemplateColumns = [labelled ? "7.5rem" : "0", ...widths.map((width) => `${width}px`)].join(" ");
     grid.append(element("div", ""), ...sheet.columns.map((column) => heading("column", column)));
     const canvases = new Map();
     sheet.rows.forEach((row, r) => {
@@ -47,8 +46,8 @@ function layOut(sheet, frames) {
             if (!cell) return;
             const canvas = element("canvas", "");
             const ratio = devicePixelRatio;
-            [canvas.width, canvas.height] = [frames[c].width * ratio, HEIGHT * ratio].map(Math.round);
-            [canvas.style.width, canvas.style.height] = [`${frames[c].width}px`, `${HEIGHT}px`];
+            [canvas.width, canvas.height] = [widths[c] * ratio, HEIGHT * ratio].map(Math.round);
+            [canvas.style.width, canvas.style.height] = [`${widths[c]}px`, `${HEIGHT}px`];
             place.append(canvas);
             if (cell.message) place.append(element("p", "message", cell.message));
             place.append(element("p", "caption", cell.caption));
@@ -64,29 +63,18 @@ function layOut(sheet, frames) {
     return canvases;
 }
 
-/** How a cell is seen: as its column, or as it says itself. */
-function frameOf(sheet, cell, frame) {
-    const aspect = frame.width / HEIGHT;
-    if (!cell.view) return { view: sheet.view, aspect, ...frame };
-    const box = extent(sheet.points(cell), cell.view);
-    const middle = pointAt(cell.view, [0, 1, 2].map((k) => (box.low[k] + box.high[k]) / 2));
-    const fitting = 1.1 * Math.max(box.high[1] - box.low[1], (box.high[0] - box.low[0]) / aspect);
-    const centre = cell.view.centre ? new THREE.Vector3(...cell.view.centre) : middle;
-    return { view: cell.view, aspect, centre, metres: cell.view.height ?? fitting, ground: frame.ground };
-}
-
 async function start() {
     const sheet = await readSheet();
     const studio = new Studio();
-    const frames = columns(sheet, HEIGHT);
-    const canvases = layOut(sheet, frames);
+    const framing = new Framing(sheet, HEIGHT);
+    const canvases = layOut(sheet, framing.widths);
     await document.fonts.ready;
 
     const draw = (index) => {
         const cell = sheet.cells[index];
         if (cell.layers.length === 0) return;
         const canvas = canvases.get(cell);
-        const { view, aspect, centre, metres, ground } = frameOf(sheet, cell, frames[cell.column]);
+        const { view, aspect, centre, metres, ground } = framing.of(cell);
         const box = extent(sheet.points(cell), view);
         const radius = 0.5 * Math.hypot(...box.high.map((high, k) => high - box.low[k]));
         const middle = pointAt(view, [0, 1, 2].map((k) => (box.low[k] + box.high[k]) / 2));
@@ -104,7 +92,7 @@ async function start() {
             column: cell.column,
             row: cell.row,
             picture: cell.layers.length ? canvases.get(cell).toDataURL("image/webp", 0.88) : null,
-            size: [frames[cell.column].width, HEIGHT],
+            size: [framing.widths[cell.column], HEIGHT],
         }));
     window.sheet = { count: sheet.cells.length, draw, thumbnails };
 }

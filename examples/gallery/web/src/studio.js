@@ -14,13 +14,13 @@ export class Studio {
         this.renderer.shadowMap.type = THREE.VSMShadowMap;
         this.scene = new THREE.Scene();
         this.scene.environment = this.surroundings();
-        this.scene.environmentIntensity = 0.5;
+        this.scene.environmentIntensity = 0.42;
         // The room of the reflections has y up.
         this.scene.environmentRotation.set(Math.PI / 2, 0, 0);
-        this.scene.add(new THREE.HemisphereLight("#ffffff", "#b9aea0", 0.55));
+        this.scene.add(new THREE.HemisphereLight("#ffffff", "#a89c8d", 0.5));
         this.lamp = this.lampWithShadow();
         this.scene.add(this.lamp, this.lamp.target);
-        this.ground = new THREE.Mesh(new THREE.CircleGeometry(1, 64), new THREE.ShadowMaterial({ opacity: 0.2 }));
+        this.ground = new THREE.Mesh(new THREE.CircleGeometry(1, 64), new THREE.ShadowMaterial({ opacity: 0.17 }));
         this.ground.receiveShadow = true;
         this.scene.add(this.ground);
     }
@@ -37,19 +37,19 @@ export class Studio {
     }
 
     lampWithShadow() {
-        const lamp = new THREE.DirectionalLight("#fff6ea", 2.1);
+        const lamp = new THREE.DirectionalLight("#fff6ea", 2.3);
         lamp.castShadow = true;
         lamp.shadow.mapSize.set(1024, 1024);
-        lamp.shadow.radius = 5;
-        lamp.shadow.blurSamples = 12;
+        lamp.shadow.radius = 9;
+        lamp.shadow.blurSamples = 14;
         lamp.shadow.bias = -0.0006;
         return lamp;
     }
 
     /** Lights a ball around `centre`, from the left of a viewer at `azimuth` degrees; the ground is at height `ground`. */
     light(centre, radius, ground, azimuth) {
-        const angle = ((azimuth - 38) * Math.PI) / 180;
-        const towards = new THREE.Vector3(Math.sin(angle), -Math.cos(angle), 1.25).normalize();
+        const angle = ((azimuth - 32) * Math.PI) / 180;
+        const towards = new THREE.Vector3(Math.sin(angle), -Math.cos(angle), 2).normalize();
         this.lamp.position.copy(centre).addScaledVector(towards, 3 * radius);
         this.lamp.target.position.copy(centre);
         const seen = this.lamp.shadow.camera;

@@ -33,7 +33,7 @@ export class Viewer {
         this.element.addEventListener("close", () => this.closed());
         this.element.addEventListener("keydown", (event) => {
             const step = STEPS[event.key];
-            if (!step || event.target.matches("input") && event.key === "") return;
+            if (!step) return;
             event.preventDefault();
             this.go(step);
         });
@@ -99,7 +99,7 @@ export class Viewer {
         const { rows, columns, scales } = this.header;
         const { cell } = this;
         const [row, column] = [rows[cell.row], columns[cell.column]];
-        this.title.replaceChildren(el("strong", {}, row.label), " ", el("span", {}, column.label));
+        this.title.replaceChildren(el("strong", {}, row.label), " ", el("span", {}, column.label.toLowerCase()));
         const figures = cell.figures.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]);
         this.figures.replaceChildren(...figures);
         this.message.textContent = cell.message ?? "";
