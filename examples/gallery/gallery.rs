@@ -12,7 +12,7 @@ const BODY: &str = "#cdc5ba";
 const MANNEQUIN: &str = "#e4dfd7";
 const BONE: &str = "#c2452d";
 /// What differs by less than this from its design looks undistorted, and by more than that all the same.
-const DISTORTION: [f64; 2] = [1e-3, 1.0];
+const DISTORTION: [f64; 2] = [1e-4, 1e-1];
 
 /// One colour a garment.
 fn colour(garment: Garment) -> &'static str {

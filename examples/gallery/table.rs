@@ -89,7 +89,7 @@ pub fn figures(outcome: &Outcome) -> Vec<[String; 2]> {
         ("gap to the avatar", gap(outcome.distances[1])),
         (
             "distortion (mean, max)",
-            outcome.distortion.map_or("-".into(), |[mean, most]| format!("{mean:.3}, {most:.2}")),
+            outcome.distortion.map_or("-".into(), |[mean, most]| format!("{mean:.1e}, {most:.1e}")),
         ),
         ("ended", ended.to_string()),
     ]

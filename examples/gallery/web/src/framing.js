@@ -4,6 +4,8 @@ import * as THREE from "three";
 
 /** A long lens: bodies look as they are built. */
 const FIELD = 14;
+/** Metres seen at a distance of one. */
+export const SLOPE = 2 * Math.tan((FIELD * Math.PI) / 360);
 /** Free space around bodies, of their height. */
 const MARGIN = 0.05;
 
@@ -42,7 +44,7 @@ export function extent(arrays, view) {
 /** A camera that sees `height` metres around `centre`. */
 export function camera(view, centre, height, aspect) {
     const { up, back } = axes(view);
-    const distance = height / 2 / Math.tan((FIELD * Math.PI) / 360);
+    const distance = height / SLOPE;
     const seen = new THREE.PerspectiveCamera(FIELD, aspect, distance / 10, distance * 4);
     seen.up.set(0, 0, 1);
     seen.position.copy(centre).addScaledVector(back, distance);

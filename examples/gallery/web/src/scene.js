@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { camera, extent, pointAt } from "./framing.js";
+import { SLOPE, camera, extent, pointAt } from "./framing.js";
 import { cellObject, dispose } from "./layers.js";
 import { Studio } from "./studio.js";
 
@@ -16,7 +16,7 @@ export class Scene {
         new ResizeObserver(() => this.resize()).observe(element);
     }
 
-    /** Shows cells side by side; `fresh` looks at them as the sheet does, else the camera stays where it is. */
+    /** Shows cells side by side; `fresh` moves the camera so that all is seen, else it stays where it is. */
     show(sheet, cells, options, fresh) {
         dispose(this.object);
         this.object = new THREE.Group();
@@ -59,12 +59,20 @@ export class Scene {
         return Number.isFinite(top) ? top / 2 : 0;
     }
 
-    /** The camera as in the sheet, near enough to fill the place. */
+    /** Forgets how it was turned. */
+    reset() {
+        this.controls?.dispose();
+        this.controls = this.camera = null;
+    }
+
+    /** The camera near enough to fill the place: turned as it was, at first as in the sheet. */
     look() {
         const { view, width, height, centre } = this.frame;
         const aspect = this.aspect();
         const metres = 1.16 * Math.max(height, width / aspect);
+        const turned = this.controls && this.camera.position.clone().sub(this.controls.target).normalize();
         this.camera = camera(view, centre, metres, aspect);
+        if (turned) this.camera.position.copy(centre).addScaledVector(turned, metres / SLOPE);
         const distance = this.camera.position.distanceTo(centre);
         [this.camera.near, this.camera.far] = [0.05 * distance, 6 * distance];
         this.controls?.dispose();

@@ -79,7 +79,12 @@ export class Viewer {
         // The meshes are unpacked when somebody wants to see one.
         this.loading ??= readSheet();
         this.sheet = await this.loading;
-        this.scene ??= new Scene(this.stage);
+        try {
+            this.scene ??= new Scene(this.stage);
+        } catch (error) {
+            this.message.textContent = `This browser cannot draw it: ${error.message}`;
+            return;
+        }
         this.show(true);
     }
 
@@ -117,7 +122,7 @@ export class Viewer {
         this.legend.replaceChildren(...legends);
     }
 
-    /** Draws the cell; `fresh` looks at it from the front again. */
+    /** Draws the cell; `fresh` makes all of it seen. */
     show(fresh) {
         this.tell();
         const { cell, sheet, options } = this;
@@ -134,6 +139,7 @@ export class Viewer {
     }
 
     closed() {
+        this.scene?.reset();
         this.events.closed(this.cell);
     }
 }
