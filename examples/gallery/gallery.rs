@@ -8,8 +8,8 @@ use crate::pair::Outcome;
 use crate::sheet::{Cell, Heading, Layer, Role, Scale, Sheet, Values, View};
 use crate::table::{Summary, figures};
 
-const BODY: &str = "#cdc5ba";
-const MANNEQUIN: &str = "#e4dfd7";
+const BODY: &str = "#c0b7ab";
+const MANNEQUIN: &str = "#d9d3ca";
 const BONE: &str = "#c2452d";
 /// What differs by less than this from its design looks undistorted, and by more than that all the same.
 const DISTORTION: [f64; 2] = [1e-4, 1e-1];
@@ -60,6 +60,8 @@ impl Column {
 pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet {
     let view = View { azimuth: 24.0, elevation: 7.0, ..View::default() };
     let mut sheet = Sheet::new("The gallery", &format!("{}.", summary.sentence()), view);
+    // A giant is larger than a child, but not so much that nothing of the child is seen.
+    sheet.evenness = 0.4;
     sheet.scales.push(Scale {
         label: "distortion".into(),
         minimum: DISTORTION[0],
@@ -81,7 +83,7 @@ pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet 
         let note = format!("{} vertices", worn.mesh.positions.len());
         sheet.rows.push(Heading { label: heading(garment.name()), note, reference: Some(0) });
         let mesh = sheet.add_mesh(&positions(&worn.mesh), &worn.mesh.triangles);
-        let design = surface(Role::Garment, mesh, colour(*garment), 70.0);
+        let design = surface(Role::Garment, mesh, colour(*garment), 110.0);
         sheet.cells.push(Cell { row, layers: columns[0].layers(Some(design)), ..Cell::default() });
         for (column, (avatar, _)) in (1..).zip(&closet.avatars) {
             let of_pair = |o: &&Outcome| o.garment == garment.name() && o.avatar == avatar.name();
@@ -91,7 +93,7 @@ pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet 
                 Some(error) => cell.message = Some(error.clone()),
                 None => {
                     let mesh = sheet.add_mesh(&outcome.positions, &worn.mesh.triangles);
-                    let mut garment = surface(Role::Garment, mesh, colour(*garment), 70.0);
+                    let mut garment = surface(Role::Garment, mesh, colour(*garment), 110.0);
                     let array = sheet.add_floats(&outcome.distortions);
                     if let Layer::Surface { values, .. } = &mut garment {
                         *values = Some(Values { array, scale: 0, shown: false });

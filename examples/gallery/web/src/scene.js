@@ -104,7 +104,7 @@ export class Scene {
         this.waiting = requestAnimationFrame(() => {
             this.waiting = 0;
             const { clientWidth, clientHeight } = this.element;
-            if (clientWidth === 0 || clientHeight === 0) return;
+            if (!this.camera || clientWidth === 0 || clientHeight === 0) return;
             this.studio.draw(this.object, this.camera, clientWidth, clientHeight, Math.min(devicePixelRatio, 2));
             this.controls.update();
         });

@@ -27,6 +27,17 @@ function heading(className, { label, note }) {
     return made;
 }
 
+/** Lets shadows that leave the cell end softly. */
+function fadeSides(context, { width, height }) {
+    const gradient = context.createLinearGradient(0, 0, width, 0);
+    const stops = { 0: 0, 0.03: 1, 0.97: 1, 1: 0 };
+    for (const [at, alpha] of Object.entries(stops)) gradient.addColorStop(Number(at), `rgb(0 0 0 / ${alpha})`);
+    context.globalCompositeOperation = "destination-in";
+    context.fillStyle = gradient;
+    context.fillRect(0, 0, width, height);
+    context.globalCompositeOperation = "source-over";
+}
+
 /** The grid with an empty canvas for each cell. */
 function layOut(sheet, widths) {
     const main = document.querySelector("main");
@@ -86,6 +97,7 @@ async function start() {
         const context = canvas.getContext("2d");
         context.imageSmoothingQuality = "high";
         context.drawImage(studio.canvas, 0, 0, canvas.width, canvas.height);
+        if (!cell.view?.height) fadeSides(context, canvas);
     };
     const thumbnails = () =>
         sheet.cells.map((cell) => ({

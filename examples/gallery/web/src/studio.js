@@ -48,7 +48,7 @@ export class Studio {
 
     /** Lights a ball around `centre`, from the left of a viewer at `azimuth` degrees; the ground is at height `ground`. */
     light(centre, radius, ground, azimuth) {
-        const angle = ((azimuth - 32) * Math.PI) / 180;
+        const angle = ((azimuth - 22) * Math.PI) / 180;
         const towards = new THREE.Vector3(Math.sin(angle), -Math.cos(angle), 2).normalize();
         this.lamp.position.copy(centre).addScaledVector(towards, 3 * radius);
         this.lamp.target.position.copy(centre);
