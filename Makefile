@@ -1,5 +1,6 @@
 # make        build/retarget and build/libbespoke.so
 # make demo   makes a sample, dresses two bodies in it and says what came out
+# make gallery  dresses all bodies of the closet in all its garments: build/gallery/index.html, sheet.png, pairs.md
 # make test   every test
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
@@ -8,7 +9,7 @@
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
-# As root, `demo` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+# As root, `demo`, `gallery` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
 
 CC = cc
 CFLAGS = -O2 -g
@@ -47,6 +48,21 @@ demo: dependencies
 	$(MAKE) build/retarget
 	cargo run --release --example closet -- $(SAMPLE)
 	sh examples_c/demo.sh build/retarget $(SAMPLE)
+
+# GALLERY: options of the program, such as '--avatars child,giant --keep'. Pictures are made of what there is, also where
+# a pair has failed.
+WEB = examples/gallery/web
+.PHONY: gallery
+gallery: dependencies
+	sh .ci/dependencies chromium node npm
+	$(MAKE) $(WEB)/node_modules/.package-lock.json
+	cargo run --release --example gallery -- --out build/gallery $(GALLERY); ended=$$?; \
+	[ $$ended -le 1 ] || exit $$ended; \
+	node $(WEB)/render.mjs build/gallery/sheet.json build/gallery/sheet.png --page build/gallery/index.html || exit 2; \
+	exit $$ended
+
+$(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.json
+	cd $(WEB) && npm ci --ignore-scripts --no-audit --no-fund
 
 # The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
 # so that nothing is built twice.
