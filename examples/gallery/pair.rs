@@ -111,7 +111,7 @@ fn run(
 }
 
 /// A session with all its inputs set.
-fn session(garment: &Sample, body: &Sample, mannequin: Option<&Sample>, options: &Options) -> Result<Session> {
+pub fn session(garment: &Sample, body: &Sample, mannequin: Option<&Sample>, options: &Options) -> Result<Session> {
     let mut session = Session::new();
     session.set_options(options.clone())?;
     session.set_garment(mesh(&garment.mesh), Precision::F32)?;
@@ -134,7 +134,7 @@ fn session(garment: &Sample, body: &Sample, mannequin: Option<&Sample>, options:
 }
 
 /// The mesh as a caller reads it who stores 32-bit positions.
-fn mesh(mesh: &Mesh) -> TriangleMesh {
+pub fn mesh(mesh: &Mesh) -> TriangleMesh {
     let positions = mesh.positions.iter().map(|&p| Precision::F32.round(p)).collect();
     TriangleMesh { positions, triangles: mesh.triangles.clone() }
 }

@@ -1,0 +1,61 @@
+//! A garment put on a body, perhaps over others.
+
+use bespoke::input::mesh::TriangleMesh;
+use bespoke::options::Options;
+use bespoke::session::{Precision, Report};
+
+use crate::figure::Outcome;
+use crate::generator::Sample;
+use crate::pair;
+
+/// A garment on a body, verified.
+pub struct Dressed {
+    /// As a caller with 32-bit coordinates reads it.
+    pub mesh: TriangleMesh,
+    /// Of each triangle.
+    pub distortion: Vec<f64>,
+    /// What the session has measured.
+    pub report: Report,
+}
+
+impl Dressed {
+    /// Positions for a sheet.
+    pub fn positions(&self) -> Vec<[f32; 3]> {
+        self.mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
+    }
+
+    /// Mean and largest distortion.
+    pub fn distortions(&self) -> [f64; 2] {
+        let mean = self.distortion.iter().sum::<f64>() / self.distortion.len().max(1) as f64;
+        [mean, self.distortion.iter().copied().fold(0.0, f64::max)]
+    }
+}
+
+/// Puts `garment` on `body`, which wears `layers` already. The fit aims at the looseness on the mannequin where that is
+/// given.
+pub fn dress(
+    garment: &Sample,
+    body: &Sample,
+    layers: &[TriangleMesh],
+    mannequin: Option<&Sample>,
+    options: &Options,
+) -> Outcome<Dressed> {
+    let run = || {
+        let mut session = pair::session(garment, body, mannequin, options)?;
+        layers.iter().try_for_each(|layer| session.add_layer(layer.clone()))?;
+        session.run()?;
+        Ok(Dressed {
+            mesh: TriangleMesh {
+                positions: session
+                    .garment_as_read(Precision::F32)?
+                    .into_iter()
+                    .map(|p| Precision::F32.round(p))
+                    .collect(),
+                triangles: garment.mesh.triangles.clone(),
+            },
+            distortion: session.distortion()?,
+            report: session.report(),
+        })
+    };
+    run().map_err(|error: bespoke::error::Error| error.message)
+}
