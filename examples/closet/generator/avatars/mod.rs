@@ -1,5 +1,9 @@
 //! The bodies to dress, and the mannequin.
 
+mod dinosaur;
+mod elemental;
+mod robot;
+
 use super::{Kind, Sample, sample};
 
 /// A body of the closet.
@@ -67,7 +71,10 @@ impl Avatar {
 pub fn avatar(avatar: Avatar) -> Sample {
     match avatar {
         Avatar::Heavy => sample(Kind::Heavy),
-        Avatar::LongArms | Avatar::Dinosaur | Avatar::TwoHeaded => sample(Kind::Creature),
+        Avatar::LongArms | Avatar::TwoHeaded => sample(Kind::Creature),
+        Avatar::Elemental => elemental::elemental(),
+        Avatar::Robot => robot::robot(),
+        Avatar::Dinosaur => dinosaur::dinosaur(),
         _ => sample(Kind::Mannequin),
     }
 }
