@@ -29,6 +29,7 @@ pub fn dinosaur() -> Sample {
     let field = field.finish();
     // Balls of finer triangles: centre, radius, edge length.
     let mut fine = vec![(j[NECK] + DVec3::new(0.0, -0.26, 0.09), 0.15, 0.0130)];
+    fine.extend(tail_line(j[ROOT]).last().map(|&tip| (tip, 0.02, 0.010)));
     for ([_, elbow, wrist], [_, _, ankle]) in ARMS.into_iter().zip(LEGS) {
         fine.push((j[wrist] + 0.05 * (j[wrist] - j[elbow]).normalize(), 0.08, 0.0145));
         fine.push((toes(j[ankle]), 0.10, 0.018));
@@ -98,8 +99,8 @@ fn trunk(field: &mut Field, skeleton: &Skeleton) {
     field.add(Shape::Ellipsoid { centre: belly, radii, rotation: turned }, 0.06, spine);
     for side in [1.0, -1.0] {
         let shoulder = skeleton.joints[ARMS[0][0]] * DVec3::new(side, 1.0, 1.0);
-        let breast = shoulder.lerp(neck, 0.45) + DVec3::new(0.0, -0.020, -0.085);
-        field.add(Shape::ellipsoid(breast, DVec3::new(0.070, 0.070, 0.072)), 0.05, Owner::Joint(WAIST));
+        let breast = shoulder.lerp(neck, 0.45) + DVec3::new(0.0, -0.010, -0.075);
+        field.add(Shape::ellipsoid(breast, DVec3::new(0.066, 0.058, 0.064)), 0.05, Owner::Joint(WAIST));
         let blade = shoulder - 0.05 * axis + DVec3::new(-side * 0.055, 0.050, 0.050);
         let radii = DVec3::new(0.062, 0.095, 0.055);
         field.add(

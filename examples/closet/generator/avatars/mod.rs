@@ -3,6 +3,7 @@
 mod dinosaur;
 mod elemental;
 mod robot;
+mod skeleton;
 
 use super::{Kind, Sample, sample};
 
@@ -72,6 +73,7 @@ pub fn avatar(avatar: Avatar) -> Sample {
     match avatar {
         Avatar::Heavy => sample(Kind::Heavy),
         Avatar::LongArms | Avatar::TwoHeaded => sample(Kind::Creature),
+        Avatar::Skeleton => skeleton::skeleton(),
         Avatar::Elemental => elemental::elemental(),
         Avatar::Robot => robot::robot(),
         Avatar::Dinosaur => dinosaur::dinosaur(),
