@@ -4,6 +4,7 @@
 #[path = "../../examples/closet/generator/mod.rs"]
 mod closet;
 mod distance;
+mod strange;
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::LazyLock;

@@ -155,16 +155,31 @@ impl Polyhedron {
         self
     }
 
-    /// The same solid without edges shorter than `shortest` metres: their ends become one, where it stays a solid.
+    /// The same solid without edges shorter than `shortest` metres and without faces that give triangles much thinner
+    /// than that: the ends of such an edge, or of such a face's shortest side, become one where it stays a solid.
     pub fn welded(mut self, shortest: f64) -> Self {
         loop {
-            let all = self.faces.iter().flat_map(|face| sides(&face.corners)).filter(|[v, w]| v < w);
-            let length = |[v, w]: [usize; 2]| self.points[v].distance(self.points[w]);
-            let mut short: Vec<_> = all.map(|side| (length(side), side)).filter(|edge| edge.0 < shortest).collect();
-            short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let Some(next) = short.into_iter().find_map(|(_, side)| self.joined(side)) else { return self };
+            let mut worst: Vec<(f64, [usize; 2])> = Vec::new();
+            for face in &self.faces {
+                let thin = self.triangles(&face.corners).into_iter().any(|t| self.height(t) < 0.1 * shortest);
+                let sides = sides(&face.corners).into_iter();
+                worst.extend(sides.map(|side| (self.length(side), side)).filter(|side| thin || side.0 < shortest));
+            }
+            worst.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let Some(next) = worst.into_iter().find_map(|(_, side)| self.joined(side)) else { return self };
             self = next;
         }
+    }
+
+    fn length(&self, [v, w]: [usize; 2]) -> f64 {
+        self.points[v].distance(self.points[w])
+    }
+
+    /// The height of a triangle over its longest side.
+    fn height(&self, [a, b, c]: [usize; 3]) -> f64 {
+        let longest = self.length([a, b]).max(self.length([b, c])).max(self.length([c, a]));
+        let [a, b, c] = [a, b, c].map(|v| self.points[v]);
+        (b - a).cross(c - a).length() / longest
     }
 
     /// The solid with the two ends of an edge as one; none if faces would touch along more than one edge.
