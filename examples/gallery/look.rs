@@ -39,7 +39,7 @@ pub fn distortion_scale() -> Scale {
 /// A mesh of `sheet`. Cloth is smooth, bodies have sharp edges.
 pub fn surface(role: Role, mesh: usize, colour: &str) -> Layer {
     let colour = colour.to_string();
-    let crease = if role == Role::Body { 50.0 } else { 180.0 };
+    let crease = if role == Role::Body { 50.0 } else { 110.0 };
     Layer::Surface { role, shown: true, mesh, colour, opacity: 1.0, wireframe: false, crease, values: None }
 }
 

@@ -14,6 +14,8 @@ mod generator;
 mod arguments;
 mod closet;
 mod gallery;
+#[allow(dead_code)]
+mod look;
 mod pair;
 mod progress;
 mod sheet;

@@ -6,6 +6,7 @@ mod avatars;
 mod closet;
 mod distance;
 mod garments;
+mod strange;
 
 use std::collections::{BTreeMap, HashSet};
 use std::sync::LazyLock;

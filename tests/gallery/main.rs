@@ -8,6 +8,8 @@ mod gallery;
 #[allow(dead_code)]
 #[path = "../../examples/closet/generator/mod.rs"]
 mod generator;
+#[path = "../../examples/gallery/look.rs"]
+mod look;
 #[path = "../../examples/gallery/pair.rs"]
 mod pair;
 #[path = "../../examples/gallery/sheet.rs"]

@@ -13,13 +13,16 @@ pub mod implicit;
 pub mod jacket;
 pub mod loft;
 pub mod mesh;
+pub mod parts;
 pub mod polygonize;
+pub mod polyhedron;
 pub mod random;
 pub mod remesh;
 pub mod skeleton;
 pub mod skin;
 pub mod surface;
 pub mod texture;
+pub mod tube;
 
 use body::Build;
 use glam::DVec3;

@@ -2,18 +2,22 @@
 
 mod child;
 mod clay;
+mod dinosaur;
+mod elemental;
 mod extremities;
 mod figure;
 mod giant;
 mod head;
 mod heavy;
 mod long_arms;
+mod robot;
+mod skeleton;
 mod slim;
 mod sweep;
 mod tall;
 mod two_headed;
 
-use super::{Kind, Sample, sample};
+use super::Sample;
 
 /// A body of the closet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +90,9 @@ pub fn avatar(avatar: Avatar) -> Sample {
         Avatar::Giant => giant::giant(),
         Avatar::LongArms => long_arms::long_arms(),
         Avatar::TwoHeaded => two_headed::two_headed(),
-        Avatar::Dinosaur => sample(Kind::Creature),
-        _ => sample(Kind::Mannequin),
+        Avatar::Skeleton => skeleton::skeleton(),
+        Avatar::Elemental => elemental::elemental(),
+        Avatar::Robot => robot::robot(),
+        Avatar::Dinosaur => dinosaur::dinosaur(),
     }
 }
