@@ -1,6 +1,8 @@
 # make        build/retarget and build/libbespoke.so
 # make demo   makes a sample, dresses two bodies in it and says what came out
-# make gallery  dresses all bodies of the closet in all its garments: build/gallery/index.html, sheet.png, pairs.md
+# make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
+#             makes the paper's figures
+# make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
 # make test   every test
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
@@ -9,7 +11,7 @@
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
-# As root, `demo`, `gallery` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+# As root, `demo`, `gallery`, `figures` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
 
 CC = cc
 CFLAGS = -O2 -g
@@ -50,16 +52,28 @@ demo: dependencies
 	sh examples_c/demo.sh build/retarget $(SAMPLE)
 
 # GALLERY: options of the program, such as '--avatars child,giant --keep'. Pictures are made of what there is, also where
-# a pair has failed.
+# a pair has failed or a figure does not show what it claims.
 WEB = examples/gallery/web
+RENDER = node $(WEB)/render.mjs
 .PHONY: gallery
-gallery: dependencies
-	sh .ci/dependencies chromium node npm
-	$(MAKE) $(WEB)/node_modules/.package-lock.json
+gallery: painter
 	cargo run --release --example gallery -- --out build/gallery $(GALLERY); ended=$$?; \
 	[ $$ended -le 1 ] || exit $$ended; \
-	node $(WEB)/render.mjs build/gallery/sheet.json build/gallery/sheet.png --page build/gallery/index.html || exit 2; \
+	$(RENDER) build/gallery/sheet.json build/gallery/sheet.png --page build/gallery/index.html || exit 2; \
+	$(MAKE) figures && exit $$ended
+
+.PHONY: figures
+figures: painter
+	cargo run --release --example figures -- --out build/gallery/figures $(FIGURES); ended=$$?; \
+	[ $$ended -le 1 ] || exit $$ended; \
+	for sheet in build/gallery/figures/*.json; do $(RENDER) $$sheet $${sheet%.json}.png || exit 2; done; \
 	exit $$ended
+
+# What draws the pictures.
+.PHONY: painter
+painter: dependencies
+	sh .ci/dependencies chromium node npm
+	$(MAKE) $(WEB)/node_modules/.package-lock.json
 
 $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.json
 	cd $(WEB) && npm ci --ignore-scripts --no-audit --no-fund

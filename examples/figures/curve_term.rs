@@ -8,58 +8,74 @@ use crate::generator::avatars::{Avatar, avatar};
 use crate::generator::garments::{Garment, garment};
 use crate::generator::{Kind, sample};
 use crate::look;
-use crate::measure::Neckline;
+use crate::measure::{Neckline, NecklineShape};
 use crate::sheet::{Cell, Heading, Role, Sheet, View};
 
 const WORN: Garment = Garment::Vest;
 
+/// Without the term, as it is by default, and so strong that the neckline comes before all else.
+const WEIGHTS: [f64; 3] = [0.0, 1.0, 1000.0];
+
+fn row(label: &str, shape: &NecklineShape, distortion: f64) -> Vec<String> {
+    vec![
+        label.to_string(),
+        format!("{:.1}", shape.angle),
+        format!("{:.1}", shape.at_point),
+        format!("{:.1} %", 1e2 * shape.bend),
+        format!("{distortion:.2e}"),
+    ]
+}
+
 pub fn figure() -> Outcome<Figure> {
     let (mannequin, body, worn) = (sample(Kind::Mannequin), avatar(Avatar::Giant), garment(WORN));
     let neckline = Neckline::of(&worn.mesh)?;
-    let subtitle =
-        "A vest on a body with broad shoulders, without and with the term that keeps the shape of boundary curves.";
+    let subtitle = "A vest on a body with broad shoulders, with three weights of the term that keeps the shape of boundary \
+                    curves.";
     let view = View { azimuth: 0.0, elevation: 4.0, ..View::default() };
-    let mut figure = Figure::new(
-        Sheet::new("Curve term", subtitle, view),
-        &["", "angle of the V, degrees", "bend of its sides", "mean distortion"],
-    );
+    let columns = [
+        "weight of curvature and torsion",
+        "angle of the V, degrees",
+        "at its point",
+        "bend of its sides",
+        "mean distortion",
+    ];
+    let mut figure = Figure::new(Sheet::new("Curve term", subtitle, view), &columns);
     let designed = neckline.shape(&worn.mesh.positions);
     let sheet = &mut figure.sheet;
     sheet.rows.push(Heading::default());
     sheet.columns.push(Heading { label: "as designed".into(), ..Heading::default() });
     let skin = look::body(sheet, &mannequin, look::MANNEQUIN);
     let mesh = sheet.add_mesh(&look::positions(&worn.mesh), &worn.mesh.triangles);
-    let caption = format!("{:.0} degrees", designed.angle);
+    let caption = |shape: &NecklineShape| format!("{:.0} degrees, {:.0} at the point", shape.angle, shape.at_point);
     let layers = vec![skin, look::surface(Role::Garment, mesh, look::colour(WORN))];
-    sheet.cells.push(Cell { caption, layers, ..Cell::default() });
-    let row = |label: &str, angle: f64, bend: f64, distortion: f64| {
-        vec![label.to_string(), format!("{angle:.1}"), format!("{:.1} %", 1e2 * bend), format!("{distortion:.2e}")]
-    };
-    figure.rows.push(row("as designed", designed.angle, designed.bend, 0.0));
+    sheet.cells.push(Cell { caption: caption(&designed), layers, ..Cell::default() });
+    figure.rows.push(row("as designed", &designed, 0.0));
     let skin = look::body(&mut figure.sheet, &body, look::BODY);
     let mut shapes = Vec::new();
-    for (column, label, weight) in [(1, "without", 0.0), (2, "with", Options::default().curvature_weight)] {
+    for (column, weight) in (1..).zip(WEIGHTS) {
         let options = Options { curvature_weight: weight, torsion_weight: weight, ..Options::default() };
         let dressed =
-            dress(&worn, &body, &[], None, &options).map_err(|message| format!("{label} the term: {message}"))?;
+            dress(&worn, &body, &[], None, &options).map_err(|message| format!("weight {weight}: {message}"))?;
         let shape = neckline.shape(&dressed.mesh.positions);
         let sheet = &mut figure.sheet;
         let mesh = sheet.add_mesh(&dressed.positions(), &dressed.mesh.triangles);
         let layers = vec![skin.clone(), look::surface(Role::Garment, mesh, look::colour(WORN))];
-        sheet.columns.push(Heading { label: format!("{label} the curve term"), ..Heading::default() });
-        sheet.cells.push(Cell { column, caption: format!("{:.0} degrees", shape.angle), layers, ..Cell::default() });
-        figure.rows.push(row(&format!("{label} the curve term"), shape.angle, shape.bend, dressed.distortions()[0]));
+        let label = if weight == 0.0 { "without the term".to_string() } else { format!("weight {weight}") };
+        sheet.columns.push(Heading { label, ..Heading::default() });
+        sheet.cells.push(Cell { column, caption: caption(&shape), layers, ..Cell::default() });
+        figure.rows.push(row(&weight.to_string(), &shape, dressed.distortions()[0]));
         shapes.push(shape);
     }
-    let [without, with] = [&shapes[0], &shapes[1]].map(|shape| (shape.angle - designed.angle).abs());
+    let [without, by_default, strong] = &shapes[..] else { return Err("three weights were expected".into()) };
+    let [off, on] = [without, by_default].map(|shape| (shape.at_point - designed.at_point).abs());
     figure.claim(
-        with < without,
-        format!("with the term the V's angle changes by {with:.1} degrees, without it by {without:.1}"),
+        on < off,
+        format!("at its point the V opens by {on:.1} degrees more by default, without the term by {off:.1}"),
     );
-    let [without, with] = [&shapes[0], &shapes[1]].map(|shape| 1e2 * shape.bend);
+    let [off, on] = [without, strong].map(|shape| (shape.angle - designed.angle).abs());
     figure.claim(
-        with < without,
-        format!("with the term the V's sides bend by {with:.1} % of their length, without it by {without:.1} %"),
+        on < off,
+        format!("as a whole it opens by {on:.1} degrees more with the strong term, without it by {off:.1}"),
     );
     Ok(figure)
 }

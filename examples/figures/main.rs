@@ -51,7 +51,7 @@ const USAGE: &str =
     "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [comparison]";
 
 fn main() -> ExitCode {
-    let mut out = PathBuf::from("build/figures");
+    let mut out = PathBuf::from("build/gallery/figures");
     let mut names = Vec::new();
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {

@@ -56,6 +56,8 @@ pub struct Neckline {
 pub struct NecklineShape {
     /// Between its sides as seen from the front, in degrees.
     pub angle: f64,
+    /// The same of the quarter of its sides next to its point.
+    pub at_point: f64,
     /// The farthest of its vertices from the straight line through its side, for the length of that: the mean of both.
     pub bend: f64,
 }
@@ -83,15 +85,16 @@ impl Neckline {
 
     /// How it looks where the garment's vertices are `x`.
     pub fn shape(&self, x: &[DVec3]) -> NecklineShape {
-        let lines = [0, 1].map(|k| {
-            // As it is seen from the front.
-            let points: Vec<DVec3> = self.sides[k].iter().map(|&v| x[v].with_y(0.0)).collect();
-            line(&points)
-        });
-        NecklineShape {
-            angle: lines[0].0.angle_between(lines[1].0).to_degrees(),
-            bend: 0.5 * (lines[0].1 + lines[1].1),
-        }
+        let lines = |share: usize| {
+            self.sides.each_ref().map(|side| {
+                // As it is seen from the front.
+                let next = side.iter().take((side.len() / share).max(3));
+                line(&next.map(|&v| x[v].with_y(0.0)).collect::<Vec<_>>())
+            })
+        };
+        let between = |[left, right]: [(DVec3, f64); 2]| left.0.angle_between(right.0).to_degrees();
+        let [left, right] = lines(1);
+        NecklineShape { angle: between([left, right]), at_point: between(lines(4)), bend: 0.5 * (left.1 + right.1) }
     }
 }
 

@@ -14,14 +14,14 @@ use crate::sheet::{Cell, Heading, Role, Sheet, View};
 /// The joints of the neck, and those of the waist down to the hips, that a change moves, in metres upwards.
 const EDITS: [(&str, f64, f64); 3] =
     [("as it is", 0.0, 0.0), ("neck lower", -0.05, 0.0), ("waist and hips higher", 0.0, 0.06)];
-const WORN: Garment = Garment::Vest;
+const WORN: Garment = Garment::Coat;
 
 pub fn figure() -> Outcome<Figure> {
     let (mut body, worn) = (avatar(Avatar::Slim), garment(WORN));
     let designed = body.skeleton.clone();
     let [collar, hem] = middle_loops(&worn.mesh)?;
     let subtitle =
-        "One vest on one body, with three skeletons in it: where the joints are decides where collar and hem come.";
+        "One coat on one body, with three skeletons in it: where the joints are decides where collar and hem come.";
     let view = View { azimuth: 0.0, elevation: 4.0, ..View::default() };
     let mut figure = Figure::new(
         Sheet::new("Skeleton edits", subtitle, view),

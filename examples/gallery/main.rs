@@ -8,6 +8,7 @@
 #[allow(dead_code)]
 #[path = "../closet/files.rs"]
 mod files;
+#[allow(dead_code)]
 #[path = "../closet/generator/mod.rs"]
 mod generator;
 

@@ -1,4 +1,4 @@
-//! The dinosaur: a trunk bent forward over digitigrade legs, a long tail, a big head full of teeth. The hard case.
+//! The dinosaur: a trunk bent forward over digitigrade legs, a thick tail, a big head full of teeth. The hard case.
 
 use glam::{DMat3, DVec3};
 
@@ -111,9 +111,9 @@ fn trunk(field: &mut Field, skeleton: &Skeleton) {
     }
 }
 
-/// The tail's middle line, from the rump.
+/// The tail's middle line, from the rump. Short and low, for whatever covers the rump has to go over it.
 fn tail_line(root: DVec3) -> Vec<DVec3> {
-    let knots = [(0.02, -0.02), (0.22, -0.07), (0.46, -0.16), (0.72, -0.23), (0.98, -0.22), (1.18, -0.13)];
+    let knots = [(0.02, -0.02), (0.12, -0.07), (0.22, -0.14), (0.32, -0.22), (0.42, -0.28), (0.52, -0.30)];
     curve(&knots.map(|(y, z)| root + DVec3::new(0.0, y, z)), 3)
 }
 
@@ -294,7 +294,7 @@ fn spikes(parts: &mut Parts, skeleton: &Skeleton) {
     }
     let line = tail_line(root);
     let last = line.len() - 1;
-    for i in (1..last).step_by(2) {
+    for i in (2..last).step_by(3) {
         let t = i as f64 / last as f64;
         let tangent = (line[i + 1] - line[i - 1]).normalize();
         let up = DVec3::Z.reject_from_normalized(tangent).normalize();

@@ -77,11 +77,11 @@ pub fn two_headed() -> Sample {
         let bow = if side > 0.0 { 0.04 } else { 0.16 };
         let rotation =
             DMat3::from_rotation_z(side * 0.42) * DMat3::from_rotation_y(side * 0.20) * DMat3::from_rotation_x(bow);
-        let origin = skeleton.joints[NECK] + DVec3::new(side * 0.155, -0.050, 0.105 - 0.10 * bow);
+        let origin = skeleton.joints[NECK] + DVec3::new(side * 0.148, -0.050, 0.105 - 0.10 * bow);
         let frame = Frame { origin, rotation, size: 1.10 };
         let line =
-            [place.at(side * 0.060, 0.010, 2.15), place.at(side * 0.105, 0.016, 2.95), frame.at(0.0, 0.040, 0.080)];
-        clay.tube(&line, &[0.115, 0.088, 0.076], 0.05, place.throat());
+            [place.at(side * 0.042, 0.010, 2.15), place.at(side * 0.080, 0.016, 2.95), frame.at(0.0, 0.040, 0.080)];
+        clay.tube(&line, &[0.092, 0.074, 0.070], 0.05, place.throat());
         parts.extend(head(&mut clay, &frame));
         // The mane: a ridge of tufts down the back of the neck, each as long as its neighbours are apart.
         const TUFTS: usize = 5;
