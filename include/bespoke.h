@@ -1327,7 +1327,8 @@ BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession 
                                                     size_t *count);
 
 /*
- Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
+ Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
+ set at the end.
 
  `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
  */

@@ -119,7 +119,7 @@ impl Options {
                 return refuse(name, value, &format!("between {low} and {high}"));
             }
         }
-        if !(self.fit_distance > 0.0) {
+        if self.fit_distance.is_nan() || self.fit_distance <= 0.0 {
             return refuse("fit_distance", self.fit_distance, "above 0");
         }
         let narrowest = self.dhat.min(self.inflation_dhat);

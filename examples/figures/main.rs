@@ -37,8 +37,11 @@ use std::time::Instant;
 
 use figure::{Figure, Outcome};
 
-/// The figures: name, and what makes it.
-const FIGURES: [(&str, fn() -> Outcome<Figure>); 6] = [
+/// The name of a figure, and what makes it.
+type Maker = (&'static str, fn() -> Outcome<Figure>);
+
+/// All of them.
+const FIGURES: [Maker; 6] = [
     ("layers", layers::figure),
     ("stress", stress::figure),
     ("fit-weight", fit_weight::figure),

@@ -6,7 +6,7 @@
 //! Nothing looks at intersections.
 
 use bespoke::input::mesh::TriangleMesh;
-use bespoke::sdf::closest_point::{Closest, ClosestPoint};
+use bespoke::sdf::closest_point::{Closest, ClosestPoint, barycentric};
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::generator::Sample;
@@ -63,7 +63,7 @@ pub fn transfer(garment: &Sample, mannequin: &Sample, body: &Sample) -> Triangle
     let place = |&p: &DVec3| {
         let Some(near) = old_tree.closest(p) else { return p };
         let corners = old.triangles[near.triangle as usize];
-        let shares = barycentric(&old, corners, near.point);
+        let shares = barycentric(near.point, corners.map(|v| old.positions[v as usize]));
         let weight =
             |joint: usize| corners.iter().zip(shares).map(|(&v, s)| s * mannequin.skin[joint][v as usize]).sum::<f64>();
         let skinned: DVec3 = (0..JOINTS).map(|joint| weight(joint) * maps[joint].apply(p)).sum();
@@ -85,15 +85,4 @@ fn pushed(p: DVec3, surface: &Closest, body: &TriangleMesh, offset: f64) -> DVec
     }
     let direction = if is_inside { -outwards } else { outwards }.try_normalize().unwrap_or(normal);
     surface.point + offset * direction
-}
-
-fn barycentric(mesh: &TriangleMesh, corners: [u32; 3], p: DVec3) -> [f64; 3] {
-    let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
-    let normal = (b - a).cross(c - a);
-    let square = normal.length_squared();
-    if square == 0.0 {
-        return [1.0, 0.0, 0.0];
-    }
-    let share = |u: DVec3, v: DVec3| (u - p).cross(v - p).dot(normal) / square;
-    [share(b, c), share(c, a), share(a, b)]
 }

@@ -63,7 +63,8 @@ pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     }
 }
 
-/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were set at the end.
+/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
+/// set at the end.
 ///
 /// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 #[unsafe(no_mangle)]

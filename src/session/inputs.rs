@@ -1,10 +1,8 @@
 //! What a caller has set. Shared, so that work that goes on keeps what it needs.
 
-use std::collections::HashSet;
 use std::sync::Arc;
 
-use glam::DVec3;
-
+use super::fit_controls::Pin;
 use super::{Precision, Session, Stage};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -17,17 +15,7 @@ use crate::input::space::Space;
 use crate::input::weld::Weld;
 use crate::memory::{Sizes, bytes};
 use crate::options::Options;
-use crate::stage::pins::AskedPin;
 use crate::stage::problem::{Inputs as Posed, Problem};
-
-/// A garment vertex that is held in a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
-    /// The vertex.
-    pub vertex: u32,
-    /// Its place in the target space; none: where it was designed, carried along with the bone beside it.
-    pub place: Option<DVec3>,
-}
 
 /// Everything that can be set, in the caller's own spaces.
 #[derive(Clone, Default)]
@@ -40,8 +28,8 @@ pub(super) struct Inputs {
     source_avatar: Option<Arc<TriangleMesh>>,
     skin: Option<Arc<SkinWeights>>,
     fit_weights: Option<Arc<[f64]>>,
-    pins: Vec<Pin>,
-    rigid_groups: Vec<Arc<[u32]>>,
+    pub(super) pins: Vec<Pin>,
+    pub(super) rigid_groups: Vec<Arc<[u32]>>,
     source_space: Space,
     pub(super) target_space: Space,
     pub(super) options: Options,
@@ -174,56 +162,6 @@ impl Session {
         Ok(())
     }
 
-    /// Garment vertices to hold in places; replaces those before. Optional.
-    ///
-    /// # Errors
-    /// `InvalidArgument` for a vertex given twice or a place that is not finite, `InvalidState`. Vertices are compared with
-    /// the garment's by `prepare`.
-    pub fn set_pins(&mut self, pins: Vec<Pin>) -> Result<()> {
-        self.setting("the pins")?;
-        if let Some(Pin { vertex, .. }) = pins.iter().find(|pin| pin.place.is_some_and(|p| !p.is_finite())) {
-            return invalid(format!("pinned vertices: the place of vertex {vertex} is not finite"));
-        }
-        let mut vertices: Vec<u32> = pins.iter().map(|pin| pin.vertex).collect();
-        vertices.sort_unstable();
-        if let Some(twice) = vertices.windows(2).find(|pair| pair[0] == pair[1]) {
-            return invalid(format!("pinned vertices: vertex {} is listed twice", twice[0]));
-        }
-        self.inputs.pins = pins;
-        Ok(())
-    }
-
-    /// Garment vertices that are to stay one rigid body, such as a button or an armour plate; one more group.
-    ///
-    /// # Errors
-    /// `InvalidArgument` for an empty group and for a vertex that a group before it holds, `InvalidState`. Vertices are
-    /// compared with the garment's by `prepare`.
-    pub fn add_rigid_group(&mut self, vertices: Vec<u32>) -> Result<()> {
-        self.setting("a rigid group")?;
-        let group = self.inputs.rigid_groups.len();
-        if vertices.is_empty() {
-            return invalid(format!("rigid group {group}: lists no vertices"));
-        }
-        for (earlier, others) in self.inputs.rigid_groups.iter().enumerate() {
-            let known: HashSet<u32> = others.iter().copied().collect();
-            if let Some(v) = vertices.iter().find(|v| known.contains(v)) {
-                return invalid(format!("rigid group {group}: vertex {v} is in rigid group {earlier} already"));
-            }
-        }
-        self.inputs.rigid_groups.push(vertices.into());
-        Ok(())
-    }
-
-    /// Forgets all rigid groups.
-    ///
-    /// # Errors
-    /// `InvalidState`.
-    pub fn clear_rigid_groups(&mut self) -> Result<()> {
-        self.setting("the rigid groups")?;
-        self.inputs.rigid_groups.clear();
-        Ok(())
-    }
-
     /// Axes, unit and winding of garment, source skeleton and source avatar.
     ///
     /// # Errors
@@ -268,7 +206,9 @@ impl Inputs {
         let body = if worn == 0 { 0 } else { worn + self.avatar.as_ref().map_or(0, mesh) };
         let weights = self.fit_weights.as_ref().map_or(0, |w| size_of_val(&w[..]) as u64);
         let skin = self.skin.as_ref().map_or(0, |skin| skin.memory());
-        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + weights + skin
+        let groups: u64 = self.rigid_groups.iter().map(|group| size_of_val(&group[..]) as u64).sum();
+        let controls = weights + bytes(&self.pins) + groups;
+        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin
     }
 
     /// The sizes that are known before anything is done.
@@ -312,15 +252,7 @@ impl Inputs {
                 ),
             ));
         }
-        let count = garment.positions.len();
-        if let Some(pin) = self.pins.iter().find(|pin| pin.vertex as usize >= count) {
-            return invalid(format!("pinned vertices: lists vertex {}, the garment has {count} vertices", pin.vertex));
-        }
-        for (group, vertices) in self.rigid_groups.iter().enumerate() {
-            if let Some(v) = vertices.iter().find(|v| **v as usize >= count) {
-                return invalid(format!("rigid group {group}: lists vertex {v}, the garment has {count} vertices"));
-            }
-        }
+        self.check_controls(garment.positions.len())?;
         let (weld, found) = Weld::new(garment);
         findings.extend(found);
         cancel.check()?;
@@ -348,59 +280,6 @@ impl Inputs {
         )?;
         Ok((problem, body))
     }
-}
-
-impl Inputs {
-    /// The pins, one for each welded vertex that has any; places in our space.
-    fn welded_pins(&self, weld: &Weld) -> Result<Vec<AskedPin>> {
-        let mut pins: Vec<(u32, &Pin)> =
-            self.pins.iter().map(|pin| (weld.to_welded[pin.vertex as usize], pin)).collect();
-        pins.sort_by_key(|&(welded, pin)| (welded, pin.vertex));
-        for copies in pins.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            let [(_, a), (_, b)] = [copies[0], copies[1]];
-            if a.place != b.place {
-                return invalid(format!(
-                    "pinned vertices: vertices {} and {} share their place in the garment and move as one, but are pinned to \
-                     different places",
-                    a.vertex, b.vertex
-                ));
-            }
-        }
-        pins.dedup_by_key(|pin| pin.0);
-        let ours = |place: Option<DVec3>| place.map(|p| self.target_space.position_to_ours(p));
-        Ok(pins.into_iter().map(|(welded, pin)| (welded, ours(pin.place))).collect())
-    }
-
-    /// The rigid groups as lists of welded vertices.
-    fn welded_groups(&self, weld: &Weld) -> Result<Vec<Vec<u32>>> {
-        let mut group_of = vec![None; weld.vertex_of.len()];
-        let mut groups = Vec::new();
-        for (group, vertices) in self.rigid_groups.iter().enumerate() {
-            let mut welded = Vec::new();
-            for &v in vertices.iter() {
-                let w = weld.to_welded[v as usize];
-                match group_of[w as usize] {
-                    None => {
-                        group_of[w as usize] = Some(group);
-                        welded.push(w);
-                    }
-                    Some(earlier) if earlier == group => {}
-                    Some(earlier) => {
-                        return invalid(format!(
-                            "rigid group {group}: vertex {v} shares its place in the garment with a vertex of rigid group \
-                             {earlier}, and the two move as one; make one group of both"
-                        ));
-                    }
-                }
-            }
-            groups.push(welded);
-        }
-        Ok(groups)
-    }
-}
-
-fn invalid<T>(message: String) -> Result<T> {
-    Err(Error::new(ErrorKind::InvalidArgument, message))
 }
 
 fn mesh_to_ours(space: &Space, mesh: &TriangleMesh) -> TriangleMesh {

@@ -5,6 +5,7 @@
 
 mod fault;
 mod field_task;
+mod fit_controls;
 mod inputs;
 mod job;
 mod judgement;
@@ -27,8 +28,8 @@ use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
 #[doc(hidden)]
 pub use fault::Fault;
+pub use fit_controls::Pin;
 use inputs::Inputs;
-pub use inputs::Pin;
 use job::Pool;
 use judgement::Judgement;
 use view::View;
@@ -409,8 +410,8 @@ fn not_verified(counted: &Verification) -> Error {
         ErrorKind::NotVerified,
         format!(
             "the result, in the precision and space in which it would be read, has {} intersecting pairs of garment triangles \
-             that did not intersect at the start, and {} of garment triangles and those of the avatar or its layers; it is not handed out as good. Set \
-             and read the garment in 64 bits, or move the avatar nearer to the origin",
+             that did not intersect at the start, and {} of garment triangles and those of the avatar or its layers; it is not \
+             handed out as good. Set and read the garment in 64 bits, or move the avatar nearer to the origin",
             counted.new_garment_garment(),
             counted.garment_avatar
         ),

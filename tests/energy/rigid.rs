@@ -61,8 +61,8 @@ fn rigid_motions_cost_nothing_and_all_else_does() {
     assert!(value(&energy, &grown) > 1e-3);
     // Vertices of no group, and a group of one, are free.
     let mut others = x.clone();
-    for v in groups[4][0] as usize..rest.len() {
-        others[v] += random.vector();
+    for p in &mut others[groups[4][0] as usize..] {
+        *p += random.vector();
     }
     assert_eq!(value(&energy, &others), value(&energy, &x));
 }

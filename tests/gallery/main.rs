@@ -3,6 +3,9 @@
 
 #[path = "../../examples/gallery/closet.rs"]
 mod closet;
+#[allow(dead_code)]
+#[path = "../../examples/figures/figure.rs"]
+mod figure;
 #[path = "../../examples/gallery/gallery.rs"]
 mod gallery;
 #[allow(dead_code)]
@@ -10,6 +13,9 @@ mod gallery;
 mod generator;
 #[path = "../../examples/gallery/look.rs"]
 mod look;
+#[path = "../../examples/figures/measure.rs"]
+mod measure;
+mod measures;
 #[path = "../../examples/gallery/pair.rs"]
 mod pair;
 #[path = "../../examples/gallery/sheet.rs"]
@@ -17,6 +23,8 @@ mod sheet;
 #[allow(dead_code)]
 #[path = "../../examples/gallery/table.rs"]
 mod table;
+#[path = "../../examples/figures/transfer.rs"]
+mod transfer;
 
 use std::fs;
 use std::path::PathBuf;

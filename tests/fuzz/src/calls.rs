@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 use bespoke::capi::control::*;
 use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
+use bespoke::capi::layers::*;
 use bespoke::capi::options::*;
 use bespoke::capi::results::*;
 use bespoke::capi::running::*;
@@ -232,7 +233,7 @@ impl Program {
         let is_double = source.one_in(2);
         // SAFETY: the session is null or alive, the views tell the truth.
         let status = unsafe {
-            match source.below(7) {
+            match source.below(9) {
                 0 => {
                     let rows = Array::floats(&numbers, vertices, 0, is_double);
                     let view = rows.view();
@@ -267,7 +268,15 @@ impl Program {
                     let view = Array::indices(&indices[..indices.len().min(source.between(0, 6))], 1, 0, is_double);
                     bespoke_session_add_rigid_group(session, &view.view())
                 }
-                _ => bespoke_session_clear_rigid_groups(session),
+                6 => bespoke_session_clear_rigid_groups(session),
+                7 => {
+                    let around = f64::from(source.byte()) / 128.0;
+                    let layer = Shape::tube(source.between(2, 4), 5, [-0.4, 0.4], false, |_| around, |_| [0.0; 2]);
+                    let points = Array::floats(&layer.points, 3, 0, is_double);
+                    let triangles = Array::indices(&layer.triangles, 3, 0, true);
+                    bespoke_session_add_layer(session, &points.view(), &triangles.view())
+                }
+                _ => bespoke_session_clear_layers(session),
             }
         };
         // SAFETY: the session is null or alive.
