@@ -133,7 +133,11 @@ fn the_table_has_a_row_a_pair() {
     for (row, o) in json["rows"].as_array().unwrap().iter().zip(OUTCOMES.iter()) {
         assert_eq!((row["garment"].as_str(), row["avatar"].as_str()), (Some(o.garment), Some(o.avatar)));
         assert_eq!(row["intersections"], serde_json::json!([0, 0]));
-        assert_eq!(row["distances"][1].as_f64(), o.distances[1]);
+        // Read back by a parser that may miss the last bit.
+        match (row["distances"][1].as_f64(), o.distances[1]) {
+            (Some(read), Some(written)) => assert!((read / written - 1.0).abs() < 1e-12, "{read} {written}"),
+            (read, written) => assert_eq!(read, written),
+        }
     }
 }
 
