@@ -634,7 +634,7 @@ typedef struct BespokeOptions {
   uint32_t reserved;
   /*
    Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
-   away, what is farther is drawn in. Default 0.
+   away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
    */
   double offset;
   /*

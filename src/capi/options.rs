@@ -70,7 +70,7 @@ pub struct BespokeOptions {
     /// 0.
     pub reserved: u32,
     /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
-    /// away, what is farther is drawn in. Default 0.
+    /// away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
     pub offset: f64,
     /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
     /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.

@@ -38,6 +38,9 @@ use crate::sdf::Field;
 use crate::sdf::closest_point::ClosestPoint;
 use crate::verify::intersections_unless;
 
+/// The largest offset that can be meant, in the normalised space. A larger one is one in another unit.
+const MOST_OFFSET: f64 = 1.0;
+
 /// What a caller handed in, in the caller's own spaces.
 pub struct Inputs<'a> {
     /// The garment, around the source skeleton, welded.
@@ -100,12 +103,23 @@ impl Problem {
     /// caller's indices.
     ///
     /// # Errors
-    /// `InvalidSkeleton` for a skeleton without size, `InvalidMesh` where the coordinates of the result are too coarse,
+    /// `InvalidSkeleton` for a skeleton without size, `InvalidArgument` for an offset beyond it, `InvalidMesh` where the coordinates of the result are too coarse,
     /// `NotEnclosed` where the garment lies beside the skeleton or the shrunk avatar pokes through it and cannot be led
     /// around it, `Cancelled`.
     pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
         let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
         let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
+        let offset = inputs.offset * target_frame.scale;
+        if offset > MOST_OFFSET {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!(
+                    "option offset is {}, which is more than half the size of the target skeleton; it is a length in the unit \
+                     of the target space",
+                    options.offset
+                ),
+            ));
+        }
         let normalised = |frame: &Frame, points: &[DVec3]| points.iter().map(|&p| frame.normalise(p)).collect();
         let skeleton = |frame: &Frame, s: &Skeleton| Skeleton {
             joints: normalised(frame, &s.joints),
@@ -195,7 +209,7 @@ impl Problem {
             shape: Arc::new(shape),
             fit_weights,
             source_body,
-            offset: inputs.offset * target_frame.scale,
+            offset,
             tangled,
             gaps,
         })

@@ -217,5 +217,6 @@ fn bad_requests_are_refused_with_a_sentence() {
     refused(&|s| s.add_rigid_group(vec![1, 100_000]), "vertex 100000");
     refused(&|s| s.add_rigid_group(vec![1, 2]).and_then(|()| s.add_rigid_group(vec![3, 2])), "vertex 2");
     refused(&|s| s.set_options(Options { offset: -1.0, ..Options::default() }), "offset");
+    refused(&|s| s.set_options(Options { offset: 5.0, ..Options::default() }), "offset is 5");
     refused(&|s| s.set_options(Options { fit_distance: 0.0, ..Options::default() }), "fit_distance");
 }
