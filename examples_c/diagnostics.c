@@ -8,9 +8,19 @@
 #define MOST_LINES 8
 
 static const char *const kinds[] = {
-    NULL,           "split_vertices",    "duplicate_triangle", "degenerate_triangle", "non_manifold_edge",
-    "unused_vertex", "loose_piece",      "self_intersection",  "near_contact",        "avatar_pokes",
-    "coarse_coordinates", "result_intersection",
+    [BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES] = "split_vertices",
+    [BESPOKE_DIAGNOSTIC_KIND_DUPLICATE_TRIANGLE] = "duplicate_triangle",
+    [BESPOKE_DIAGNOSTIC_KIND_DEGENERATE_TRIANGLE] = "degenerate_triangle",
+    [BESPOKE_DIAGNOSTIC_KIND_NON_MANIFOLD_EDGE] = "non_manifold_edge",
+    [BESPOKE_DIAGNOSTIC_KIND_UNUSED_VERTEX] = "unused_vertex",
+    [BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE] = "loose_piece",
+    [BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION] = "self_intersection",
+    [BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT] = "near_contact",
+    [BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES] = "avatar_pokes",
+    [BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES] = "coarse_coordinates",
+    [BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION] = "result_intersection",
+    [BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED] = "pin_not_reached",
+    [BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT] = "rigid_group_bent",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

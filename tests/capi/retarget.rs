@@ -456,3 +456,28 @@ fn layers_and_distortion() {
     folder.write("bad.obj", "v 0 0 0\nv 1 0 0\n");
     folder.refuses(&["--layer", "bad.obj"], 1, &["bad.obj", "layer 0"]);
 }
+
+/// Pins and rigid groups from files; what is not reached is told in the report.
+#[test]
+fn pins_and_rigid_groups_are_read_from_files() {
+    let folder = Folder::new("controls");
+    let sample = Sample::new();
+    folder.write("pins.txt", "# vertex, place\n0 0.4 -0.4 0.1\n70 0 0.05 0\n");
+    folder.write("rigid.txt", "40 41 56\n\n100 101 116\n");
+    folder.accepts(&["--quiet", "--pins", "pins.txt", "--rigid", "rigid.txt", "--report", "r.json"]);
+    let text = folder.read("out.obj");
+    let numbers = |line: &str| line.split_whitespace().skip(1).map(|w| w.parse::<f32>().expect("a number")).collect();
+    let x: Vec<Vec<f32>> = text.lines().filter(|l| l.starts_with("v ")).map(numbers).collect();
+    let distance = |p: &[f32], q: &[f32]| p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt();
+    assert!(distance(&x[0], &[0.4, -0.4, 0.1]) < 0.005, "{:?}", x[0]);
+    // The other place is inside the body.
+    assert!(distance(&x[70], &[0.0, 0.05, 0.0]) > 0.1, "{:?}", x[70]);
+    assert!(folder.read("r.json").contains("\"pin_not_reached\""), "{}", folder.read("r.json"));
+    for group in [[40, 41, 56], [100, 101, 116]] {
+        for (v, w) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (group[i], group[j])) {
+            let was = distance(&sample.garment.0[v], &sample.garment.0[w]);
+            let is = distance(&x[v], &x[w]);
+            assert!((is / was - 1.1).abs() < 1e-4, "vertices {v} and {w}: {is}, designed {was}");
+        }
+    }
+}
