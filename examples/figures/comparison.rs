@@ -43,14 +43,12 @@ impl Judged {
         let judge = |other| intersections(&mesh, other, usize::MAX).map_err(|error| error.message);
         let [own, others] = [judge(None)?, judge(Some(body))?];
         let faulty = own.pairs.iter().flatten().copied().chain(others.pairs.iter().map(|pair| pair[0])).collect();
-        let mean = distortion.iter().sum::<f64>() / distortion.len().max(1) as f64;
-        let largest = distortion.iter().copied().fold(0.0, f64::max);
-        Ok(Self { mesh, pairs: [own.count, others.count], faulty, distortion: [mean, largest] })
+        Ok(Self { mesh, pairs: [own.count, others.count], faulty, distortion: pair::mean_and_largest(distortion) })
     }
 
     /// The garment in `colour`, and in another one what intersects.
     fn layers(&self, sheet: &mut Sheet, colour: &str) -> Vec<Layer> {
-        let positions: Vec<[f32; 3]> = self.mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect();
+        let positions = look::positions(&self.mesh.positions);
         let part = |is_faulty: bool| -> Vec<[u32; 3]> {
             let numbered = (0u32..).zip(&self.mesh.triangles);
             numbered.filter(|(k, _)| self.faulty.contains(k) == is_faulty).map(|(_, &t)| t).collect()

@@ -9,7 +9,7 @@ use crate::generator::garments::{Garment, garment};
 use crate::generator::{Kind, sample};
 use crate::look;
 use crate::measure::{Neckline, NecklineShape};
-use crate::sheet::{Cell, Heading, Role, Sheet, View};
+use crate::sheet::{Cell, Heading, Sheet, View};
 
 const WORN: Garment = Garment::Vest;
 
@@ -45,9 +45,9 @@ pub fn figure() -> Outcome<Figure> {
     sheet.rows.push(Heading::default());
     sheet.columns.push(Heading { label: "as designed".into(), ..Heading::default() });
     let skin = look::body(sheet, &mannequin, look::MANNEQUIN);
-    let mesh = sheet.add_mesh(&look::positions(&worn.mesh), &worn.mesh.triangles);
+    let made = look::garment(sheet, &worn.mesh.positions, &worn.mesh.triangles, WORN);
     let caption = |shape: &NecklineShape| format!("{:.0} degrees, {:.0} at the point", shape.angle, shape.at_point);
-    let layers = vec![skin, look::surface(Role::Garment, mesh, look::colour(WORN))];
+    let layers = vec![skin, made];
     sheet.cells.push(Cell { caption: caption(&designed), layers, ..Cell::default() });
     figure.rows.push(row("as designed", &designed, 0.0));
     let skin = look::body(&mut figure.sheet, &body, look::BODY);
@@ -58,8 +58,8 @@ pub fn figure() -> Outcome<Figure> {
             dress(&worn, &body, &[], None, &options).map_err(|message| format!("weight {weight}: {message}"))?;
         let shape = neckline.shape(&dressed.mesh.positions);
         let sheet = &mut figure.sheet;
-        let mesh = sheet.add_mesh(&dressed.positions(), &dressed.mesh.triangles);
-        let layers = vec![skin.clone(), look::surface(Role::Garment, mesh, look::colour(WORN))];
+        let garment = look::garment(sheet, &dressed.mesh.positions, &dressed.mesh.triangles, WORN);
+        let layers = vec![skin.clone(), garment];
         let label = if weight == 0.0 { "without the term".to_string() } else { format!("weight {weight}") };
         sheet.columns.push(Heading { label, ..Heading::default() });
         sheet.cells.push(Cell { column, caption: caption(&shape), layers, ..Cell::default() });

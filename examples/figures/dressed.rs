@@ -19,15 +19,9 @@ pub struct Dressed {
 }
 
 impl Dressed {
-    /// Positions for a sheet.
-    pub fn positions(&self) -> Vec<[f32; 3]> {
-        self.mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
-    }
-
     /// Mean and largest distortion.
     pub fn distortions(&self) -> [f64; 2] {
-        let mean = self.distortion.iter().sum::<f64>() / self.distortion.len().max(1) as f64;
-        [mean, self.distortion.iter().copied().fold(0.0, f64::max)]
+        pair::mean_and_largest(&self.distortion)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::generator::avatars::{Avatar, avatar};
 use crate::generator::garments::{Garment, garment};
 use crate::look;
 use crate::measure::waist_clearance;
-use crate::sheet::{Cell, Heading, Role, Sheet, View};
+use crate::sheet::{Cell, Heading, Sheet, View};
 
 const WEIGHTS: [f64; 3] = [0.2, 2.0, 20.0];
 const WORN: Garment = Garment::Sweater;
@@ -31,8 +31,8 @@ pub fn figure() -> Outcome<Figure> {
             .map_err(|message| format!("fit weight {fit_weight}: {message}"))?;
         let clearance = waist_clearance(&dressed.mesh, &body);
         let sheet = &mut figure.sheet;
-        let mesh = sheet.add_mesh(&dressed.positions(), &dressed.mesh.triangles);
-        let layers = vec![skin.clone(), look::surface(Role::Garment, mesh, look::colour(WORN))];
+        let garment = look::garment(sheet, &dressed.mesh.positions, &dressed.mesh.triangles, WORN);
+        let layers = vec![skin.clone(), garment];
         let caption = format!("waist {:.0} mm away", 1e3 * clearance);
         sheet.columns.push(Heading { label: format!("weight {fit_weight}"), ..Heading::default() });
         sheet.cells.push(Cell { column, caption, layers, ..Cell::default() });

@@ -9,7 +9,7 @@ use crate::generator::avatars::{Avatar, avatar};
 use crate::generator::garments::{Garment, garment};
 use crate::look;
 use crate::pair;
-use crate::sheet::{Cell, Heading, Role, Sheet, View};
+use crate::sheet::{Cell, Heading, Sheet, View};
 
 /// From the skin outwards.
 const WORN: [Garment; 3] = [Garment::Jumpsuit, Garment::Coat, Garment::Skirt];
@@ -39,8 +39,7 @@ pub fn figure() -> Outcome<Figure> {
             _ => format!("{}{}", if step > 1 { "+ " } else { "" }, layers[step - 1].0.name()),
         };
         if let Some((kind, dressed)) = step.checked_sub(1).map(|k| &layers[k]) {
-            let mesh = sheet.add_mesh(&dressed.positions(), &dressed.mesh.triangles);
-            drawn.push(look::surface(Role::Garment, mesh, look::colour(*kind)));
+            drawn.push(look::garment(sheet, &dressed.mesh.positions, &dressed.mesh.triangles, *kind));
         }
         sheet.columns.push(Heading { label, ..Heading::default() });
         sheet.cells.push(Cell { column: step, layers: drawn.clone(), ..Cell::default() });

@@ -9,7 +9,7 @@ use crate::generator::garments::{Garment, garment};
 use crate::generator::skeleton::{LEGS, NECK, ROOT, WAIST};
 use crate::look;
 use crate::measure::{loop_height, middle_loops};
-use crate::sheet::{Cell, Heading, Role, Sheet, View};
+use crate::sheet::{Cell, Heading, Sheet, View};
 
 /// The joints of the neck, and those of the waist down to the hips, that a change moves, in metres upwards.
 const EDITS: [(&str, f64, f64); 3] =
@@ -41,8 +41,7 @@ pub fn figure() -> Outcome<Figure> {
         let sheet = &mut figure.sheet;
         sheet.columns.push(Heading { label: label.into(), ..Heading::default() });
         let skin = look::body(sheet, &body, look::BODY);
-        let mesh = sheet.add_mesh(&dressed.positions(), &dressed.mesh.triangles);
-        let garment = look::surface(Role::Garment, mesh, look::colour(WORN));
+        let garment = look::garment(sheet, &dressed.mesh.positions, &dressed.mesh.triangles, WORN);
         let caption = format!("collar {:.0} mm, hem {:.0} mm", 1e3 * top, 1e3 * bottom);
         sheet.cells.push(Cell { column, caption, layers: vec![skin.clone(), garment], ..Cell::default() });
         let bones = look::skeleton(sheet, &body, true);

@@ -9,7 +9,7 @@ use crate::generator::garments::{Garment, garment};
 use crate::generator::skeleton::ARMS;
 use crate::generator::{Kind, Sample, sample};
 use crate::look;
-use crate::sheet::{Cell, Heading, Layer, Role, Sheet, Values, View};
+use crate::sheet::{Cell, Heading, Layer, Sheet, Values, View};
 
 /// Shoulder to wrist over shoulder-to-ankle height: how long the arms are for the body.
 fn reach(body: &Sample) -> f64 {
@@ -35,12 +35,10 @@ pub fn figure() -> Outcome<Figure> {
     }
     sheet.scales.push(look::distortion_scale());
     let design = look::body(sheet, &mannequin, look::MANNEQUIN);
-    let mesh = sheet.add_mesh(&look::positions(&worn.mesh), &worn.mesh.triangles);
-    let colour = look::colour(Garment::Jumpsuit);
-    sheet.cells.push(Cell { layers: vec![design, look::surface(Role::Garment, mesh, colour)], ..Cell::default() });
+    let made = look::garment(sheet, &worn.mesh.positions, &worn.mesh.triangles, Garment::Jumpsuit);
+    sheet.cells.push(Cell { layers: vec![design, made], ..Cell::default() });
     let skin = look::body(sheet, &body, look::BODY);
-    let mesh = sheet.add_mesh(&dressed.positions(), &worn.mesh.triangles);
-    let fitted = look::surface(Role::Garment, mesh, colour);
+    let fitted = look::garment(sheet, &dressed.mesh.positions, &dressed.mesh.triangles, Garment::Jumpsuit);
     let mut painted = fitted.clone();
     let numbers: Vec<f32> = dressed.distortion.iter().map(|d| *d as f32).collect();
     let array = sheet.add_floats(&numbers);
@@ -58,15 +56,11 @@ pub fn figure() -> Outcome<Figure> {
     let [designed, here] = [&mannequin, &body].map(reach);
     let numbers = [designed, here, median, mean, high, largest];
     let cells = numbers.map(|n| if n < 0.1 { format!("{n:.2e}") } else { format!("{n:.2}") });
-    figure.rows.push([worn_name()].into_iter().chain(cells).collect());
+    figure.rows.push([Garment::Jumpsuit.name().to_string()].into_iter().chain(cells).collect());
     figure.claim(here > 1.4 * designed, format!("the arms are {:.2} times as long for the body", here / designed));
     figure.claim(
         high < 0.05,
         format!("95 % of the triangles are distorted by less than 0.05 (the 95th percentile is {high:.1e})"),
     );
     Ok(figure)
-}
-
-fn worn_name() -> String {
-    Garment::Jumpsuit.name().into()
 }

@@ -44,8 +44,7 @@ pub fn sheet(closet: &Closet, outcomes: &[Outcome], summary: &Summary) -> Sheet 
     for (row, (garment, worn)) in (1..).zip(&closet.garments) {
         let note = format!("{} vertices", worn.mesh.positions.len());
         sheet.rows.push(Heading { label: heading(garment.name()), note, reference: Some(0) });
-        let mesh = sheet.add_mesh(&look::positions(&worn.mesh), &worn.mesh.triangles);
-        let design = look::surface(Role::Garment, mesh, look::colour(*garment));
+        let design = look::garment(&mut sheet, &worn.mesh.positions, &worn.mesh.triangles, *garment);
         sheet.cells.push(Cell { row, layers: columns[0].layers(Some(design)), ..Cell::default() });
         for (column, (avatar, _)) in (1..).zip(&closet.avatars) {
             let of_pair = |o: &&Outcome| o.garment == garment.name() && o.avatar == avatar.name();

@@ -1,8 +1,10 @@
 //! How bodies, garments and skeletons look in all the pictures.
 
+use glam::DVec3;
+
+use crate::generator::Sample;
 use crate::generator::garments::Garment;
 use crate::generator::skeleton::BONES;
-use crate::generator::{Sample, mesh};
 use crate::sheet::{Layer, Role, Scale, Sheet};
 
 /// The colour of a body to dress.
@@ -45,7 +47,7 @@ pub fn surface(role: Role, mesh: usize, colour: &str) -> Layer {
 
 /// The body, as a mesh of `sheet`.
 pub fn body(sheet: &mut Sheet, body: &Sample, colour: &str) -> Layer {
-    let mesh = sheet.add_mesh(&positions(&body.mesh), &body.mesh.triangles);
+    let mesh = sheet.add_mesh(&positions(&body.mesh.positions), &body.mesh.triangles);
     surface(Role::Body, mesh, colour)
 }
 
@@ -64,7 +66,13 @@ pub fn skeleton(sheet: &mut Sheet, body: &Sample, shown: bool) -> Layer {
     }
 }
 
+/// A garment, as a mesh of `sheet`, in its colour.
+pub fn garment(sheet: &mut Sheet, points: &[DVec3], triangles: &[[u32; 3]], kind: Garment) -> Layer {
+    let mesh = sheet.add_mesh(&positions(points), triangles);
+    surface(Role::Garment, mesh, colour(kind))
+}
+
 /// Positions as a sheet stores them.
-pub fn positions(mesh: &mesh::Mesh) -> Vec<[f32; 3]> {
-    mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
+pub fn positions(points: &[DVec3]) -> Vec<[f32; 3]> {
+    points.iter().map(|p| p.as_vec3().to_array()).collect()
 }

@@ -103,11 +103,16 @@ fn run(
     outcome.distances = [report.min_distance_self, report.min_distance_avatar].map(|d| d.is_finite().then_some(d));
     ended?;
     let distortion = session.distortion()?;
-    let mean = distortion.iter().sum::<f64>() / distortion.len().max(1) as f64;
-    outcome.distortion = Some([mean, distortion.iter().copied().fold(0.0, f64::max)]);
+    outcome.distortion = Some(mean_and_largest(&distortion));
     outcome.distortions = distortion.into_iter().map(|d| d as f32).collect();
     outcome.positions = session.garment_as_read(Precision::F32)?.into_iter().map(|p| p.as_vec3().to_array()).collect();
     Ok(())
+}
+
+/// Mean and largest of numbers from 0 on.
+pub fn mean_and_largest(values: &[f64]) -> [f64; 2] {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    [mean, values.iter().copied().fold(0.0, f64::max)]
 }
 
 /// A session with all its inputs set.

@@ -28,8 +28,8 @@ use body::Build;
 use glam::DVec3;
 use implicit::Field;
 use mesh::Mesh;
+use parts::modelled;
 use skeleton::{ARMS, LEGS, NECK, Proportions, Skeleton};
-use surface::Design;
 use texture::Texture;
 
 /// Varies what is left to chance in the samples.
@@ -76,7 +76,7 @@ pub fn sample(kind: Kind) -> Sample {
     if kind == Kind::Creature {
         for side in [1.0, -1.0] {
             let horn = body::horn(&skeleton, &build, side);
-            let horn_mesh = horn_mesh(&horn);
+            let horn_mesh = modelled(&horn, 0.009, |_| 0.012);
             for (row, more) in skin.iter_mut().zip(skin::skin(&horn_mesh, &horn)) {
                 row.extend(more);
             }
@@ -118,20 +118,7 @@ fn body_mesh(skeleton: &Skeleton, build: &Build, solid: &Field) -> Mesh {
             length.min(edge + 0.1 * (p.distance(*centre) - radius).max(0.0))
         })
     };
-    let function = |p: DVec3| solid.value(p);
-    let bounds = solid.bounds();
-    let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.0135, rounds: 3 }
-        .mesh()
-}
-
-fn horn_mesh(horn: &Field) -> Mesh {
-    let function = |p: DVec3| horn.value(p);
-    let edge_length = |_: DVec3| 0.012;
-    let bounds = horn.bounds();
-    let cuts = Vec::new();
-    Design { solid: Box::new(function), cuts, edge_length: Box::new(edge_length), bounds, cell: 0.009, rounds: 3 }
-        .mesh()
+    modelled(solid, 0.0135, edge_length)
 }
 
 fn shape(kind: Kind) -> (Proportions, Build) {

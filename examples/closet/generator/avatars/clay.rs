@@ -6,10 +6,10 @@ use super::super::Sample;
 use super::super::implicit::{Field, Owner, Shape};
 use super::super::loft::{Loft, Section};
 use super::super::mesh::Mesh;
+use super::super::parts::Parts;
 use super::super::skeleton::{JOINTS, Skeleton};
 use super::super::skin::skin;
 use super::super::surface::Design;
-use super::super::texture::Texture;
 use super::sweep::spline;
 
 /// Left (+x) and right.
@@ -158,13 +158,9 @@ pub fn rigid(mesh: Mesh, joint: usize) -> Part {
 
 /// One body of several closed parts.
 pub fn assemble(skeleton: Skeleton, parts: Vec<Part>) -> Sample {
-    let mut mesh = Mesh::default();
-    let mut rows = vec![Vec::new(); JOINTS];
-    for (part, weights) in parts {
-        mesh.append(&part);
-        for (row, more) in rows.iter_mut().zip(weights) {
-            row.extend(more);
-        }
+    let mut body = Parts::default();
+    for (mesh, weights) in parts {
+        body.add_skinned(&mesh, weights);
     }
-    Sample { mesh, skeleton, skin: rows, texture: Texture::default(), no_fit: Vec::new() }
+    body.sample(skeleton)
 }
