@@ -22,6 +22,9 @@ C_HEADERS = $(wildcard examples_c/*.h) include/bespoke.h
 CARGO_TARGET_DIR ?= target
 BUILT = $(CARGO_TARGET_DIR)/release/libbespoke.$(SHARED)
 SHARED = $(if $(filter Darwin,$(shell uname)),dylib,so)
+# The name by which the loader looks for the library: it holds the version of the binary interface.
+ABI = $(shell sed -n 's/^.define BESPOKE_ABI_VERSION //p' include/bespoke.h)
+LOADED = libbespoke.$(if $(filter Darwin,$(shell uname)),$(ABI).dylib,so.$(ABI))
 ORIGIN = $(if $(filter Darwin,$(shell uname)),@loader_path,$$ORIGIN)
 SAMPLE = build/sample
 # Real meshes, where they are at hand: more tests, and the table of `make pairs`.
@@ -37,6 +40,7 @@ build:
 build/libbespoke.$(SHARED): FORCE | build
 	cargo build --release --lib
 	cmp -s $(BUILT) $@ || { cp $(BUILT) $@.new && mv $@.new $@; }
+	ln -sf libbespoke.$(SHARED) build/$(LOADED)
 
 build/retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED)
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)'

@@ -1,4 +1,4 @@
-//! Builds the C++ shim around OpenVDB and links it.
+//! Builds the C++ shim around OpenVDB and links it, and says what kind of shared library comes out.
 
 use std::env;
 use std::path::PathBuf;
@@ -6,7 +6,16 @@ use std::path::PathBuf;
 /// Folders to look in before the system's: `OPENVDB_ROOT` holds `include` and `lib`.
 const ROOT: &str = "OPENVDB_ROOT";
 
+/// The number in the name by which the loader finds the library, `BESPOKE_ABI_VERSION`; a test compares them.
+const ABI: u32 = 1;
+
 fn main() {
+    shim();
+    shared_library();
+}
+
+/// The C++ shim and the libraries beneath it.
+fn shim() {
     for path in ["cpp_shim/volume.cpp", "cpp_shim/volume.h", "cpp_shim/probe.cpp", "build.rs"] {
         println!("cargo:rerun-if-changed={path}");
     }
@@ -36,4 +45,23 @@ fn main() {
     }
     println!("cargo:rustc-link-lib=openvdb");
     println!("cargo:rustc-link-lib=tbb");
+}
+
+/// Name and manners of the shared library.
+fn shared_library() {
+    let arguments: &[&str] = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
+        Ok("linux") => &[
+            &format!("-soname,libbespoke.so.{ABI}"),
+            // Threads of TBB and what the threads of the host have to destroy outlive the last session: a library that
+            // were really unloaded would take the code from under them.
+            "-z,nodelete",
+            // Two copies in one process, of two plugins, must never call into each other.
+            "-Bsymbolic",
+        ],
+        Ok("macos") => &[&format!("-install_name,@rpath/libbespoke.{ABI}.dylib")],
+        _ => &[],
+    };
+    for argument in arguments {
+        println!("cargo:rustc-cdylib-link-arg=-Wl,{argument}");
+    }
 }
