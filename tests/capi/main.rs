@@ -15,5 +15,7 @@ mod retarget;
 mod states;
 mod threads;
 
+#[path = "../support/library.rs"]
+mod library;
 #[path = "../support/mod.rs"]
 mod support;

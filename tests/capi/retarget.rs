@@ -10,6 +10,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 
 use crate::caller::Sample;
+use crate::library;
 
 fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
@@ -18,7 +19,7 @@ fn program() -> &'static Path {
             return path.into();
         }
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let library = std::env::current_exe().expect("a test program").parent().expect("a folder").to_owned();
+        let library = library::folder();
         let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("retarget");
         let sources = fs::read_dir(root.join("examples_c")).expect("examples_c exists");
         let sources =
