@@ -1,6 +1,7 @@
 /* The header stands alone, twice included, and what it declares has the C types that a program expects. */
 #include "bespoke.h"
 #include "bespoke.h"
+#include "layout.h"
 
 BespokeStatus (*const create)(BespokeSession **) = bespoke_session_create;
 BespokeStatus (*const step)(BespokeSession *, uint32_t, uint32_t, uint32_t *) = bespoke_session_step;

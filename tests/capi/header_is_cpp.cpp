@@ -1,10 +1,10 @@
 // The same for C++: C linkage, and enums of the size that C gives them.
 #include "bespoke.h"
 #include "bespoke.h"
+#include "layout.h"
 
 BespokeStatus (*const create)(BespokeSession **) = bespoke_session_create;
 static_assert(sizeof(BespokeStatus) == 4, "statuses are 32-bit");
-static_assert(sizeof(BespokeView) == 4 * sizeof(void *), "views have no hidden parts");
 
 int main() {
     BespokeSession *session = nullptr;
