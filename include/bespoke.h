@@ -1,24 +1,52 @@
-/* Bespoke: fits a garment that was modelled on one body to another body, with no triangle through another.
-
-   This file is generated from the library's sources, and it is the manual. The whole way of a caller:
-
-     bespoke_session_create -> set_garment, set_source_skeleton, set_target_avatar, set_target_skeleton
-       (optional: set_source_avatar, set_target_skin_weights, set_fit_weights, add_layer, set_options, ...)
-       -> prepare -> step, step, step ... (or run) -> read_garment_vertices -> destroy
-
-   What holds for all functions:
-
-   Status.  A call that can fail returns a status. Unless it is BESPOKE_STATUS_BUSY, a failed call with a session
-     leaves a sentence for bespoke_session_last_message that says what, where and which element. A call that failed
-     because of its arguments or of the state changed nothing. Each function lists its errors without their prefix.
-   Pointers.  They are null, which is refused where not said otherwise, or point to what is said; structs with a
-     struct_size to as many bytes as that says. A handle is what the library gave out and has not destroyed.
-     Apart from handles, nothing is kept after a call, and nothing of the library's is to be freed by the caller.
-   Threads.  "any, one at a time": from any thread, but a second call with the same session while the first runs
-     returns BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent.
-     The library works in threads of its own and touches none of the host's settings (signals, locale, rounding).
-   Enums.  They cross as uint32_t and are checked. Structs that are all zeros, but for their struct_size, mean the
-     defaults. */
+// Bespoke: fits a garment that was modelled on one body to another body, with no triangle through another.
+//
+// This file is generated from the library's sources, and it is the manual of the C API. include/bespoke.hpp is its face for
+// C++, bindings/csharp the one for C#. The whole way of a caller:
+//
+//   BespokeSession *session = NULL;
+//   bespoke_session_create(&session);
+//   bespoke_session_set_garment(session, &positions, &triangles);          // as it was modelled
+//   bespoke_session_set_source_skeleton(session, &joints, &bones);         // around this skeleton
+//   bespoke_session_set_target_avatar(session, &positions, &triangles);    // the body to dress
+//   bespoke_session_set_target_skeleton(session, &joints, &bones);         // and its skeleton
+//   BespokeStatus status = bespoke_session_run(session);                   // or prepare, then step, step, step ...
+//   if (status == BESPOKE_STATUS_OK) bespoke_session_read_garment_vertices(session, &result, NULL);
+//   else bespoke_session_last_message(session, sentence, sizeof sentence, NULL);
+//   bespoke_session_destroy(session);
+//
+// Optional before it runs: the spaces of both sides, the source avatar, skin weights, fit weights, pins, rigid groups, layers,
+// options.
+//
+// What holds for all functions:
+//
+// Status.  A call that can fail returns a status. Unless it is BESPOKE_STATUS_BUSY, a failed call with a session leaves a
+//   sentence for bespoke_session_last_message that says what, where and which element. A call that failed because of its
+//   arguments or of the state changed nothing. Each function lists its errors without their prefix.
+// State.  Where a session is on its way, one of BespokeStage. A function lists the states in which it may be called; in any
+//   other it returns BESPOKE_STATUS_INVALID_STATE.
+// Pointers.  They are null, which is refused where not said otherwise, or point to what is said; structs with a struct_size to
+//   as many bytes as that says. A handle is what the library gave out and has not destroyed.
+// Ownership.  Apart from handles, which their destroy functions free, nothing of the library's is to be freed by the caller,
+//   and no pointer of the caller's is kept after a call.
+// Structs.  Those with a struct_size, which the caller sets, may grow at their end: a program and a library of different age
+//   understand each other. A struct that is all zeros, but for its struct_size, means the defaults. Fields called reserved
+//   are 0.
+// Enums.  They cross as uint32_t and are checked. A later library may answer with numbers that this header does not name.
+// Lengths.  They are in the caller's unit, or, where that is said, in the normalised space, in which the longest side of each
+//   skeleton's bounding box is 2.
+// Threads.  "any, one at a time": from any thread, but a second call with the same session while the first runs returns
+//   BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent, and nothing is bound
+//   to the thread that made it: a host's thread pool may step a session in another thread each time. A session works in
+//   threads of its own, as many as BespokeOptions.threads says, from prepare until it is reset or destroyed; a host that runs
+//   many sessions at once gives each of them one. The calling thread waits meanwhile, and needs little stack (64 KiB).
+// Process.  Nothing is shared but code: several plugins may use the library in one process, or bring a copy each. Signals,
+//   locale, environment, standard streams and allocator of the host are left alone; the floating-point mode of the calling
+//   thread (rounding, flushing of subnormal numbers, traps) is the default during a call, and as it was after it. Once
+//   loaded, the library stays until the process ends: dlclose is safe after all sessions are destroyed, and dlopen finds it
+//   again.
+// Fork.  Not supported: a process that was forked cannot use the sessions of its parent (INVALID_STATE, and they stay
+//   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls are
+//   harmless there.
 
 
 #ifndef BESPOKE_H
@@ -27,100 +55,58 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/*
- Number of the binary interface that this header describes. It changes when a program built with another header
- would no longer work; additions at the end of a struct with a `struct_size` do not change it.
- */
+/// Number of the binary interface that this header describes. It changes when a program built with another header
+/// would no longer work; additions at the end of a struct with a `struct_size` do not change it.
 #define BESPOKE_ABI_VERSION 1
 
-/*
- The value of a weight that switches its term off; 0 means the default.
- */
+/// The value of a weight that switches its term off; 0 means the default.
 #define BESPOKE_WEIGHT_OFF -1.0
 
-/*
- Length of the list of energy terms in BespokeProgress.
- */
+/// Length of the list of energy terms in BespokeProgress.
 #define BESPOKE_MAX_TERMS 12
 
-/*
- Bytes of the name in BespokeEnergy, its zero byte included.
- */
+/// Bytes of the name in BespokeEnergy, its zero byte included.
 #define BESPOKE_ENERGY_NAME_SIZE 32
 
-/*
- Bytes of the sentence in BespokeDiagnostic, its zero byte included.
- */
+/// Bytes of the sentence in BespokeDiagnostic, its zero byte included.
 #define BESPOKE_SENTENCE_SIZE 512
 
-/*
- Elements that a BespokeDiagnostic can name.
- */
+/// Elements that a BespokeDiagnostic can name.
 #define BESPOKE_MAX_ELEMENTS 4
 
-/*
- The outcome of a call.
- */
+/// The outcome of a call.
 enum BespokeStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   It did what it says.
-   */
+  /// It did what it says.
   BESPOKE_STATUS_OK = 0,
-  /*
-   An argument is null, out of range or of the wrong size.
-   */
+  /// An argument is null, out of range or of the wrong size.
   BESPOKE_STATUS_INVALID_ARGUMENT = 1,
-  /*
-   The call does not fit the state of the session.
-   */
+  /// The call does not fit the state of the session.
   BESPOKE_STATUS_INVALID_STATE = 2,
-  /*
-   A mesh cannot be used: no vertices, an index out of range, a coordinate that is not finite.
-   */
+  /// A mesh cannot be used: no vertices, an index out of range, a coordinate that is not finite.
   BESPOKE_STATUS_INVALID_MESH = 3,
-  /*
-   A skeleton cannot be used, or the two skeletons do not share a topology.
-   */
+  /// A skeleton cannot be used, or the two skeletons do not share a topology.
   BESPOKE_STATUS_INVALID_SKELETON = 4,
-  /*
-   Skin or fit weights have the wrong shape or hold bad values.
-   */
+  /// Skin or fit weights have the wrong shape or hold bad values.
   BESPOKE_STATUS_INVALID_WEIGHTS = 5,
-  /*
-   The garment intersects itself at the start, and the options are strict.
-   */
+  /// The garment intersects itself at the start, and the options are strict.
   BESPOKE_STATUS_SELF_INTERSECTION = 6,
-  /*
-   The garment does not enclose its skeleton, and no way inside it was found.
-   */
+  /// The garment does not enclose its skeleton, and no way inside it was found.
   BESPOKE_STATUS_NOT_ENCLOSED = 7,
-  /*
-   The avatar could not be inflated to its full size without an intersection.
-   */
+  /// The avatar could not be inflated to its full size without an intersection.
   BESPOKE_STATUS_INFLATION_STALLED = 8,
-  /*
-   The exact verifier found an intersection in the result.
-   */
+  /// The exact verifier found an intersection in the result.
   BESPOKE_STATUS_NOT_VERIFIED = 9,
-  /*
-   Somebody asked to stop.
-   */
+  /// Somebody asked to stop.
   BESPOKE_STATUS_CANCELLED = 10,
-  /*
-   Another thread is inside a call with the same session. Nothing was done, and the message did not change.
-   */
+  /// Another thread is inside a call with the same session. Nothing was done, and the message did not change.
   BESPOKE_STATUS_BUSY = 11,
-  /*
-   A defect of this library. The session refuses all further work and can only be destroyed; others go on.
-   */
+  /// A defect of this library. The session refuses all further work and can only be destroyed; others go on.
   BESPOKE_STATUS_INTERNAL = 12,
-  /*
-   The session would take more memory than the option `memory_limit` allows.
-   */
+  /// The session would take more memory than the option `memory_limit` allows.
   BESPOKE_STATUS_MEMORY_LIMIT = 13,
 };
 #ifndef __cplusplus
@@ -131,29 +117,19 @@ typedef uint32_t BespokeStatus;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- How one number of an array is stored. 0 is none of them, so that a forgotten field is noticed.
- */
+/// How one number of an array is stored. 0 is none of them, so that a forgotten field is noticed.
 enum BespokeComponent
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   float
-   */
+  /// float
   BESPOKE_COMPONENT_F32 = 1,
-  /*
-   double
-   */
+  /// double
   BESPOKE_COMPONENT_F64 = 2,
-  /*
-   uint16_t
-   */
+  /// uint16_t
   BESPOKE_COMPONENT_U16 = 3,
-  /*
-   uint32_t
-   */
+  /// uint32_t
   BESPOKE_COMPONENT_U32 = 4,
 };
 #ifndef __cplusplus
@@ -164,45 +140,27 @@ typedef uint32_t BespokeComponent;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- Where a session is on its way.
- */
+/// Where a session is on its way.
 enum BespokeStage
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Takes inputs; nothing is computed yet.
-   */
+  /// Takes inputs; nothing is computed yet.
   BESPOKE_STAGE_SETUP = 0,
-  /*
-   Step 1 is done: the avatar is shrunk onto the source skeleton.
-   */
+  /// Step 1 is done: the avatar is shrunk onto the source skeleton.
   BESPOKE_STAGE_PREPARED = 1,
-  /*
-   Step 2: the avatar grows to its full size inside the garment.
-   */
+  /// Step 2: the avatar grows to its full size inside the garment.
   BESPOKE_STAGE_INFLATE = 2,
-  /*
-   Step 3: the garment settles onto the avatar.
-   */
+  /// Step 3: the garment settles onto the avatar.
   BESPOKE_STAGE_FIT = 3,
-  /*
-   The exact verifier looks at the result.
-   */
+  /// The exact verifier looks at the result.
   BESPOKE_STAGE_VERIFY = 4,
-  /*
-   The result is final and verified.
-   */
+  /// The result is final and verified.
   BESPOKE_STAGE_DONE = 5,
-  /*
-   A call failed for good. What the garment looked like last can be read.
-   */
+  /// A call failed for good. What the garment looked like last can be read.
   BESPOKE_STAGE_FAILED = 6,
-  /*
-   Somebody asked to stop. What the garment looked like last can be read.
-   */
+  /// Somebody asked to stop. What the garment looked like last can be read.
   BESPOKE_STAGE_CANCELLED = 7,
 };
 #ifndef __cplusplus
@@ -213,37 +171,23 @@ typedef uint32_t BespokeStage;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- A direction along one axis of the caller's coordinates.
- */
+/// A direction along one axis of the caller's coordinates.
 enum BespokeAxis
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   +x
-   */
+  /// +x
   BESPOKE_AXIS_POSITIVE_X = 1,
-  /*
-   -x
-   */
+  /// -x
   BESPOKE_AXIS_NEGATIVE_X = 2,
-  /*
-   +y
-   */
+  /// +y
   BESPOKE_AXIS_POSITIVE_Y = 3,
-  /*
-   -y
-   */
+  /// -y
   BESPOKE_AXIS_NEGATIVE_Y = 4,
-  /*
-   +z
-   */
+  /// +z
   BESPOKE_AXIS_POSITIVE_Z = 5,
-  /*
-   -z
-   */
+  /// -z
   BESPOKE_AXIS_NEGATIVE_Z = 6,
 };
 #ifndef __cplusplus
@@ -254,21 +198,15 @@ typedef uint32_t BespokeAxis;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- How the corners of a front face follow each other for somebody who looks at its front.
- */
+/// How the corners of a front face follow each other for somebody who looks at its front.
 enum BespokeWinding
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Against the hands of a clock.
-   */
+  /// Against the hands of a clock.
   BESPOKE_WINDING_COUNTER_CLOCKWISE = 0,
-  /*
-   With the hands of a clock.
-   */
+  /// With the hands of a clock.
   BESPOKE_WINDING_CLOCKWISE = 1,
 };
 #ifndef __cplusplus
@@ -279,21 +217,15 @@ typedef uint32_t BespokeWinding;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- Form of the surface term (Eq. 2 of the paper).
- */
+/// Form of the surface term (Eq. 2 of the paper).
 enum BespokeSurfaceForm
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Free for every similarity: scaling the garment as a whole costs nothing.
-   */
+  /// Free for every similarity: scaling the garment as a whole costs nothing.
   BESPOKE_SURFACE_FORM_SIMILARITY = 0,
-  /*
-   As printed in the paper.
-   */
+  /// As printed in the paper.
   BESPOKE_SURFACE_FORM_PRINTED = 1,
 };
 #ifndef __cplusplus
@@ -304,67 +236,39 @@ typedef uint32_t BespokeSurfaceForm;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- What a diagnostic is about.
- */
+/// What a diagnostic is about.
 enum BespokeDiagnosticKind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
-   */
+  /// Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
   BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES = 1,
-  /*
-   A garment triangle with the corners of another, which counts once. Both are named.
-   */
+  /// A garment triangle with the corners of another, which counts once. Both are named.
   BESPOKE_DIAGNOSTIC_KIND_DUPLICATE_TRIANGLE = 2,
-  /*
-   A garment triangle without area.
-   */
+  /// A garment triangle without area.
   BESPOKE_DIAGNOSTIC_KIND_DEGENERATE_TRIANGLE = 3,
-  /*
-   A garment edge with more than two triangles. Its vertices are named.
-   */
+  /// A garment edge with more than two triangles. Its vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_NON_MANIFOLD_EDGE = 4,
-  /*
-   A garment vertex that no triangle uses.
-   */
+  /// A garment vertex that no triangle uses.
   BESPOKE_DIAGNOSTIC_KIND_UNUSED_VERTEX = 5,
-  /*
-   A small piece of the garment, such as a button, that is held to the piece beside it.
-   */
+  /// A small piece of the garment, such as a button, that is held to the piece beside it.
   BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE = 6,
-  /*
-   Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
-   they have come apart.
-   */
+  /// Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
+  /// they have come apart.
   BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION = 7,
-  /*
-   Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
-   named.
-   */
+  /// Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
+  /// named.
   BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT = 8,
-  /*
-   The avatar, shrunk onto the source skeleton, passes through the garment.
-   */
+  /// The avatar, shrunk onto the source skeleton, passes through the garment.
   BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES = 9,
-  /*
-   The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
-   */
+  /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
   BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES = 10,
-  /*
-   Two triangles that intersect in the result and did not at the start.
-   */
+  /// Two triangles that intersect in the result and did not at the start.
   BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION = 11,
-  /*
-   A pinned garment vertex ended away from its place.
-   */
+  /// A pinned garment vertex ended away from its place.
   BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED = 12,
-  /*
-   A rigid group of garment vertices ended bent, for something stands in its way.
-   */
+  /// A rigid group of garment vertices ended bent, for something stands in its way.
   BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT = 13,
 };
 #ifndef __cplusplus
@@ -375,25 +279,17 @@ typedef uint32_t BespokeDiagnosticKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- How much a diagnostic matters.
- */
+/// How much a diagnostic matters.
 enum BespokeSeverity
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Good to know.
-   */
+  /// Good to know.
   BESPOKE_SEVERITY_NOTE = 1,
-  /*
-   The result may be worse for it.
-   */
+  /// The result may be worse for it.
   BESPOKE_SEVERITY_WARNING = 2,
-  /*
-   There is no result because of it.
-   */
+  /// There is no result because of it.
   BESPOKE_SEVERITY_ERROR = 3,
 };
 #ifndef __cplusplus
@@ -404,38 +300,24 @@ typedef uint32_t BespokeSeverity;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- Which of the inputs an element belongs to.
- */
+/// Which of the inputs an element belongs to.
 enum BespokeSubject
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   The garment.
-   */
+  /// The garment.
   BESPOKE_SUBJECT_GARMENT = 1,
-  /*
-   The body to dress.
-   */
+  /// The body to dress.
   BESPOKE_SUBJECT_TARGET_AVATAR = 2,
-  /*
-   The body that the garment was designed on.
-   */
+  /// The body that the garment was designed on.
   BESPOKE_SUBJECT_SOURCE_AVATAR = 3,
-  /*
-   The skeleton that the garment was designed on.
-   */
+  /// The skeleton that the garment was designed on.
   BESPOKE_SUBJECT_SOURCE_SKELETON = 4,
-  /*
-   The skeleton of the body to dress.
-   */
+  /// The skeleton of the body to dress.
   BESPOKE_SUBJECT_TARGET_SKELETON = 5,
-  /*
-   The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
-   here on is a layer.
-   */
+  /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
+  /// here on is a layer.
   BESPOKE_SUBJECT_LAYER = 256,
 };
 #ifndef __cplusplus
@@ -446,25 +328,17 @@ typedef uint32_t BespokeSubject;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- What the index of an element counts.
- */
+/// What the index of an element counts.
 enum BespokeElementKind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /*
-   Vertices of a mesh.
-   */
+  /// Vertices of a mesh.
   BESPOKE_ELEMENT_KIND_VERTEX = 1,
-  /*
-   Triangles of a mesh.
-   */
+  /// Triangles of a mesh.
   BESPOKE_ELEMENT_KIND_TRIANGLE = 2,
-  /*
-   Bones of a skeleton.
-   */
+  /// Bones of a skeleton.
   BESPOKE_ELEMENT_KIND_BONE = 3,
 };
 #ifndef __cplusplus
@@ -475,494 +349,268 @@ typedef uint32_t BespokeElementKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/*
- Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
- */
+/// Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
 typedef struct BespokeControl BespokeControl;
 
-/*
- One garment on its way to one avatar. Opaque.
- */
+/// One garment on its way to one avatar. Opaque.
 typedef struct BespokeSession BespokeSession;
 
-/*
- An array of the caller that is read during a call and never kept. Alignment does not matter.
-
- An element is what the parameter is said to hold: a point (x, y, z), a triangle (three vertices, from 0), a bone
- (two joints, from 0), a number.
- */
+/// An array of the caller that is read during a call and never kept. Alignment does not matter.
+///
+/// An element is what the parameter is said to hold: a point (x, y, z), a triangle (three vertices, from 0), a bone
+/// (two joints, from 0), a number.
 typedef struct BespokeView {
-  /*
-   The first element. May be null where `count` is 0.
-   */
+  /// The first element. May be null where `count` is 0.
   const void *data;
-  /*
-   Elements.
-   */
+  /// Elements.
   size_t count;
-  /*
-   Bytes from one element to the next; 0: they are packed.
-   */
+  /// Bytes from one element to the next; 0: they are packed.
   size_t stride;
-  /*
-   One of BespokeComponent.
-   */
+  /// One of BespokeComponent.
   uint32_t component;
 } BespokeView;
 
-/*
- A coordinate system. Zero in a field means its default; handedness follows from the axes.
- */
+/// A coordinate system. Zero in a field means its default; handedness follows from the axes.
 typedef struct BespokeSpace {
-  /*
-   sizeof(BespokeSpace).
-   */
+  /// sizeof(BespokeSpace).
   uint32_t struct_size;
-  /*
-   The axis to the right, one of BespokeAxis. Default: +x.
-   */
+  /// The axis to the right, one of BespokeAxis. Default: +x.
   uint32_t right;
-  /*
-   The axis upwards. Default: +y.
-   */
+  /// The axis upwards. Default: +y.
   uint32_t up;
-  /*
-   The axis forwards, into the picture. Default: -z.
-   */
+  /// The axis forwards, into the picture. Default: -z.
   uint32_t forward;
-  /*
-   Length of the unit in metres. Default: 1.
-   */
+  /// Length of the unit in metres. Default: 1.
   double metres_per_unit;
-  /*
-   One of BespokeWinding.
-   */
+  /// One of BespokeWinding.
   uint32_t winding;
-  /*
-   0.
-   */
+  /// 0.
   uint32_t reserved;
 } BespokeSpace;
 
-/*
- What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
- side of the skeleton's bounding box is 2.
- */
+/// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
+/// side of the skeleton's bounding box is 2.
 typedef struct BespokeOptions {
-  /*
-   sizeof(BespokeOptions).
-   */
+  /// sizeof(BespokeOptions).
   uint32_t struct_size;
-  /*
-   Threads of this session. Default: as many as the machine has cores.
-   */
+  /// Threads of this session. Default: as many as the machine has cores.
   uint32_t threads;
-  /*
-   Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
-   */
+  /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
   double fit_weight;
-  /*
-   Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
-   the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
-   */
+  /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
+  /// the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
   double designed_clearance;
-  /*
-   Weight of the surface term, which keeps the design's shape. Default 1.
-   */
+  /// Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
-  /*
-   Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
-   */
+  /// Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
   double curvature_weight;
-  /*
-   Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
-   */
+  /// Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
   double torsion_weight;
-  /*
-   Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
-   */
+  /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
   double position_weight;
-  /*
-   Weight of the contact barrier, on squared distances. Default 1e8.
-   */
+  /// Weight of the contact barrier, on squared distances. Default 1e8.
   double barrier_weight;
-  /*
-   Distance at which the barrier begins. Default 0.002.
-   */
+  /// Distance at which the barrier begins. Default 0.002.
   double dhat;
-  /*
-   While the avatar grows: distance to it at which the barrier begins. Default 0.01.
-   */
+  /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
   double inflation_dhat;
-  /*
-   While the avatar grows: weight of the contact barrier. Default 1e4.
-   */
+  /// While the avatar grows: weight of the contact barrier. Default 1e4.
   double inflation_barrier_weight;
-  /*
-   Edge of a voxel of the distance field. Default 0.01.
-   */
+  /// Edge of a voxel of the distance field. Default 0.01.
   double voxel;
-  /*
-   Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
-   */
+  /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
   double separation_floor;
-  /*
-   The fit ends where the relative Newton decrement falls below this. Default 1e-3.
-   */
+  /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
   double tolerance;
-  /*
-   Largest number of Newton iterations of each stage. Default 500.
-   */
+  /// Largest number of Newton iterations of each stage. Default 500.
   uint32_t max_iterations;
-  /*
-   One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
-   */
+  /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
   uint32_t surface_form;
-  /*
-   Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
-   meshes before it begins, and looked at again as it goes on.
-   */
+  /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+  /// meshes before it begins, and looked at again as it goes on.
   uint64_t memory_limit;
-  /*
-   1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
-   named by bespoke_session_read_diagnostics, and no others ever join them.
-   */
+  /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
+  /// named by bespoke_session_read_diagnostics, and no others ever join them.
   uint32_t strict;
-  /*
-   0.
-   */
+  /// 0.
   uint32_t reserved;
-  /*
-   Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
-   away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
-   */
+  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
+  /// away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
   double offset;
-  /*
-   Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
-   at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
-   */
+  /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
+  /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
   double fit_distance;
-  /*
-   Weight of pins. Default 1000.
-   */
+  /// Weight of pins. Default 1000.
   double pin_weight;
 } BespokeOptions;
 
-/*
- Pairs of triangles that touch or cross each other.
- */
+/// Pairs of triangles that touch or cross each other.
 typedef struct BespokeIntersections {
-  /*
-   Of the garment with itself.
-   */
+  /// Of the garment with itself.
   uint64_t garment_garment;
-  /*
-   Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
-   some of them.
-   */
+  /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
+  /// some of them.
   uint64_t since_start;
-  /*
-   Of the garment with the avatar or the layers that it wears.
-   */
+  /// Of the garment with the avatar or the layers that it wears.
   uint64_t garment_avatar;
 } BespokeIntersections;
 
-/*
- A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's bounding
- box is 2.
- */
+/// A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's bounding
+/// box is 2.
 typedef struct BespokeProgress {
-  /*
-   sizeof(BespokeProgress).
-   */
+  /// sizeof(BespokeProgress).
   uint32_t struct_size;
-  /*
-   One of BespokeStage.
-   */
+  /// One of BespokeStage.
   uint32_t stage;
-  /*
-   Iterations of this stage so far.
-   */
+  /// Iterations of this stage so far.
   uint32_t iteration;
-  /*
-   How many of `energies` are in use.
-   */
+  /// How many of `energies` are in use.
   uint32_t energy_count;
-  /*
-   Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
-   */
+  /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
   double t;
-  /*
-   The objective: the sum of `energies`.
-   */
+  /// The objective: the sum of `energies`.
   double energy;
-  /*
-   Euclidean norm of the objective's gradient.
-   */
+  /// Euclidean norm of the objective's gradient.
   double gradient_norm;
-  /*
-   Smallest distance of a contact pair; infinite where no pair is near.
-   */
+  /// Smallest distance of a contact pair; infinite where no pair is near.
   double min_distance;
-  /*
-   Contact pairs closer than dhat.
-   */
+  /// Contact pairs closer than dhat.
   uint64_t active_contacts;
-  /*
-   Seconds in step 1 so far.
-   */
+  /// Seconds in step 1 so far.
   double prepare_seconds;
-  /*
-   Seconds in step 2 so far.
-   */
+  /// Seconds in step 2 so far.
   double inflate_seconds;
-  /*
-   Seconds in step 3 so far.
-   */
+  /// Seconds in step 3 so far.
   double fit_seconds;
-  /*
-   Seconds in the verifier so far.
-   */
+  /// Seconds in the verifier so far.
   double verify_seconds;
-  /*
-   Each term with its weight, in the order of bespoke_session_read_energy.
-   */
+  /// Each term with its weight, in the order of bespoke_session_read_energy.
   double energies[BESPOKE_MAX_TERMS];
 } BespokeProgress;
 
-/*
- An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
- as they are.
- */
+/// An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
+/// as they are.
 typedef struct BespokeBuffer {
-  /*
-   The first element. May be null where `capacity` is 0.
-   */
+  /// The first element. May be null where `capacity` is 0.
   void *data;
-  /*
-   Elements that fit.
-   */
+  /// Elements that fit.
   size_t capacity;
-  /*
-   Bytes from one element to the next; 0: they are packed.
-   */
+  /// Bytes from one element to the next; 0: they are packed.
   size_t stride;
-  /*
-   BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
-   */
+  /// BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
   uint32_t component;
 } BespokeBuffer;
 
-/*
- The work of one stage.
- */
+/// The work of one stage.
 typedef struct BespokeWork {
-  /*
-   Wall-clock seconds.
-   */
+  /// Wall-clock seconds.
   double seconds;
-  /*
-   Newton iterations.
-   */
+  /// Newton iterations.
   uint32_t iterations;
-  /*
-   Numeric factorisations.
-   */
+  /// Numeric factorisations.
   uint32_t factorisations;
-  /*
-   Symbolic factorisations.
-   */
+  /// Symbolic factorisations.
   uint32_t symbolic_factorisations;
-  /*
-   0.
-   */
+  /// 0.
   uint32_t reserved;
 } BespokeWork;
 
-/*
- What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
- bounding box is 2.
- */
+/// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// bounding box is 2.
 typedef struct BespokeReport {
-  /*
-   sizeof(BespokeReport).
-   */
+  /// sizeof(BespokeReport).
   uint32_t struct_size;
-  /*
-   Threads that the session works with.
-   */
+  /// Threads that the session works with.
   uint32_t threads;
-  /*
-   Step 1.
-   */
+  /// Step 1.
   struct BespokeWork prepare;
-  /*
-   Step 2.
-   */
+  /// Step 2.
   struct BespokeWork inflate;
-  /*
-   Step 3.
-   */
+  /// Step 3.
   struct BespokeWork fit;
-  /*
-   Wall-clock seconds of the exact verifier.
-   */
+  /// Wall-clock seconds of the exact verifier.
   double verify_seconds;
-  /*
-   Seconds until the distance field was built, beside step 2.
-   */
+  /// Seconds until the distance field was built, beside step 2.
   double field_seconds;
-  /*
-   Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
-   */
+  /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
   double t;
-  /*
-   Euclidean norm of the objective's gradient.
-   */
+  /// Euclidean norm of the objective's gradient.
   double gradient_norm;
-  /*
-   Smallest distance of the garment to itself; infinite where no pair is near.
-   */
+  /// Smallest distance of the garment to itself; infinite where no pair is near.
   double garment_distance;
-  /*
-   Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
-   */
+  /// Smallest distance of the garment to the avatar and its layers; infinite where no pair is near.
   double avatar_distance;
-  /*
-   Contact pairs closer than dhat.
-   */
+  /// Contact pairs closer than dhat.
   uint64_t active_contacts;
-  /*
-   Intersecting pairs within the garment that the verifier found.
-   */
+  /// Intersecting pairs within the garment that the verifier found.
   uint64_t garment_intersections;
-  /*
-   Intersecting pairs of garment and avatar, its layers included, that the verifier found.
-   */
+  /// Intersecting pairs of garment and avatar, its layers included, that the verifier found.
   uint64_t avatar_intersections;
-  /*
-   Vertices of the garment.
-   */
+  /// Vertices of the garment.
   uint64_t garment_vertices;
-  /*
-   Triangles of the garment.
-   */
+  /// Triangles of the garment.
   uint64_t garment_triangles;
-  /*
-   Vertices of the target avatar, here and below without its layers.
-   */
+  /// Vertices of the target avatar, here and below without its layers.
   uint64_t avatar_vertices;
-  /*
-   Triangles of the target avatar.
-   */
+  /// Triangles of the target avatar.
   uint64_t avatar_triangles;
-  /*
-   Vertices of the target avatar once its triangles over several bones are split.
-   */
+  /// Vertices of the target avatar once its triangles over several bones are split.
   uint64_t subdivided_avatar_vertices;
-  /*
-   Triangles of the target avatar once those over several bones are split.
-   */
+  /// Triangles of the target avatar once those over several bones are split.
   uint64_t subdivided_avatar_triangles;
-  /*
-   Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
-   coordinates of the result are coarse.
-   */
+  /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
+  /// coordinates of the result are coarse.
   double separation_floor;
-  /*
-   1 where the verifier has looked at the result, else 0.
-   */
+  /// 1 where the verifier has looked at the result, else 0.
   uint32_t is_verified;
-  /*
-   1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
-   */
+  /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
   uint32_t is_converged;
-  /*
-   Number of energy terms; see bespoke_session_read_energy.
-   */
+  /// Number of energy terms; see bespoke_session_read_energy.
   uint32_t energy_count;
-  /*
-   Always 0.
-   */
+  /// Always 0.
   uint32_t reserved;
-  /*
-   Bytes that the session's arrays take, without what the threads and the allocator add.
-   */
+  /// Bytes that the session's arrays take, without what the threads and the allocator add.
   uint64_t memory_bytes;
-  /*
-   Intersecting or touching pairs within the garment at the start, which are let off.
-   */
+  /// Intersecting or touching pairs within the garment at the start, which are let off.
   uint64_t garment_intersections_at_start;
 } BespokeReport;
 
-/*
- One term of the objective.
- */
+/// One term of the objective.
 typedef struct BespokeEnergy {
-  /*
-   Name, such as "surface"; ends with a zero byte.
-   */
+  /// Name, such as "surface"; ends with a zero byte.
   char name[BESPOKE_ENERGY_NAME_SIZE];
-  /*
-   Value without its weight.
-   */
+  /// Value without its weight.
   double value;
-  /*
-   Weight; the term adds weight * value to the objective.
-   */
+  /// Weight; the term adds weight * value to the objective.
   double weight;
 } BespokeEnergy;
 
-/*
- A vertex, triangle or bone of an input.
- */
+/// A vertex, triangle or bone of an input.
 typedef struct BespokeElement {
-  /*
-   One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
-   */
+  /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
   uint32_t subject;
-  /*
-   One of BespokeElementKind.
-   */
+  /// One of BespokeElementKind.
   uint32_t kind;
-  /*
-   The caller's index, from 0.
-   */
+  /// The caller's index, from 0.
   uint32_t index;
 } BespokeElement;
 
-/*
- One thing worth knowing about the inputs or the result.
- */
+/// One thing worth knowing about the inputs or the result.
 typedef struct BespokeDiagnostic {
-  /*
-   One of BespokeDiagnosticKind.
-   */
+  /// One of BespokeDiagnosticKind.
   uint32_t kind;
-  /*
-   One of BespokeSeverity.
-   */
+  /// One of BespokeSeverity.
   uint32_t severity;
-  /*
-   Elements in use.
-   */
+  /// Elements in use.
   uint32_t element_count;
-  /*
-   The elements that it is about, for a tool to select.
-   */
+  /// The elements that it is about, for a tool to select.
   struct BespokeElement elements[BESPOKE_MAX_ELEMENTS];
-  /*
-   0.
-   */
+  /// 0.
   uint32_t reserved;
-  /*
-   A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
-   has none.
-   */
+  /// A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
+  /// has none.
   double distance;
-  /*
-   One sentence, UTF-8; ends with a zero byte.
-   */
+  /// One sentence, UTF-8; ends with a zero byte.
   char sentence[BESPOKE_SENTENCE_SIZE];
 } BespokeDiagnostic;
 
@@ -970,412 +618,333 @@ typedef struct BespokeDiagnostic {
 extern "C" {
 #endif // __cplusplus
 
-/*
- The name of a status, such as "BESPOKE_STATUS_BUSY"; "BESPOKE_STATUS_UNKNOWN" for any other number.
-
- Ownership: the text is part of the library, never freed. Threads: any, at any time.
- */
+/// The name of a status, such as "BESPOKE_STATUS_BUSY"; "BESPOKE_STATUS_UNKNOWN" for any other number.
+///
+/// `status`: one of BespokeStatus. Ownership: the text is part of the library, never freed. Threads: any, at any time.
 const char *bespoke_status_name(uint32_t status);
 
-/*
- The binary interface of the library that is loaded. Compare with BESPOKE_ABI_VERSION before anything else.
-
- Threads: any, at any time.
- */
+/// The binary interface of the library that is loaded. Compare with BESPOKE_ABI_VERSION before anything else.
+///
+/// Threads: any, at any time.
 uint32_t bespoke_abi_version(void);
 
-/*
- The version of the library that is loaded, such as "0.1.0".
-
- Ownership: the text is part of the library, never freed. Threads: any, at any time.
- */
+/// The version of the library that is loaded, such as "0.1.0".
+///
+/// Ownership: the text is part of the library, never freed. Threads: any, at any time.
 const char *bespoke_version_text(void);
 
-/*
- Makes an empty session and stores its handle in `*session`; stores null where it fails.
-
- Ownership: the caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT, INTERNAL. Threads: any,
- at any time.
- */
+/// Makes an empty session and stores its handle in `*session`; stores null where it fails.
+///
+/// `*session`: where the handle goes. It has no threads and takes little memory before bespoke_session_prepare. Ownership: the
+/// caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT (null), INTERNAL. Threads: any, at any time.
 BespokeStatus bespoke_session_create(struct BespokeSession **session);
 
-/*
- Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
- thread of the session is left; where a request to stop has just ended a call, that may take a moment.
-
- Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
- other call with this session may begin from here on.
- */
+/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
+/// thread of the session is left; where a request to stop has just ended a call, that may take a moment.
+///
+/// State: any. Errors: BUSY where another thread is inside a call with it, INVALID_STATE in a forked process; it is not
+/// destroyed then. INTERNAL where it ended by a panic. Threads: any, and no other call with this session may begin from here
+/// on.
 BespokeStatus bespoke_session_destroy(struct BespokeSession *session);
 
-/*
- Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
- bespoke_session_destroy, it waits for work that a request to stop has left.
-
- State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
+/// bespoke_session_destroy, it waits for work that a request to stop has left.
+///
+/// State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_reset(struct BespokeSession *session);
 
-/*
- Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
-
- `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
- null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
- State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
- Threads: any, at any time, also while another call runs.
- */
+/// Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
+///
+/// `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
+/// null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
+/// State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
+/// Threads: any, at any time, also while another call runs.
 BespokeStatus bespoke_session_last_message(const struct BespokeSession *session,
                                            char *buffer,
                                            size_t capacity,
                                            size_t *needed);
 
-/*
- The garment as it was modelled, around the source skeleton.
-
- `positions`: points, F32 or F64; the result is verified in this precision. `triangles`: three vertices each, U16
- or U32. It may be open and in pieces. Ownership: copied during the call. State: SETUP; a second call replaces the
- first. Errors: INVALID_ARGUMENT, INVALID_MESH (no vertices, no triangles, an index out of range, a coordinate that
- is not finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// The garment as it was modelled, around the source skeleton.
+///
+/// `positions`: points, F32 or F64; the result is verified in this precision. `triangles`: three vertices each, U16
+/// or U32. It may be open and in pieces. Ownership: copied during the call. State: SETUP; a second call replaces the
+/// first. Errors: INVALID_ARGUMENT, INVALID_MESH (no vertices, no triangles, an index out of range, a coordinate that
+/// is not finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_garment(struct BespokeSession *session,
                                           const struct BespokeView *positions,
                                           const struct BespokeView *triangles);
 
-/*
- The skeleton around which the garment was modelled, in the space of the garment.
-
- `joints`: points, F32 or F64. `bones`: two joints each, U16 or U32; order and direction are free. Ownership: copied
- during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_SKELETON, INVALID_STATE, BUSY, INTERNAL. Threads:
- any, one at a time.
- */
+/// The skeleton around which the garment was modelled, in the space of the garment.
+///
+/// `joints`: points, F32 or F64. `bones`: two joints each, U16 or U32; order and direction are free. Ownership: copied
+/// during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_SKELETON, INVALID_STATE, BUSY, INTERNAL. Threads:
+/// any, one at a time.
 BespokeStatus bespoke_session_set_source_skeleton(struct BespokeSession *session,
                                                   const struct BespokeView *joints,
                                                   const struct BespokeView *bones);
 
-/*
- The body to dress. It may be open, non-manifold, in pieces, and may intersect itself.
-
- `positions`: points, F32 or F64. `triangles`: three vertices each, U16 or U32. Ownership: copied during the call.
- State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// The body to dress. It may be open, non-manifold, in pieces, and may intersect itself.
+///
+/// `positions`: points, F32 or F64. `triangles`: three vertices each, U16 or U32. Ownership: copied during the call.
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_target_avatar(struct BespokeSession *session,
                                                 const struct BespokeView *positions,
                                                 const struct BespokeView *triangles);
 
-/*
- The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds to
- joint i of the source skeleton, and the same pairs of joints are bones.
-
- `joints`, `bones`: as for the source skeleton. Ownership: copied during the call. State: SETUP. Errors:
- INVALID_ARGUMENT, INVALID_SKELETON (another topology may be found only by bespoke_session_prepare), INVALID_STATE,
- BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds to
+/// joint i of the source skeleton, and the same pairs of joints are bones.
+///
+/// `joints`, `bones`: as for the source skeleton. Ownership: copied during the call. State: SETUP. Errors:
+/// INVALID_ARGUMENT, INVALID_SKELETON (another topology may be found only by bespoke_session_prepare), INVALID_STATE,
+/// BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_target_skeleton(struct BespokeSession *session,
                                                   const struct BespokeView *joints,
                                                   const struct BespokeView *bones);
 
-/*
- Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at the
- looseness of the design.
-
- `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
- INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at the
+/// looseness of the design.
+///
+/// `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
+/// INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_source_avatar(struct BespokeSession *session,
                                                 const struct BespokeView *positions,
                                                 const struct BespokeView *triangles);
 
-/*
- Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest bone
- decides to which part of the body a vertex belongs.
-
- `rows`: one element for each joint, F32 or F64, each of them `vertices` numbers; its stride leads from row to row.
- Weights are finite and not negative; those of a vertex need not sum to 1. Ownership: copied during the call. State:
- SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by bespoke_session_prepare),
- INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest bone
+/// decides to which part of the body a vertex belongs.
+///
+/// `rows`: one element for each joint, F32 or F64, each of them `vertices` numbers; its stride leads from row to row.
+/// Weights are finite and not negative; those of a vertex need not sum to 1. Ownership: copied during the call. State:
+/// SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by bespoke_session_prepare),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_target_skin_weights(struct BespokeSession *session,
                                                       const struct BespokeView *rows,
                                                       size_t vertices);
 
-/*
- Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each vertex.
-
- `joints`: one element for each vertex, U16 or U32, each of them `influences` joints (from 0). `weights`: the same
- with F32 or F64. A joint with weight 0 is not looked at. `joint_count`: joints of the target skeleton. All else as
- for bespoke_session_set_target_skin_weights, which this replaces.
- */
+/// Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each vertex.
+///
+/// `joints`: one element for each vertex, U16 or U32, each of them `influences` joints (from 0). `weights`: the same
+/// with F32 or F64. A joint with weight 0 is not looked at. `joint_count`: joints of the target skeleton. All else as
+/// for bespoke_session_set_target_skin_weights, which this replaces.
 BespokeStatus bespoke_session_set_target_skin_influences(struct BespokeSession *session,
                                                          const struct BespokeView *joints,
                                                          const struct BespokeView *weights,
                                                          size_t influences,
                                                          size_t joint_count);
 
-/*
- Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
-
- State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
- INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, const struct BespokeSpace *space);
 
-/*
- Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
-
- State, errors, threads: as for bespoke_session_set_source_space.
- */
+/// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+///
+/// State, errors, threads: as for bespoke_session_set_source_space.
 BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
 
-/*
- Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
- 0: not at all.
-
- `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
- call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
- bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
+/// 0: not at all.
+///
+/// `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
+/// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
+/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_fit_weights(struct BespokeSession *session, const struct BespokeView *weights);
 
-/*
- Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
- this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
+/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
+/// this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
+///
+/// `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with
+/// the garment set. Errors: INVALID_ARGUMENT (a vertex out of range as well), INVALID_STATE, BUSY, INTERNAL. Threads:
+/// any, one at a time.
+BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session,
+                                                  const struct BespokeView *vertices);
 
- `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with
- the garment set. Errors: INVALID_ARGUMENT (a vertex out of range as well), INVALID_STATE, BUSY, INTERNAL. Threads:
- any, one at a time.
- */
-BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session, const struct BespokeView *vertices);
-
-/*
- Optional: garment vertices that are held in their places. Replaces those before.
-
- `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `places`: null, or one point for each of them
- in the target's space, F32 or F64. Without places, a vertex is held where it was designed, carried along with the bone
- beside it: its coordinate along the bone and its distance from it stay, so on the same skeleton it stays where it is. A pin
- is a stiff spring (see BespokeOptions.pin_weight): what the body stands in the way of is not reached, and told as a
- diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not
- have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: garment vertices that are held in their places. Replaces those before.
+///
+/// `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `places`: null, or one point for each of them
+/// in the target's space, F32 or F64. Without places, a vertex is held where it was designed, carried along with the bone
+/// beside it: its coordinate along the bone and its distance from it stay, so on the same skeleton it stays where it is. A pin
+/// is a stiff spring (see BespokeOptions.pin_weight): what the body stands in the way of is not reached, and told as a
+/// diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not
+/// have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_pinned_vertices(struct BespokeSession *session,
                                                   const struct BespokeView *vertices,
                                                   const struct BespokeView *places);
 
-/*
- Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate: it turns and
- moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each call, counted from 0.
-
- `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. Where contact does not
- let a group become rigid to rounding, that is told as a diagnostic. Ownership: copied during the call. State: SETUP.
- Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE,
- BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate: it turns and
+/// moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each call, counted from 0.
+///
+/// `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. Where contact does not
+/// let a group become rigid to rounding, that is told as a diagnostic. Ownership: copied during the call. State: SETUP.
+/// Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE,
+/// BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session,
                                               const struct BespokeView *vertices);
 
-/*
- Forgets all rigid groups.
-
- State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Forgets all rigid groups.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session);
 
-/*
- Optional: a garment that the avatar wears already, such as one that was read from another session. It joins the avatar as
- an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and is verified against both.
- Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
- is set and after bespoke_session_reset.
-
- `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
- each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
- is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
- (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
- Threads: any, one at a time.
- */
+/// Optional: a garment that the avatar wears already, such as one that was read from another session. It joins the avatar as
+/// an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and is verified against both.
+/// Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
+/// is set and after bespoke_session_reset.
+///
+/// `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
+/// each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
+/// is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
+/// (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
+/// Threads: any, one at a time.
 BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
                                         const struct BespokeView *positions,
                                         const struct BespokeView *triangles);
 
-/*
- Takes all layers off the avatar.
-
- State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Takes all layers off the avatar.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
 
-/*
- Replaces all options by these.
-
- State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
- INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Replaces all options by these.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_options(struct BespokeSession *session, const struct BespokeOptions *options);
 
-/*
- Fills a struct of options with the defaults written out. The caller sets `struct_size` first.
-
- Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
- */
+/// Fills a struct of options with the defaults written out. The caller sets `struct_size` first.
+///
+/// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 
-/*
- Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
- PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
- be read with bespoke_session_read_diagnostics, also where it fails.
-
- State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
- small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
- topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
- CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
+/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
+/// be read with bespoke_session_read_diagnostics, also where it fails.
+///
+/// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
+/// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
+/// topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
+/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
-/*
- Goes on for a while: to the end of the budget or of the whole way, whichever is first.
-
- `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
- at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
- afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
- verified; until then what can be read is a preview.
- State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
- INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Goes on for a while: to the end of the budget or of the whole way, whichever is first.
+///
+/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
+/// at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
+/// afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
+/// verified; until then what can be read is a preview.
+/// State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
+/// INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,
                                    uint32_t max_milliseconds,
                                    uint32_t *stage);
 
-/*
- All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
-
- State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
- */
+/// All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
+///
+/// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
 BespokeStatus bespoke_session_run(struct BespokeSession *session);
 
-/*
- Counts the intersections of the vertices as they would be read now, with exact predicates.
-
- `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
- none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
- INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
- INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
- */
+/// Counts the intersections of the vertices as they would be read now, with exact predicates.
+///
+/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
+/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
+/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
+/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
                                      uint32_t component,
                                      struct BespokeIntersections *intersections);
 
-/*
- Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
- whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
-
- What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
- in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
-
- Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
- it.
- */
+/// Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+/// whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
+///
+/// What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
+/// in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may
+/// call it.
 BespokeStatus bespoke_session_cancel(const struct BespokeSession *session);
 
-/*
- Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
- first.
+/// Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
+/// first.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any
+/// time, also while another call runs.
+BespokeStatus bespoke_session_read_progress(const struct BespokeSession *session,
+                                            struct BespokeProgress *progress);
 
- Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any time,
- also while another call runs.
- */
-BespokeStatus bespoke_session_read_progress(const struct BespokeSession *session, struct BespokeProgress *progress);
-
-/*
- Makes a control of a session and stores its handle in `*control`; stores null where it fails.
-
- Ownership: the caller destroys it with bespoke_control_destroy, before or after the session. Errors:
- INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs.
- */
+/// Makes a control of a session and stores its handle in `*control`; stores null where it fails.
+///
+/// Ownership: the caller destroys it with bespoke_control_destroy, before or after the session. State: any. Errors:
+/// INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs.
 BespokeStatus bespoke_session_create_control(const struct BespokeSession *session, struct BespokeControl **control);
 
-/*
- The same as bespoke_session_cancel. Without effect once the session is destroyed.
-
- Errors: INVALID_ARGUMENT (null). Threads: any, at any time; a signal handler may call it.
- */
+/// The same as bespoke_session_cancel. Without effect once the session is destroyed.
+///
+/// Errors: INVALID_ARGUMENT (null). Threads: any, at any time; a signal handler may call it.
 BespokeStatus bespoke_control_cancel(const struct BespokeControl *control);
 
-/*
- The same as bespoke_session_read_progress. The last moment stays once the session is destroyed.
-
- Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
- */
+/// The same as bespoke_session_read_progress. The last moment stays once the session is destroyed.
+///
+/// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 BespokeStatus bespoke_control_read_progress(const struct BespokeControl *control, struct BespokeProgress *progress);
 
-/*
- Frees a control. The session goes on. A null control is fine.
-
- Threads: any; no other call with this control may run or begin.
- */
+/// Frees a control. The session goes on, and a request to stop stays. A null control is fine.
+///
+/// Threads: any; no other call with this control may run or begin.
 void bespoke_control_destroy(struct BespokeControl *control);
 
-/*
- Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
-
- `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
- garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision; otherwise it
- is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
- NOT_VERIFIED (DONE, but good in the precision only in which the garment was set; nothing is written), BUSY, INTERNAL.
- Threads: any, one at a time.
- */
+/// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
+///
+/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
+/// garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision; otherwise it
+/// is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
+/// NOT_VERIFIED (DONE, but good in the precision only in which the garment was set; nothing is written), BUSY, INTERNAL.
+/// Threads: any, one at a time.
 BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession *session,
                                                     const struct BespokeBuffer *points,
                                                     size_t *count);
 
-/*
- Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
- set at the end.
-
- `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
- */
+/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
+/// set at the end.
+///
+/// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 BespokeStatus bespoke_session_read_avatar_vertices(const struct BespokeSession *session,
                                                    const struct BespokeBuffer *points,
                                                    size_t *count);
 
-/*
- Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
- and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
- a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
- similarity of the garment as a whole, and for triangles without area or neighbours.
-
- `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
- written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
- it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
- INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
+/// and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
+/// a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
+/// similarity of the garment as a whole, and for triangles without area or neighbours.
+///
+/// `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
+/// written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
+/// it is that of a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_distortion(const struct BespokeSession *session,
                                               const struct BespokeBuffer *values,
                                               size_t *count);
 
-/*
- Fills a struct with what the session has done so far. The caller sets `struct_size` first.
-
- State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Fills a struct with what the session has done so far. The caller sets `struct_size` first.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, struct BespokeReport *report);
 
-/*
- Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
-
- State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
+///
+/// State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
 
-/*
- Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
- verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
- are.
-
- `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
- `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
- with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
- */
+/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
+/// verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+/// are.
+///
+/// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
+/// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
+/// with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_diagnostics(const struct BespokeSession *session,
                                                struct BespokeDiagnostic *diagnostics,
                                                size_t capacity,

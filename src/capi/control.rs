@@ -90,8 +90,8 @@ unsafe fn read_progress(control: &Control, progress: *mut BespokeProgress) -> Be
 /// What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
 /// in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
 ///
-/// Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may call
-/// it.
+/// State: any. Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may
+/// call it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_cancel(session: *const BespokeSession) -> BespokeStatus {
     // SAFETY: null or alive, as the caller vouches.
@@ -107,8 +107,8 @@ pub unsafe extern "C" fn bespoke_session_cancel(session: *const BespokeSession) 
 /// Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
 /// first.
 ///
-/// Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any time,
-/// also while another call runs.
+/// State: any. Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any
+/// time, also while another call runs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_read_progress(
     session: *const BespokeSession,
@@ -127,7 +127,7 @@ pub struct BespokeControl {
 
 /// Makes a control of a session and stores its handle in `*control`; stores null where it fails.
 ///
-/// Ownership: the caller destroys it with bespoke_control_destroy, before or after the session. Errors:
+/// Ownership: the caller destroys it with bespoke_control_destroy, before or after the session. State: any. Errors:
 /// INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_create_control(
@@ -174,7 +174,7 @@ pub unsafe extern "C" fn bespoke_control_read_progress(
     }
 }
 
-/// Frees a control. The session goes on. A null control is fine.
+/// Frees a control. The session goes on, and a request to stop stays. A null control is fine.
 ///
 /// Threads: any; no other call with this control may run or begin.
 #[unsafe(no_mangle)]

@@ -27,5 +27,6 @@ pub mod results;
 
 pub mod diagnostics;
 
+mod float_mode;
 mod sized;
 mod text;

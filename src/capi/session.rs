@@ -1,10 +1,12 @@
-//! The session handle: one call at a time, no panic gets out, and the message of the last failure.
+//! The session handle: one call at a time, in the process that made it; no panic gets out; and the message of the last
+//! failure.
 
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
+use crate::capi::float_mode::DefaultMode;
 use crate::capi::status::BespokeStatus;
 use crate::capi::text;
 use crate::control::Control;
@@ -23,12 +25,23 @@ pub struct BespokeSession {
     panics: Arc<PanicLog>,
     /// A call has failed by a defect without a panic.
     is_defective: AtomicBool,
+    /// The process that made it: its threads are there only.
+    process: u32,
 }
+
+/// The message in a process that was forked, where no lock may be taken: a thread that only the parent has may hold it.
+const INHERITED: &str =
+    "the session was made in another process, from which this one was forked; only that one can use it";
 
 impl BespokeSession {
     fn message(&self) -> MutexGuard<'_, String> {
         // The text is whole at any time: a poisoned lock only says that some other thread panicked.
         self.message.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// This is a process that was forked from the one that made the session.
+    fn is_inherited(&self) -> bool {
+        self.process != std::process::id()
     }
 }
 
@@ -41,6 +54,10 @@ pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session
     let Some(handle) = (unsafe { handle.as_ref() }) else {
         return BespokeStatus::InvalidArgument;
     };
+    if handle.is_inherited() {
+        return BespokeStatus::InvalidState;
+    }
+    let _mode = DefaultMode::enter();
     // The lock is taken inside, so that a panic poisons it.
     let refused = || {
         Some(Err(Error::new(
@@ -76,8 +93,8 @@ pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session
 
 /// Makes an empty session and stores its handle in `*session`; stores null where it fails.
 ///
-/// Ownership: the caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT, INTERNAL. Threads: any,
-/// at any time.
+/// `*session`: where the handle goes. It has no threads and takes little memory before bespoke_session_prepare. Ownership: the
+/// caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT (null), INTERNAL. Threads: any, at any time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSession) -> BespokeStatus {
     if session.is_null() {
@@ -93,6 +110,7 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
             control,
             panics,
             is_defective: AtomicBool::new(false),
+            process: std::process::id(),
         }))
     };
     let made = recorded(&Arc::default(), || catch_unwind(make));
@@ -104,13 +122,16 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
 /// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
 /// thread of the session is left; where a request to stop has just ended a call, that may take a moment.
 ///
-/// Errors: BUSY where another thread is inside a call with it; it is not destroyed then. Threads: any, and no
-/// other call with this session may begin from here on.
+/// State: any. Errors: BUSY where another thread is inside a call with it, INVALID_STATE in a forked process; it is not
+/// destroyed then. INTERNAL where it ended by a panic. Threads: any, and no other call with this session may begin from here
+/// on.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -> BespokeStatus {
     // SAFETY: null or alive, as the caller vouches.
     match unsafe { session.as_ref() } {
         None => return BespokeStatus::Ok,
+        // Its threads, which would be waited for, are the parent's.
+        Some(handle) if handle.is_inherited() => return BespokeStatus::InvalidState,
         Some(handle) => {
             if let Err(TryLockError::WouldBlock) = handle.session.try_lock() {
                 return BespokeStatus::Busy;
@@ -158,13 +179,14 @@ pub unsafe extern "C" fn bespoke_session_last_message(
     if buffer.is_null() && capacity > 0 {
         return BespokeStatus::InvalidArgument;
     }
-    let message = handle.message();
+    let held = (!handle.is_inherited()).then(|| handle.message());
+    let message = held.as_ref().map_or(INHERITED, |message| message.as_str());
     if !needed.is_null() {
         // SAFETY: not null, and the caller vouches for room for one number.
         unsafe { needed.write(message.len() + 1) };
     }
     if capacity > 0 {
-        let length = text::cut(&message, capacity - 1).len();
+        let length = text::cut(message, capacity - 1).len();
         // SAFETY: `length < capacity`, and the caller vouches for `capacity` bytes.
         unsafe {
             std::ptr::copy_nonoverlapping(message.as_ptr().cast::<c_char>(), buffer, length);

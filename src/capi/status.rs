@@ -59,7 +59,7 @@ impl From<ErrorKind> for BespokeStatus {
 
 /// The name of a status, such as "BESPOKE_STATUS_BUSY"; "BESPOKE_STATUS_UNKNOWN" for any other number.
 ///
-/// Ownership: the text is part of the library, never freed. Threads: any, at any time.
+/// `status`: one of BespokeStatus. Ownership: the text is part of the library, never freed. Threads: any, at any time.
 #[unsafe(no_mangle)]
 pub extern "C" fn bespoke_status_name(status: u32) -> *const c_char {
     let name = match status {

@@ -9,6 +9,7 @@ mod faults;
 mod fit_controls;
 mod header;
 mod layers;
+mod manual;
 mod meshes;
 mod results;
 mod retarget;
