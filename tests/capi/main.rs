@@ -8,6 +8,7 @@ mod distortion;
 mod faults;
 mod fit_controls;
 mod header;
+mod hosts;
 mod layers;
 mod manual;
 mod meshes;
