@@ -59,7 +59,7 @@
 /// would no longer work; additions at the end of a struct with a `struct_size` do not change it.
 #define BESPOKE_ABI_VERSION 1
 
-/// The value of a weight that switches its term off; 0 means the default.
+/// The value of a weight in BespokeOptions that switches its term off; 0 means the default.
 #define BESPOKE_WEIGHT_OFF -1.0
 
 /// Length of the list of energy terms in BespokeProgress.
@@ -370,7 +370,11 @@ typedef struct BespokeView {
   uint32_t component;
 } BespokeView;
 
-/// A coordinate system. Zero in a field means its default; handedness follows from the axes.
+/// A coordinate system. Zero in a field means its default; handedness follows from the axes, which must be along three
+/// different coordinates.
+///
+/// Right, up, forward and unit of some: Unreal +y, +z, +x, 0.01; Unity +x, +y, +z, 1; Godot and glTF as by default; Maya as by
+/// default but 0.01; Blender +x, +z, +y, 1.
 typedef struct BespokeSpace {
   /// sizeof(BespokeSpace).
   uint32_t struct_size;
@@ -380,25 +384,26 @@ typedef struct BespokeSpace {
   uint32_t up;
   /// The axis forwards, into the picture. Default: -z.
   uint32_t forward;
-  /// Length of the unit in metres. Default: 1.
+  /// Length of the unit in metres [1e-9, 1e9]. Default: 1.
   double metres_per_unit;
-  /// One of BespokeWinding.
+  /// Of front faces, one of BespokeWinding. Default: counter-clockwise.
   uint32_t winding;
   /// 0.
   uint32_t reserved;
 } BespokeSpace;
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
-/// side of the skeleton's bounding box is 2.
+/// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets.
 typedef struct BespokeOptions {
   /// sizeof(BespokeOptions).
   uint32_t struct_size;
-  /// Threads of this session. Default: as many as the machine has cores.
+  /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
   uint32_t threads;
   /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
   double fit_weight;
   /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
-  /// the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
+  /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
   double designed_clearance;
   /// Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
@@ -408,19 +413,20 @@ typedef struct BespokeOptions {
   double torsion_weight;
   /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
   double position_weight;
-  /// Weight of the contact barrier, on squared distances. Default 1e8.
+  /// Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
   double barrier_weight;
-  /// Distance at which the barrier begins. Default 0.002.
+  /// Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
   double dhat;
-  /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+  /// While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
   double inflation_dhat;
-  /// While the avatar grows: weight of the contact barrier. Default 1e4.
+  /// While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
   double inflation_barrier_weight;
-  /// Edge of a voxel of the distance field. Default 0.01.
+  /// Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
   double voxel;
-  /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+  /// Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`. Default
+  /// 1e-5.
   double separation_floor;
-  /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+  /// The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
   double tolerance;
   /// Largest number of Newton iterations of each stage. Default 500.
   uint32_t max_iterations;
@@ -434,13 +440,13 @@ typedef struct BespokeOptions {
   uint32_t strict;
   /// 0.
   uint32_t reserved;
-  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
-  /// away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
+  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
+  /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
   double offset;
   /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
   /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
   double fit_distance;
-  /// Weight of pins. Default 1000.
+  /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
   double pin_weight;
 } BespokeOptions;
 

@@ -223,7 +223,11 @@ pub enum BespokeWinding {
     Clockwise = 1,
 }
 
-/// A coordinate system. Zero in a field means its default; handedness follows from the axes.
+/// A coordinate system. Zero in a field means its default; handedness follows from the axes, which must be along three
+/// different coordinates.
+///
+/// Right, up, forward and unit of some: Unreal +y, +z, +x, 0.01; Unity +x, +y, +z, 1; Godot and glTF as by default; Maya as by
+/// default but 0.01; Blender +x, +z, +y, 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeSpace {
@@ -235,9 +239,9 @@ pub struct BespokeSpace {
     pub up: u32,
     /// The axis forwards, into the picture. Default: -z.
     pub forward: u32,
-    /// Length of the unit in metres. Default: 1.
+    /// Length of the unit in metres [1e-9, 1e9]. Default: 1.
     pub metres_per_unit: f64,
-    /// One of BespokeWinding.
+    /// Of front faces, one of BespokeWinding. Default: counter-clockwise.
     pub winding: u32,
     /// 0.
     pub reserved: u32,

@@ -8,7 +8,7 @@ use crate::capi::status::BespokeStatus;
 use crate::error::{Error, ErrorKind, Result};
 use crate::options::{Options, SurfaceForm};
 
-/// The value of a weight that switches its term off; 0 means the default.
+/// The value of a weight in BespokeOptions that switches its term off; 0 means the default.
 pub const BESPOKE_WEIGHT_OFF: f64 = -1.0;
 
 /// Form of the surface term (Eq. 2 of the paper).
@@ -22,18 +22,19 @@ pub enum BespokeSurfaceForm {
 }
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
-/// side of the skeleton's bounding box is 2.
+/// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeOptions {
     /// sizeof(BespokeOptions).
     pub struct_size: u32,
-    /// Threads of this session. Default: as many as the machine has cores.
+    /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
     pub threads: u32,
     /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
     pub fit_weight: f64,
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
-    /// the garment had on it. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
+    /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
     pub designed_clearance: f64,
     /// Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
@@ -43,19 +44,20 @@ pub struct BespokeOptions {
     pub torsion_weight: f64,
     /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
     pub position_weight: f64,
-    /// Weight of the contact barrier, on squared distances. Default 1e8.
+    /// Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     pub barrier_weight: f64,
-    /// Distance at which the barrier begins. Default 0.002.
+    /// Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
     pub dhat: f64,
-    /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+    /// While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
     pub inflation_dhat: f64,
-    /// While the avatar grows: weight of the contact barrier. Default 1e4.
+    /// While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     pub inflation_barrier_weight: f64,
-    /// Edge of a voxel of the distance field. Default 0.01.
+    /// Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     pub voxel: f64,
-    /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+    /// Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`. Default
+    /// 1e-5.
     pub separation_floor: f64,
-    /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+    /// The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
     /// Largest number of Newton iterations of each stage. Default 500.
     pub max_iterations: u32,
@@ -69,13 +71,13 @@ pub struct BespokeOptions {
     pub strict: u32,
     /// 0.
     pub reserved: u32,
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. What is nearer is pushed
-    /// away, what is farther is drawn in. At most half the size of the target skeleton. Default 0.
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
+    /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
     pub offset: f64,
     /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
     /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
     pub fit_distance: f64,
-    /// Weight of pins. Default 1000.
+    /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
     pub pin_weight: f64,
 }
 
