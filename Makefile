@@ -63,8 +63,7 @@ build/bespoke-retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED) bui
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)/'"$$(cat build/run-path)"
 
 build/run-path: FORCE | build
-	$(INSTALLER) run-path >$@.new
-	cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+	way=$$($(INSTALLER) run-path) && { [ "$$way" = "$$(cat $@ 2>/dev/null)" ] || printf '%s' "$$way" >$@; }
 
 # cargo is not asked where no source is newer than what it built: root may have none, and is not to build.
 .PHONY: install
