@@ -120,6 +120,9 @@ test: dependencies
 	sh .ci/dependencies cmake pkg-config
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
+	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
+	[ -z "$$(find build/stage ! -type d)" ]
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

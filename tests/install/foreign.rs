@@ -1,4 +1,5 @@
-//! Somebody else's project builds against an installed prefix that was moved, and its programs run: tests/install/foreign.
+//! Somebody else's project (tests/install/foreign) builds against an installed prefix that was moved, and its programs
+//! run.
 
 use std::ffi::OsStr;
 use std::fs;
