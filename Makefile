@@ -32,8 +32,7 @@ SAMPLE = build/sample
 # Real meshes, where they are at hand: more tests, and the table of `make pairs`.
 ASSETS = $(or $(BESPOKE_ASSETS),../shared/assets)
 
-# Where `install` puts what, and the defaults of what is empty here: packaging/install.sh. `make` wants them, too, where
-# BINDIR or LIBDIR is given.
+# Where `install` puts what; packaging/install.sh has the defaults of what is empty here.
 PREFIX ?= /usr/local
 STRIP ?= strip
 INSTALLER = DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' BINDIR='$(BINDIR)' LIBDIR='$(LIBDIR)' \

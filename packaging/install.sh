@@ -83,7 +83,7 @@ each() { # COMMAND
     done
     # Beside the README, which shows the pictures.
     for text in "$root"/docs/*; do
-        "$1" text "$text" "$docdir/docs/${text##*/}"
+        [ ! -f "$text" ] || "$1" text "$text" "$docdir/docs/${text##*/}"
     done
 }
 
@@ -128,8 +128,8 @@ discard() { # KIND SOURCE PLACE
 }
 
 remove() { # KIND SOURCE PLACE
-    left="; some of the files are gone and some are not: uninstall again"
     rm -f "$destdir$3" "$destdir$3.new" || fail "$destdir$3 cannot be removed"
+    left="; some of the files are gone and some are not: uninstall again"
 }
 
 # Folders that only installations make, and those that have other uses where the prefix is not the system's; never the
@@ -174,8 +174,8 @@ $(fill PKGCONFIG_TO_INCLUDE "$(way "$pkgconfigdir" "$includedir")")
 $(fill CMAKE_TO_LIB "$(way "$cmakedir" "$libdir")")
 $(fill CMAKE_TO_INCLUDE "$(way "$cmakedir" "$includedir")")"
     trap 'each discard' EXIT
-    # A signal ends the script, and so leads to the line above.
-    trap 'exit 130' HUP INT TERM
+    # To end here leads to the line above.
+    trap 'echo "install.sh: stopped by a signal$left" >&2; exit 130' HUP INT TERM
     each prepare
     each commit
     left=""
@@ -184,6 +184,7 @@ $(fill CMAKE_TO_INCLUDE "$(way "$cmakedir" "$includedir")")"
     ;;
 uninstall)
     each remove
+    left=""
     prune
     refresh
     echo "removed bespoke $version from $destdir$prefix"
