@@ -3,6 +3,8 @@
 # make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
 #             makes the paper's figures
 # make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
+# make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
+#             removes them again. docs/packaging.md says what goes where
 # make test   every test
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
@@ -30,20 +32,48 @@ SAMPLE = build/sample
 # Real meshes, where they are at hand: more tests, and the table of `make pairs`.
 ASSETS = $(or $(BESPOKE_ASSETS),../shared/assets)
 
+# Where `install` puts what; packaging/install.sh has the defaults of what is empty here.
+PREFIX ?= /usr/local
+STRIP ?= strip
+INSTALLER = DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' BINDIR='$(BINDIR)' LIBDIR='$(LIBDIR)' \
+	INCLUDEDIR='$(INCLUDEDIR)' DOCDIR='$(DOCDIR)' STRIP='$(STRIP)' sh packaging/install.sh
+CARGO_SOURCES = src cpp_shim build.rs Cargo.toml Cargo.lock
+
 .PHONY: all
-all: build/retarget
+all: build/retarget build/bespoke-retarget
 
 build:
 	mkdir -p build
 
 # cargo decides what is new; the copy keeps its date where nothing is. A library in use is replaced, not overwritten.
+# build/fresh has the date since which no source has changed.
 build/libbespoke.$(SHARED): FORCE | build
+	touch build/asked
 	cargo build --release --lib
 	cmp -s $(BUILT) $@ || { cp $(BUILT) $@.new && mv $@.new $@; }
 	ln -sf libbespoke.$(SHARED) build/$(LOADED)
+	mv build/asked build/fresh
 
 build/retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED)
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)'
+
+# The same program as it is installed: it finds the library from where it will lie.
+build/bespoke-retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED) build/run-path
+	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)/'"$$(cat build/run-path)"
+
+build/run-path: FORCE | build
+	way=$$($(INSTALLER) run-path) && { [ "$$way" = "$$(cat $@ 2>/dev/null)" ] || printf '%s' "$$way" >$@; }
+
+# cargo is not asked where no source is newer than what it built: root may have none, and is not to build.
+.PHONY: install
+install:
+	$(MAKE) build/bespoke-retarget \
+		$$([ -n "$$(find $(CARGO_SOURCES) -newer build/fresh 2>&1)" ] || echo '-o build/libbespoke.$(SHARED)')
+	$(INSTALLER) install build/libbespoke.$(SHARED) build/bespoke-retarget
+
+.PHONY: uninstall
+uninstall:
+	$(INSTALLER) uninstall
 
 .PHONY: dependencies
 dependencies:
@@ -86,8 +116,12 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 # so that nothing is built twice.
 .PHONY: test
 test: dependencies
+	sh .ci/dependencies cmake pkg-config
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
+	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
+	[ -z "$$(find build/stage ! -type d)" ]
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

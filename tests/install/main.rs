@@ -1,0 +1,12 @@
+//! What `make install` installs: the right files in the right places, which foreign projects find, also once moved.
+#![cfg(target_os = "linux")]
+
+mod faults;
+mod files;
+mod foreign;
+mod prefix;
+mod uninstall;
+mod versions;
+
+#[path = "../support/library.rs"]
+mod library;
