@@ -154,8 +154,8 @@ namespace Bespoke
             return Known.View(pinned, Bytes.Length, width, what);
         }
 
-        // The library would take a negative index for a very large one and name that. An index whose weight is 0 may be
-        // anything, where there are weights.
+        // For a view that Pinned has passed. The library would take a negative index for a very large one, and name
+        // that. Where there are weights, an index whose weight is 0 may be anything.
         internal void RefuseNegative(
             int width, Status status, string what, string element, FloatView weights = default(FloatView))
         {

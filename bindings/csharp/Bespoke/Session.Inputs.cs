@@ -16,12 +16,12 @@ namespace Bespoke
         /// range, a coordinate that is not finite), InvalidState, Busy, Internal.</exception>
         public unsafe void SetGarment(FloatView positions, IndexView triangles)
         {
-            triangles.RefuseNegative(3, Status.InvalidMesh, "garment", "triangle");
             fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
             fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
             {
                 NativeView points = positions.Pinned(p, 3, "garment: positions");
                 NativeView corners = triangles.Pinned(t, 3, "garment: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "garment", "triangle");
                 Check(Native.bespoke_session_set_garment(handle, &points, &corners));
             }
         }
@@ -35,12 +35,12 @@ namespace Bespoke
         /// Internal.</exception>
         public unsafe void SetSourceSkeleton(FloatView joints, IndexView bones)
         {
-            bones.RefuseNegative(2, Status.InvalidSkeleton, "source skeleton", "bone");
             fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
             fixed (byte* b = &MemoryMarshal.GetReference(bones.Bytes))
             {
                 NativeView points = joints.Pinned(j, 3, "source skeleton: joints");
                 NativeView ends = bones.Pinned(b, 2, "source skeleton: bones");
+                bones.RefuseNegative(2, Status.InvalidSkeleton, "source skeleton", "bone");
                 Check(Native.bespoke_session_set_source_skeleton(handle, &points, &ends));
             }
         }
@@ -53,12 +53,12 @@ namespace Bespoke
         /// <exception cref="BespokeException">InvalidArgument, InvalidMesh, InvalidState, Busy, Internal.</exception>
         public unsafe void SetTargetAvatar(FloatView positions, IndexView triangles)
         {
-            triangles.RefuseNegative(3, Status.InvalidMesh, "target avatar", "triangle");
             fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
             fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
             {
                 NativeView points = positions.Pinned(p, 3, "target avatar: positions");
                 NativeView corners = triangles.Pinned(t, 3, "target avatar: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "target avatar", "triangle");
                 Check(Native.bespoke_session_set_target_avatar(handle, &points, &corners));
             }
         }
@@ -73,12 +73,12 @@ namespace Bespoke
         /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
         public unsafe void SetTargetSkeleton(FloatView joints, IndexView bones)
         {
-            bones.RefuseNegative(2, Status.InvalidSkeleton, "target skeleton", "bone");
             fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
             fixed (byte* b = &MemoryMarshal.GetReference(bones.Bytes))
             {
                 NativeView points = joints.Pinned(j, 3, "target skeleton: joints");
                 NativeView ends = bones.Pinned(b, 2, "target skeleton: bones");
+                bones.RefuseNegative(2, Status.InvalidSkeleton, "target skeleton", "bone");
                 Check(Native.bespoke_session_set_target_skeleton(handle, &points, &ends));
             }
         }
@@ -92,12 +92,12 @@ namespace Bespoke
         /// <exception cref="BespokeException">InvalidArgument, InvalidMesh, InvalidState, Busy, Internal.</exception>
         public unsafe void SetSourceAvatar(FloatView positions, IndexView triangles)
         {
-            triangles.RefuseNegative(3, Status.InvalidMesh, "source avatar", "triangle");
             fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
             fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
             {
                 NativeView points = positions.Pinned(p, 3, "source avatar: positions");
                 NativeView corners = triangles.Pinned(t, 3, "source avatar: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "source avatar", "triangle");
                 Check(Native.bespoke_session_set_source_avatar(handle, &points, &corners));
             }
         }
@@ -136,12 +136,12 @@ namespace Bespoke
         {
             AtLeastOne(influences, nameof(influences));
             AtLeastOne(jointCount, nameof(jointCount));
-            joints.RefuseNegative(influences, Status.InvalidWeights, "target skin joints", "vertex", weights);
             fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
             fixed (byte* w = &MemoryMarshal.GetReference(weights.Bytes))
             {
                 NativeView indices = joints.Pinned(j, influences, "target skin joints");
                 NativeView numbers = weights.Pinned(w, influences, "target skin weights");
+                joints.RefuseNegative(influences, Status.InvalidWeights, "target skin joints", "vertex", weights);
                 Check(Native.bespoke_session_set_target_skin_influences(
                     handle, &indices, &numbers, (UIntPtr)(uint)influences, (UIntPtr)(uint)jointCount));
             }
@@ -197,10 +197,10 @@ namespace Bespoke
         /// </exception>
         public unsafe void SetNoFitVertices(IndexView vertices)
         {
-            vertices.RefuseNegative(1, Status.InvalidArgument, "no-fit vertices", "element");
             fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
             {
                 NativeView indices = vertices.Pinned(v, 1, "no-fit vertices");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "no-fit vertices", "element");
                 Check(Native.bespoke_session_set_no_fit_vertices(handle, &indices));
             }
         }
@@ -216,10 +216,10 @@ namespace Bespoke
         /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
         public unsafe void SetPinnedVertices(IndexView vertices)
         {
-            vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
             fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
             {
                 NativeView indices = vertices.Pinned(v, 1, "pinned vertices");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
                 Check(Native.bespoke_session_set_pinned_vertices(handle, &indices, null));
             }
         }
@@ -232,12 +232,12 @@ namespace Bespoke
         /// <exception cref="BespokeException">As there.</exception>
         public unsafe void SetPinnedVertices(IndexView vertices, FloatView places)
         {
-            vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
             fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
             fixed (byte* p = &MemoryMarshal.GetReference(places.Bytes))
             {
                 NativeView indices = vertices.Pinned(v, 1, "pinned vertices");
                 NativeView points = places.Pinned(p, 3, "pinned vertices: places");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
                 Check(Native.bespoke_session_set_pinned_vertices(handle, &indices, &points));
             }
         }
@@ -253,10 +253,10 @@ namespace Bespoke
         /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
         public unsafe void AddRigidGroup(IndexView vertices)
         {
-            vertices.RefuseNegative(1, Status.InvalidArgument, "rigid group", "element");
             fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
             {
                 NativeView indices = vertices.Pinned(v, 1, "rigid group");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "rigid group", "element");
                 Check(Native.bespoke_session_add_rigid_group(handle, &indices));
             }
         }
@@ -282,12 +282,12 @@ namespace Bespoke
         /// range, a coordinate that is not finite), InvalidState, Busy, Internal.</exception>
         public unsafe void AddLayer(FloatView positions, IndexView triangles)
         {
-            triangles.RefuseNegative(3, Status.InvalidMesh, "layer", "triangle");
             fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
             fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
             {
                 NativeView points = positions.Pinned(p, 3, "layer: positions");
                 NativeView corners = triangles.Pinned(t, 3, "layer: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "layer", "triangle");
                 Check(Native.bespoke_session_add_layer(handle, &points, &corners));
             }
         }

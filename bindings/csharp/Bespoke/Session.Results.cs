@@ -40,46 +40,28 @@ namespace Bespoke
         }
 
         /// <summary>Vertices of the garment. State: Prepared or later.</summary>
-        public unsafe int GarmentVertexCount
+        public int GarmentVertexCount
         {
-            get
-            {
-                NativeBuffer nowhere = new NativeBuffer { component = Component.F32 };
-                UIntPtr count;
-                Check(Native.bespoke_session_read_garment_vertices(handle, &nowhere, &count));
-                return checked((int)count);
-            }
+            get { return ReadGarmentVertices(default(FloatBuffer)); }
         }
 
         /// <summary>Vertices of the target avatar, without its layers. State: Prepared or later.</summary>
-        public unsafe int AvatarVertexCount
+        public int AvatarVertexCount
         {
-            get
-            {
-                NativeBuffer nowhere = new NativeBuffer { component = Component.F32 };
-                UIntPtr count;
-                Check(Native.bespoke_session_read_avatar_vertices(handle, &nowhere, &count));
-                return checked((int)count);
-            }
+            get { return ReadAvatarVertices(default(FloatBuffer)); }
         }
 
         /// <summary>Triangles of the garment. State: Prepared or later.</summary>
-        public unsafe int GarmentTriangleCount
+        public int GarmentTriangleCount
         {
-            get
-            {
-                NativeBuffer nowhere = new NativeBuffer { component = Component.F32 };
-                UIntPtr count;
-                Check(Native.bespoke_session_read_distortion(handle, &nowhere, &count));
-                return checked((int)count);
-            }
+            get { return ReadDistortion(default(FloatBuffer)); }
         }
 
         /// <summary>
         /// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and
         /// unit. State: Prepared or later. With Done it is verified in this precision; otherwise it is a preview.
         /// </summary>
-        /// <param name="points">Room for a point for each vertex, or more.</param>
+        /// <param name="points">Room for a point for each vertex, or more; empty: nothing is written.</param>
         /// <returns>Vertices of the garment.</returns>
         /// <exception cref="BespokeException">InvalidArgument (too small a buffer as well; nothing is written then),
         /// InvalidState, NotVerified (Done, but good in the precision only in which the garment was set; nothing is
@@ -110,7 +92,7 @@ namespace Bespoke
         /// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first,
         /// as they were set at the end. All else as for <see cref="ReadGarmentVertices(FloatBuffer)"/>.
         /// </summary>
-        /// <param name="points">Room for a point for each vertex, or more.</param>
+        /// <param name="points">Room for a point for each vertex, or more; empty: nothing is written.</param>
         /// <returns>Vertices of the target avatar.</returns>
         public unsafe int ReadAvatarVertices(FloatBuffer points)
         {
@@ -141,7 +123,7 @@ namespace Bespoke
         /// number without unit, 0 or above; 0 for any similarity of the garment as a whole, and for triangles without
         /// area or neighbours. State: Prepared or later; until Done it is that of a preview.
         /// </summary>
-        /// <param name="values">Room for one number for each triangle, or more.</param>
+        /// <param name="values">Room for one number for each triangle, or more; empty: nothing is written.</param>
         /// <returns>Triangles of the garment.</returns>
         /// <exception cref="BespokeException">InvalidArgument (too small a buffer as well; nothing is written then),
         /// InvalidState, Busy, Internal.</exception>

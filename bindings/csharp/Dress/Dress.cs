@@ -41,7 +41,7 @@ internal static class Dress
             }
             catch (Exception failure) when (
                 failure is IOException || failure is UnauthorizedAccessException || failure is DllNotFoundException ||
-                failure is BadImageFormatException)
+                failure is BadImageFormatException || failure is InvalidDataException)
             {
                 Console.Error.WriteLine($"Dress: {failure.Message}");
                 return 1;
