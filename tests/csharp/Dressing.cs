@@ -44,6 +44,19 @@ internal static class Dressing
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    private struct Vector64
+    {
+        public double X, Y, Z;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    private struct Vertex64
+    {
+        public long Id;
+        public Vector64 Position;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     private struct Corners
     {
         public int A, B, C;
@@ -116,18 +129,29 @@ internal static class Dressing
         }
     }
 
+    // So far from the origin that single precision cannot tell garment and body apart.
     private static void DoublePrecision(Inputs inputs, int vertices)
     {
-        using (Session session = inputs.Session())
+        Func<float[], double[]> far = points => points.Select(x => x + 1e6).ToArray();
+        using (Session session = new Session())
         {
-            double[] positions = inputs.GarmentPositions.Select(x => (double)x).ToArray();
-            session.SetGarment(positions, inputs.GarmentTriangles);
+            session.SetGarment(far(inputs.GarmentPositions), inputs.GarmentTriangles);
+            session.SetTargetAvatar(far(inputs.AvatarPositions), inputs.AvatarTriangles);
+            session.SetSourceSkeleton(far(inputs.SourceJoints), inputs.Bones);
+            Vector64[] joints = MemoryMarshal.Cast<double, Vector64>(far(inputs.TargetJoints)).ToArray();
+            session.SetTargetSkeleton(FloatView.F64(joints), inputs.Bones);
             session.Run();
+            Check.Same(session.GarmentVertexCount, vertices, "vertices");
             double[] found = new double[3 * vertices];
             session.ReadGarmentVertices(found);
-            Check.That(found.Any(x => x != (float)x), "more than single precision is read");
-            Intersections count = session.Verify(Component.F64);
+            Check.That(found.All(x => Math.Abs(x - 1e6) < 2.0), "the garment is where the body is");
+            Vertex64[] mixed = new Vertex64[vertices];
+            session.ReadGarmentVertices(FloatBuffer.F64(mixed, 8));
+            double[] y = found.Where((x, k) => k % 3 == 1).ToArray();
+            Check.That(mixed.Select(v => v.Position.Y).SequenceEqual(y), "interleaved vertices");
+            Intersections count = session.Verify(Precision.F64);
             Check.Same(count.GarmentGarment + count.GarmentAvatar, 0L, "intersections");
+            Check.Refused(Status.NotVerified, () => session.ReadGarmentVertices(), "64 bits");
         }
     }
 

@@ -46,7 +46,7 @@ internal static class Errors
             Check.Same(session.Stage, Stage.Done, "stage");
             Invalid(() => session.ReadGarmentVertices(new float[3]), "1", "144");
             Check.Same(session.ReadGarmentVertices(new float[0]), 144, "vertices");
-            Invalid(() => session.Verify(Component.U16), "component");
+            Invalid(() => session.Verify((Precision)3), "component");
             Check.Throws<ArgumentOutOfRangeException>(() => session.ReadEnergy(-1));
         }
     }

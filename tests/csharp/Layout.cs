@@ -109,7 +109,10 @@ internal static class Layout
             { "BESPOKE_SENTENCE_SIZE", NativeConstants.SentenceSize },
             { "BESPOKE_MAX_ELEMENTS", NativeConstants.MaxElements },
         };
-        foreach (Type type in typeof(Session).Assembly.GetTypes().Where(t => t.IsEnum && t.Namespace == "Bespoke"))
+        // Precision is the part of Component that callers see.
+        IEnumerable<Type> enums = typeof(Session).Assembly.GetTypes()
+            .Where(type => type.IsEnum && type.Namespace == "Bespoke" && type != typeof(Precision));
+        foreach (Type type in enums)
         {
             Check.Same(Enum.GetUnderlyingType(type), typeof(uint), $"{type.Name}'s numbers");
             foreach (object value in Enum.GetValues(type))

@@ -12,6 +12,7 @@ mod sample;
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use mono::{binding, program, run, scratch};
 
@@ -87,6 +88,21 @@ fn every_public_item_is_documented() {
         {
             assert!(text.contains(item), "{item} is not there");
         }
+    }
+}
+
+/// As for iOS and consoles, where nothing may be compiled while a program runs.
+#[test]
+fn all_of_it_compiles_ahead_of_time() {
+    if let Some(binding) = binding() {
+        let output = scratch("ahead").join("Bespoke.dll.so");
+        let mut mono = Command::new("mono");
+        let said = run(mono.arg(format!("--aot=full,outfile={}", output.display())).arg(binding.join("Bespoke.dll")));
+        let compiled =
+            said.lines().find_map(|line| line.strip_prefix("Compiled: ")).and_then(|line| line.split_once('/'));
+        let (done, all) = compiled.unwrap_or_else(|| panic!("no count in {said}"));
+        assert!(done == all && done.parse::<u32>().is_ok_and(|count| count > 100), "{said}");
+        assert!(output.is_file());
     }
 }
 

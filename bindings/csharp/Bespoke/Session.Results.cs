@@ -27,22 +27,33 @@ namespace Bespoke
         /// Counts the intersections of the vertices as they would be read now, with exact predicates. A session that is
         /// Done has none in the precision of its garment but such as it had at the start. State: Prepared or later.
         /// </summary>
-        /// <param name="component">The precision of reading, F32 or F64.</param>
+        /// <param name="precision">The precision of reading.</param>
         /// <returns>The counts.</returns>
         /// <exception cref="BespokeException">InvalidArgument, InvalidState, Busy, Internal.</exception>
         /// <exception cref="OperationCanceledException">By a request that no call has answered yet; the stage stays.
         /// </exception>
-        public unsafe Intersections Verify(Component component = Component.F32)
+        public unsafe Intersections Verify(Precision precision = Precision.F32)
         {
             NativeIntersections native;
-            Check(Native.bespoke_session_verify(handle, component, &native));
+            Check(Native.bespoke_session_verify(handle, (Component)precision, &native));
             return new Intersections(native);
         }
 
         /// <summary>Vertices of the garment. State: Prepared or later.</summary>
-        public int GarmentVertexCount
+        public unsafe int GarmentVertexCount
         {
-            get { return ReadGarmentVertices(default(FloatBuffer)); }
+            get
+            {
+                NativeBuffer nowhere = new NativeBuffer { component = Component.F64 };
+                UIntPtr count;
+                Status status = Native.bespoke_session_read_garment_vertices(handle, &nowhere, &count);
+                // Of a result that is good in the other precision only, there are as many.
+                if (status != Status.NotVerified)
+                {
+                    Check(status);
+                }
+                return checked((int)count);
+            }
         }
 
         /// <summary>Vertices of the target avatar, without its layers. State: Prepared or later.</summary>
