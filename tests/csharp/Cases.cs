@@ -7,11 +7,11 @@ internal static class Cases
 {
     private static readonly Dictionary<string, Action<string>> All = new Dictionary<string, Action<string>>
     {
-        { "sample_is_dressed", Dressing.Sample },
-        { "arrays_of_every_shape", Dressing.ShapesOfArrays },
-        { "every_input", Dressing.EveryInput },
-        { "every_result", Dressing.EveryResult },
-        { "spaces", Dressing.Spaces },
+        { "sample_is_dressed", Dressing.SampleIsDressed },
+        { "arrays_of_every_shape", folder => Dressing.ArraysOfEveryShape() },
+        { "every_input", folder => Dressing.EveryInput() },
+        { "every_result", folder => Dressing.EveryResult() },
+        { "spaces", folder => Dressing.Spaces() },
         { "versions_and_names", folder => Errors.Library() },
         { "bad_arguments", folder => Errors.Arguments() },
         { "wrong_states", folder => Errors.States() },

@@ -8,7 +8,7 @@ using Bespoke;
 internal static class Dressing
 {
     // The jacket on the heavy body, all optional inputs of `make demo` set: the same bits as in Rust.
-    public static void Sample(string folder)
+    public static void SampleIsDressed(string folder)
     {
         Inputs inputs = Inputs.Sample(folder);
         using (Session session = inputs.Session())
@@ -69,8 +69,15 @@ internal static class Dressing
         public ushort A, B, C;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    private struct BoneWeight
+    {
+        public float Weight, OtherWeight;
+        public int Joint, OtherJoint;
+    }
+
     // Packed numbers, an engine's vectors, interleaved vertices; int, uint, ushort; arrays and spans: the same bits.
-    public static void ShapesOfArrays(string folder)
+    public static void ArraysOfEveryShape()
     {
         Inputs inputs = Inputs.Tube();
         int vertices = inputs.GarmentPositions.Length / 3;
@@ -156,12 +163,11 @@ internal static class Dressing
     }
 
     // Every setter reaches the library, and does what it says.
-    public static void EveryInput(string folder)
+    public static void EveryInput()
     {
         Inputs inputs = Inputs.Tube();
         float[] plain = Dressed(inputs, session => { });
         int vertices = plain.Length / 3;
-        int body = inputs.AvatarPositions.Length / 3;
         Func<Action<Session>, bool> differs = set => !Dressed(inputs, set).SequenceEqual(plain);
 
         Check.That(differs(s => s.SetOptions(new Options { FitWeight = Options.WeightOff })), "options");
@@ -186,32 +192,55 @@ internal static class Dressing
         double distance = Math.Sqrt(
             Math.Pow(pinned[0] - 0.4, 2) + Math.Pow(pinned[1] + 0.4, 2) + Math.Pow(pinned[2] - 0.1, 2));
         Check.That(distance < 0.005, $"the pin is {distance} from its place");
+        Skins(inputs);
+    }
 
-        // The same skin as a matrix, and as one joint with all the weight and one with none, which may be anything.
+    // The same skin as a matrix, and as one joint with all the weight and one with none, which may be anything. It says
+    // where the shrunk avatar is.
+    private static void Skins(Inputs inputs)
+    {
+        int body = inputs.AvatarPositions.Length / 3;
         float[] matrix = new float[3 * body];
         int[] joints = new int[2 * body];
         float[] shares = new float[2 * body];
+        // As engines keep them: weights and joints of a vertex in one struct.
+        BoneWeight[] mixed = new BoneWeight[body];
         for (int v = 0; v < body; v++)
         {
-            int joint = v < body / 3 ? 0 : v < 2 * body / 3 ? 1 : 2;
+            int joint = v < 4 * body / 5 ? 0 : 2;
             matrix[joint * body + v] = 1f;
             joints[2 * v] = joint;
             joints[2 * v + 1] = -1;
             shares[2 * v] = 1f;
+            mixed[v] = new BoneWeight { Weight = 1f, Joint = joint, OtherJoint = -1 };
         }
-        float[] byMatrix = Dressed(inputs, s => s.SetTargetSkinWeights(matrix, body));
-        float[] byInfluences = Dressed(inputs, s => s.SetTargetSkinInfluences(joints, shares, 2, 3));
+        float[] byMatrix = Shrunk(inputs, s => s.SetTargetSkinWeights(matrix, body));
+        Check.That(!byMatrix.SequenceEqual(Shrunk(inputs, s => { })), "the skin is looked at");
+        float[] byInfluences = Shrunk(inputs, s => s.SetTargetSkinInfluences(joints, shares, 2, 3));
         Check.SameBits(byInfluences, byMatrix, "the skin");
+        float[] byStructs = Shrunk(
+            inputs, s => s.SetTargetSkinInfluences(IndexView.I32(mixed, 8), FloatView.F32(mixed), 2, 3));
+        Check.SameBits(byStructs, byMatrix, "the skin, in structs");
         using (Session session = inputs.Session())
         {
-            Action<int> set = influences => session.SetTargetSkinInfluences(joints, shares, influences, 3);
             shares[11] = 0.5f;
-            Check.Refused(Status.InvalidWeights, () => set(2), "vertex 5", "-1");
+            Check.Refused(
+                Status.InvalidWeights, () => session.SetTargetSkinInfluences(joints, shares, 2, 3), "vertex 5", "-1");
+        }
+    }
+
+    private static float[] Shrunk(Inputs inputs, Action<Session> set)
+    {
+        using (Session session = inputs.Session())
+        {
+            set(session);
+            session.Prepare();
+            return session.ReadAvatarVertices();
         }
     }
 
     // Every result can be read, of a session that is done.
-    public static void EveryResult(string folder)
+    public static void EveryResult()
     {
         Inputs inputs = Inputs.Tube();
         using (Session session = inputs.Session())
@@ -276,7 +305,7 @@ internal static class Dressing
     }
 
     // Unity's space on both sides is a mirror image: the same garment, mirrored.
-    public static void Spaces(string folder)
+    public static void Spaces()
     {
         Inputs inputs = Inputs.Tube();
         float[] expected = Dressed(inputs, session => { });
