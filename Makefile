@@ -116,7 +116,7 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 # so that nothing is built twice.
 .PHONY: test
 test: dependencies
-	sh .ci/dependencies cmake pkg-config
+	sh .ci/dependencies cmake pkg-config clang mcs mono
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'

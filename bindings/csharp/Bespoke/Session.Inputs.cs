@@ -1,0 +1,329 @@
+// What is set before a session runs. All of it needs the stage Setup.
+using System;
+using System.Runtime.InteropServices;
+
+namespace Bespoke
+{
+    public sealed partial class Session
+    {
+        /// <summary>
+        /// The garment as it was modelled, around the source skeleton. It may be open and in pieces. The result is
+        /// verified in the precision of its positions. A second call replaces the first.
+        /// </summary>
+        /// <param name="positions">Points.</param>
+        /// <param name="triangles">Three vertices each, from 0.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidMesh (no vertices, no triangles, an index out of
+        /// range, a coordinate that is not finite), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetGarment(FloatView positions, IndexView triangles)
+        {
+            fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
+            fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
+            {
+                NativeView points = positions.Pinned(p, 3, "garment: positions");
+                NativeView corners = triangles.Pinned(t, 3, "garment: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "garment", "triangle");
+                Check(Native.bespoke_session_set_garment(handle, &points, &corners));
+            }
+        }
+
+        /// <summary>
+        /// The skeleton around which the garment was modelled, in the space of the garment.
+        /// </summary>
+        /// <param name="joints">Points.</param>
+        /// <param name="bones">Two joints each, from 0; order and direction are free.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidSkeleton, InvalidState, Busy,
+        /// Internal.</exception>
+        public unsafe void SetSourceSkeleton(FloatView joints, IndexView bones)
+        {
+            fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
+            fixed (byte* b = &MemoryMarshal.GetReference(bones.Bytes))
+            {
+                NativeView points = joints.Pinned(j, 3, "source skeleton: joints");
+                NativeView ends = bones.Pinned(b, 2, "source skeleton: bones");
+                bones.RefuseNegative(2, Status.InvalidSkeleton, "source skeleton", "bone");
+                Check(Native.bespoke_session_set_source_skeleton(handle, &points, &ends));
+            }
+        }
+
+        /// <summary>
+        /// The body to dress. It may be open, non-manifold, in pieces, and may intersect itself.
+        /// </summary>
+        /// <param name="positions">Points.</param>
+        /// <param name="triangles">Three vertices each, from 0.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidMesh, InvalidState, Busy, Internal.</exception>
+        public unsafe void SetTargetAvatar(FloatView positions, IndexView triangles)
+        {
+            fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
+            fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
+            {
+                NativeView points = positions.Pinned(p, 3, "target avatar: positions");
+                NativeView corners = triangles.Pinned(t, 3, "target avatar: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "target avatar", "triangle");
+                Check(Native.bespoke_session_set_target_avatar(handle, &points, &corners));
+            }
+        }
+
+        /// <summary>
+        /// The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds
+        /// to joint i of the source skeleton, and the same pairs of joints are bones.
+        /// </summary>
+        /// <param name="joints">Points.</param>
+        /// <param name="bones">Two joints each, from 0; order and direction are free.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidSkeleton (another topology may be found only by
+        /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetTargetSkeleton(FloatView joints, IndexView bones)
+        {
+            fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
+            fixed (byte* b = &MemoryMarshal.GetReference(bones.Bytes))
+            {
+                NativeView points = joints.Pinned(j, 3, "target skeleton: joints");
+                NativeView ends = bones.Pinned(b, 2, "target skeleton: bones");
+                bones.RefuseNegative(2, Status.InvalidSkeleton, "target skeleton", "bone");
+                Check(Native.bespoke_session_set_target_skeleton(handle, &points, &ends));
+            }
+        }
+
+        /// <summary>
+        /// Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at
+        /// the looseness of the design.
+        /// </summary>
+        /// <param name="positions">Points.</param>
+        /// <param name="triangles">Three vertices each, from 0.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidMesh, InvalidState, Busy, Internal.</exception>
+        public unsafe void SetSourceAvatar(FloatView positions, IndexView triangles)
+        {
+            fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
+            fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
+            {
+                NativeView points = positions.Pinned(p, 3, "source avatar: positions");
+                NativeView corners = triangles.Pinned(t, 3, "source avatar: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "source avatar", "triangle");
+                Check(Native.bespoke_session_set_source_avatar(handle, &points, &corners));
+            }
+        }
+
+        /// <summary>
+        /// Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest
+        /// bone decides to which part of the body a vertex belongs. Weights are finite and not negative; those of a
+        /// vertex need not sum to 1.
+        /// </summary>
+        /// <param name="rows">For each joint, <paramref name="vertices"/> numbers.</param>
+        /// <param name="vertices">Vertices of the target avatar.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidWeights (a wrong size may be found only by
+        /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetTargetSkinWeights(FloatView rows, int vertices)
+        {
+            AtLeastOne(vertices, nameof(vertices));
+            fixed (byte* r = &MemoryMarshal.GetReference(rows.Bytes))
+            {
+                NativeView matrix = rows.Pinned(r, vertices, "target skin weights");
+                Check(Native.bespoke_session_set_target_skin_weights(handle, &matrix, (UIntPtr)(uint)vertices));
+            }
+        }
+
+        /// <summary>
+        /// Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each
+        /// vertex. A joint with weight 0 is not looked at. All else as for <see cref="SetTargetSkinWeights"/>, which
+        /// this replaces.
+        /// </summary>
+        /// <param name="joints">For each vertex, <paramref name="influences"/> joints, from 0.</param>
+        /// <param name="weights">For each vertex, as many weights.</param>
+        /// <param name="influences">Joints of a vertex, such as 4.</param>
+        /// <param name="jointCount">Joints of the target skeleton.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidWeights, InvalidState, Busy,
+        /// Internal.</exception>
+        public unsafe void SetTargetSkinInfluences(IndexView joints, FloatView weights, int influences, int jointCount)
+        {
+            AtLeastOne(influences, nameof(influences));
+            AtLeastOne(jointCount, nameof(jointCount));
+            fixed (byte* j = &MemoryMarshal.GetReference(joints.Bytes))
+            fixed (byte* w = &MemoryMarshal.GetReference(weights.Bytes))
+            {
+                NativeView indices = joints.Pinned(j, influences, "target skin joints");
+                NativeView numbers = weights.Pinned(w, influences, "target skin weights");
+                joints.RefuseNegative(influences, Status.InvalidWeights, "target skin joints", "vertex", weights);
+                Check(Native.bespoke_session_set_target_skin_influences(
+                    handle, &indices, &numbers, (UIntPtr)(uint)influences, (UIntPtr)(uint)jointCount));
+            }
+        }
+
+        /// <summary>
+        /// Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+        /// </summary>
+        /// <param name="space">The space.</param>
+        /// <exception cref="BespokeException">InvalidArgument (two axes along one coordinate, an absurd unit),
+        /// InvalidState, Busy, Internal.</exception>
+        public unsafe void SetSourceSpace(Space space)
+        {
+            NativeSpace native = NotNull(space, nameof(space)).ToNative();
+            Check(Native.bespoke_session_set_source_space(handle, &native));
+        }
+
+        /// <summary>
+        /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+        /// </summary>
+        /// <param name="space">The space.</param>
+        /// <exception cref="BespokeException">As for <see cref="SetSourceSpace"/>.</exception>
+        public unsafe void SetTargetSpace(Space space)
+        {
+            NativeSpace native = NotNull(space, nameof(space)).ToNative();
+            Check(Native.bespoke_session_set_target_space(handle, &native));
+        }
+
+        /// <summary>
+        /// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by
+        /// default; 0: not at all.
+        /// </summary>
+        /// <param name="weights">One number for each garment vertex, finite and not negative.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidWeights (a wrong size may be found only by
+        /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetFitWeights(FloatView weights)
+        {
+            fixed (byte* w = &MemoryMarshal.GetReference(weights.Bytes))
+            {
+                NativeView numbers = weights.Pinned(w, 1, "fit weights");
+                Check(Native.bespoke_session_set_fit_weights(handle, &numbers));
+            }
+        }
+
+        /// <summary>
+        /// Optional: the garment vertices that are not drawn to the body. The same as <see cref="SetFitWeights"/>,
+        /// which this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed
+        /// do not fit. State: Setup, with the garment set.
+        /// </summary>
+        /// <param name="vertices">Garment vertices, from 0, in any order.</param>
+        /// <exception cref="BespokeException">InvalidArgument (a vertex out of range as well), InvalidState, Busy,
+        /// Internal.
+        /// </exception>
+        public unsafe void SetNoFitVertices(IndexView vertices)
+        {
+            fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
+            {
+                NativeView indices = vertices.Pinned(v, 1, "no-fit vertices");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "no-fit vertices", "element");
+                Check(Native.bespoke_session_set_no_fit_vertices(handle, &indices));
+            }
+        }
+
+        /// <summary>
+        /// Optional: garment vertices that are held where they were designed, carried along with the bone beside them:
+        /// the coordinate along the bone and the distance from it stay. Replaces pins set before; none: no pins. A pin
+        /// is a stiff spring (see <see cref="Options.PinWeight"/>): what the body stands in the way of is not reached,
+        /// and told as a diagnostic.
+        /// </summary>
+        /// <param name="vertices">Garment vertices, from 0, each once.</param>
+        /// <exception cref="BespokeException">InvalidArgument (a vertex that the garment does not have is found by
+        /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetPinnedVertices(IndexView vertices)
+        {
+            fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
+            {
+                NativeView indices = vertices.Pinned(v, 1, "pinned vertices");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
+                Check(Native.bespoke_session_set_pinned_vertices(handle, &indices, null));
+            }
+        }
+
+        /// <summary>
+        /// The same as <see cref="SetPinnedVertices(IndexView)"/>, with a place for each of them.
+        /// </summary>
+        /// <param name="vertices">Garment vertices, from 0, each once.</param>
+        /// <param name="places">One point for each of them, in the target's space.</param>
+        /// <exception cref="BespokeException">As there.</exception>
+        public unsafe void SetPinnedVertices(IndexView vertices, FloatView places)
+        {
+            fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
+            fixed (byte* p = &MemoryMarshal.GetReference(places.Bytes))
+            {
+                NativeView indices = vertices.Pinned(v, 1, "pinned vertices");
+                NativeView points = places.Pinned(p, 3, "pinned vertices: places");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
+                Check(Native.bespoke_session_set_pinned_vertices(handle, &indices, &points));
+            }
+        }
+
+        /// <summary>
+        /// Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate:
+        /// it turns and moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each
+        /// call, counted from 0. Where contact does not let a group become rigid to rounding, that is told as a
+        /// diagnostic.
+        /// </summary>
+        /// <param name="vertices">Garment vertices, from 0, in any order; at least one, none of another group.</param>
+        /// <exception cref="BespokeException">InvalidArgument (a vertex that the garment does not have is found by
+        /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void AddRigidGroup(IndexView vertices)
+        {
+            fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
+            {
+                NativeView indices = vertices.Pinned(v, 1, "rigid group");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "rigid group", "element");
+                Check(Native.bespoke_session_add_rigid_group(handle, &indices));
+            }
+        }
+
+        /// <summary>Forgets all rigid groups.</summary>
+        /// <exception cref="BespokeException">InvalidState, Busy, Internal.</exception>
+        public void ClearRigidGroups()
+        {
+            Check(Native.bespoke_session_clear_rigid_groups(handle));
+        }
+
+        /// <summary>
+        /// Optional: a garment that the avatar wears already, such as one that was read from another session. It joins
+        /// the avatar as an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and
+        /// is verified against both. Each call adds one layer; they are numbered from 0, and stay until
+        /// <see cref="ClearLayers"/>, also when another avatar is set and after <see cref="Reset"/>. Skin weights are
+        /// those of the avatar beneath, where it has any. What is read or counted as the avatar is the avatar without
+        /// its layers.
+        /// </summary>
+        /// <param name="positions">Points in the space of the target avatar; used exactly as they are.</param>
+        /// <param name="triangles">Three vertices each, from 0.</param>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidMesh (no vertices, no triangles, an index out of
+        /// range, a coordinate that is not finite), InvalidState, Busy, Internal.</exception>
+        public unsafe void AddLayer(FloatView positions, IndexView triangles)
+        {
+            fixed (byte* p = &MemoryMarshal.GetReference(positions.Bytes))
+            fixed (byte* t = &MemoryMarshal.GetReference(triangles.Bytes))
+            {
+                NativeView points = positions.Pinned(p, 3, "layer: positions");
+                NativeView corners = triangles.Pinned(t, 3, "layer: triangles");
+                triangles.RefuseNegative(3, Status.InvalidMesh, "layer", "triangle");
+                Check(Native.bespoke_session_add_layer(handle, &points, &corners));
+            }
+        }
+
+        /// <summary>Takes all layers off the avatar.</summary>
+        /// <exception cref="BespokeException">InvalidState, Busy, Internal.</exception>
+        public void ClearLayers()
+        {
+            Check(Native.bespoke_session_clear_layers(handle));
+        }
+
+        /// <summary>Replaces all options by these.</summary>
+        /// <param name="options">The options; copied.</param>
+        /// <exception cref="BespokeException">InvalidArgument (an option out of its range, which the message names),
+        /// InvalidState, Busy, Internal.</exception>
+        public unsafe void SetOptions(Options options)
+        {
+            NativeOptions native = NotNull(options, nameof(options)).ToNative();
+            Check(Native.bespoke_session_set_options(handle, &native));
+        }
+
+        private static T NotNull<T>(T argument, string name) where T : class
+        {
+            if (argument == null)
+            {
+                throw new ArgumentNullException(name);
+            }
+            return argument;
+        }
+
+        private static void AtLeastOne(int number, string name)
+        {
+            if (number < 1)
+            {
+                throw new ArgumentOutOfRangeException(name, "There is at least one.");
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+// Cancel and progress of one session, apart from it.
+using System;
+
+namespace Bespoke
+{
+    /// <summary>
+    /// Cancel and progress of one session, apart from it: it may outlive the session. All methods from any thread, at
+    /// any time. After <see cref="Dispose"/> they throw <see cref="ObjectDisposedException"/>.
+    /// </summary>
+    public sealed class SessionControl : IDisposable
+    {
+        private readonly ControlHandle handle;
+
+        internal SessionControl(ControlHandle handle)
+        {
+            this.handle = handle;
+        }
+
+        /// <summary>The same as <see cref="Session.Cancel"/>. Without effect once the session is disposed of.</summary>
+        public void Cancel()
+        {
+            Native.bespoke_control_cancel(handle);
+        }
+
+        /// <summary>
+        /// The same as <see cref="Session.ReadProgress"/>. The last moment stays once the session is disposed of.
+        /// </summary>
+        /// <returns>One moment of the session, as of its last iteration.</returns>
+        public unsafe Progress ReadProgress()
+        {
+            NativeProgress native = new NativeProgress { struct_size = (uint)sizeof(NativeProgress) };
+            Status status = Native.bespoke_control_read_progress(handle, &native);
+            if (status != Status.Ok)
+            {
+                throw new BespokeException(status, "The library does not tell the progress of the session.");
+            }
+            return new Progress(&native);
+        }
+
+        /// <summary>Frees the control; a second time does nothing. The session goes on.</summary>
+        public void Dispose()
+        {
+            handle.Dispose();
+        }
+    }
+}
