@@ -274,7 +274,7 @@ internal static class Dressing
             Energy[] terms = Enumerable.Range(0, report.EnergyCount).Select(session.ReadEnergy).ToArray();
             Check.That(terms.Any(term => term.Name == "surface" && term.Weight == 1.0 && term.Value > 0), "terms");
             Check.Refused(Status.InvalidArgument, () => session.ReadEnergy(report.EnergyCount), "energy");
-            Progress progress = session.ReadProgress();
+            SessionProgress progress = session.ReadProgress();
             Check.Same(progress.Energies.Count, terms.Length, "terms of the progress");
             Check.That(Math.Abs(progress.Energies.Sum() - progress.Energy) <= 1e-9 * progress.Energy, "their sum");
             Check.That(progress.Stage == Stage.Done && progress.T == 1.0 && progress.FitSeconds > 0, "progress");
@@ -312,8 +312,8 @@ internal static class Dressing
         Func<float[], float[]> mirrored = points => points.Select((x, k) => k % 3 == 2 ? -x : x).ToArray();
         using (Session session = new Session())
         {
-            session.SetSourceSpace(Space.Unity);
-            session.SetTargetSpace(Space.Unity);
+            session.SetSourceSpace(CoordinateSystem.Unity);
+            session.SetTargetSpace(CoordinateSystem.Unity);
             session.SetGarment(mirrored(inputs.GarmentPositions), inputs.GarmentTriangles);
             session.SetTargetAvatar(mirrored(inputs.AvatarPositions), inputs.AvatarTriangles);
             session.SetSourceSkeleton(mirrored(inputs.SourceJoints), inputs.Bones);
@@ -323,7 +323,7 @@ internal static class Dressing
             double farthest = found.Zip(expected, (a, b) => Math.Abs(a - b)).Max();
             Check.That(farthest < 1e-5, $"a vertex is {farthest} away");
             session.Reset();
-            Space bad = Space.Unity;
+            CoordinateSystem bad = CoordinateSystem.Unity;
             bad.Up = Axis.NegativeX;
             Check.Refused(Status.InvalidArgument, () => session.SetTargetSpace(bad), "target space");
         }

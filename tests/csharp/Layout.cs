@@ -145,7 +145,7 @@ internal static class Layout
     // SafeHandle to its pointer.
     private static int CheckFunctions(string header)
     {
-        string code = Regex.Replace(header, @"/\*.*?\*/", "", RegexOptions.Singleline);
+        string code = Regex.Replace(header, "//.*", "");
         MatchCollection listed = Regex.Matches(code, @"\b(bespoke_\w+)\(([^)]*)\);");
         MethodInfo[] declared = typeof(Native)
             .GetMethods(BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.DeclaredOnly);

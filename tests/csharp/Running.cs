@@ -12,17 +12,17 @@ internal static class Running
     // Machines that run tests are busy: far above what is promised, and far below a run that is not stopped.
     private static readonly TimeSpan Prompt = TimeSpan.FromSeconds(1);
 
-    private sealed class Listener : IProgress<Bespoke.Progress>
+    private sealed class Listener : IProgress<SessionProgress>
     {
-        public readonly List<Bespoke.Progress> Heard = new List<Bespoke.Progress>();
-        private readonly Action<Bespoke.Progress> react;
+        public readonly List<SessionProgress> Heard = new List<SessionProgress>();
+        private readonly Action<SessionProgress> react;
 
-        public Listener(Action<Bespoke.Progress> react = null)
+        public Listener(Action<SessionProgress> react = null)
         {
             this.react = react;
         }
 
-        public void Report(Bespoke.Progress progress)
+        public void Report(SessionProgress progress)
         {
             Heard.Add(progress);
             react?.Invoke(progress);

@@ -153,7 +153,7 @@ namespace Bespoke
         /// <param name="space">The space.</param>
         /// <exception cref="BespokeException">InvalidArgument (two axes along one coordinate, an absurd unit),
         /// InvalidState, Busy, Internal.</exception>
-        public unsafe void SetSourceSpace(Space space)
+        public unsafe void SetSourceSpace(CoordinateSystem space)
         {
             NativeSpace native = NotNull(space, nameof(space)).ToNative();
             Check(Native.bespoke_session_set_source_space(handle, &native));
@@ -164,7 +164,7 @@ namespace Bespoke
         /// </summary>
         /// <param name="space">The space.</param>
         /// <exception cref="BespokeException">As for <see cref="SetSourceSpace"/>.</exception>
-        public unsafe void SetTargetSpace(Space space)
+        public unsafe void SetTargetSpace(CoordinateSystem space)
         {
             NativeSpace native = NotNull(space, nameof(space)).ToNative();
             Check(Native.bespoke_session_set_target_space(handle, &native));

@@ -16,11 +16,11 @@ namespace Bespoke
         /// One moment of the session, as of its last iteration. At any time, also while another call runs.
         /// </summary>
         /// <returns>The moment.</returns>
-        public unsafe Progress ReadProgress()
+        public unsafe SessionProgress ReadProgress()
         {
             NativeProgress native = new NativeProgress { struct_size = (uint)sizeof(NativeProgress) };
             Check(Native.bespoke_session_read_progress(handle, &native));
-            return new Progress(&native);
+            return new SessionProgress(&native);
         }
 
         /// <summary>

@@ -73,7 +73,7 @@ namespace Bespoke
         /// <exception cref="BespokeException">As for both.</exception>
         /// <exception cref="OperationCanceledException">Somebody asked to stop.</exception>
         public void Run(
-            IProgress<Progress> progress = null, CancellationToken token = default(CancellationToken))
+            IProgress<SessionProgress> progress = null, CancellationToken token = default(CancellationToken))
         {
             using (Watch(token))
             {
@@ -98,7 +98,7 @@ namespace Bespoke
         /// <param name="token">Cancelled: the session is asked to stop, at once also while it prepares.</param>
         /// <returns>The task. Until it has ended, other calls of this session find it busy.</returns>
         public async Task RunAsync(
-            IProgress<Progress> progress = null, CancellationToken token = default(CancellationToken))
+            IProgress<SessionProgress> progress = null, CancellationToken token = default(CancellationToken))
         {
             // Not a thread of the pool, which would be missed for seconds. A method that is async takes every
             // OperationCanceledException for a task that is cancelled, one without the token as well.
@@ -109,9 +109,9 @@ namespace Bespoke
                 TaskScheduler.Default).ConfigureAwait(false);
         }
 
-        private unsafe void RunInSteps(IProgress<Progress> progress, CancellationToken token)
+        private unsafe void RunInSteps(IProgress<SessionProgress> progress, CancellationToken token)
         {
-            Progress now = ReadProgress();
+            SessionProgress now = ReadProgress();
             progress.Report(now);
             if (now.Stage == Stage.Setup)
             {

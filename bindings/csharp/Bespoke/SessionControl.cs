@@ -26,7 +26,7 @@ namespace Bespoke
         /// The same as <see cref="Session.ReadProgress"/>. The last moment stays once the session is disposed of.
         /// </summary>
         /// <returns>One moment of the session, as of its last iteration.</returns>
-        public unsafe Progress ReadProgress()
+        public unsafe SessionProgress ReadProgress()
         {
             NativeProgress native = new NativeProgress { struct_size = (uint)sizeof(NativeProgress) };
             Status status = Native.bespoke_control_read_progress(handle, &native);
@@ -34,7 +34,7 @@ namespace Bespoke
             {
                 throw new BespokeException(status, "The library does not tell the progress of the session.");
             }
-            return new Progress(&native);
+            return new SessionProgress(&native);
         }
 
         /// <summary>Frees the control; a second time does nothing. The session goes on.</summary>

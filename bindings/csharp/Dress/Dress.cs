@@ -77,11 +77,11 @@ internal static class Dress
     }
 
     // A line for each stage. Progress<T> would print in threads of the pool, not always in order.
-    private sealed class Printer : IProgress<Progress>
+    private sealed class Printer : IProgress<SessionProgress>
     {
         private Stage? last;
 
-        public void Report(Progress progress)
+        public void Report(SessionProgress progress)
         {
             if (progress.Stage != last)
             {

@@ -4,7 +4,7 @@ namespace Bespoke
     /// <summary>A direction along one axis of the caller's coordinates.</summary>
     public enum Axis : uint
     {
-        /// <summary>That of <see cref="Space"/>'s field by default.</summary>
+        /// <summary>That of <see cref="CoordinateSystem"/>'s field by default.</summary>
         Default = 0,
 
         /// <summary>+x</summary>
@@ -37,7 +37,7 @@ namespace Bespoke
     }
 
     /// <summary>A coordinate system. What is not set is the default; handedness follows from the axes.</summary>
-    public sealed class Space
+    public sealed class CoordinateSystem
     {
         /// <summary>The axis to the right. Default: +x.</summary>
         public Axis Right { get; set; }
@@ -55,11 +55,11 @@ namespace Bespoke
         public Winding Winding { get; set; }
 
         /// <summary>Unity's: left-handed, y up, z forwards, metres, clockwise.</summary>
-        public static Space Unity
+        public static CoordinateSystem Unity
         {
             get
             {
-                return new Space
+                return new CoordinateSystem
                 {
                     Right = Axis.PositiveX,
                     Up = Axis.PositiveY,

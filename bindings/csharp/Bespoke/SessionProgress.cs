@@ -7,9 +7,9 @@ namespace Bespoke
     /// A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's
     /// bounding box is 2.
     /// </summary>
-    public sealed class Progress
+    public sealed class SessionProgress
     {
-        internal unsafe Progress(NativeProgress* native)
+        internal unsafe SessionProgress(NativeProgress* native)
         {
             Stage = native->stage;
             Iteration = checked((int)native->iteration);
