@@ -86,6 +86,7 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 # so that nothing is built twice.
 .PHONY: test
 test: dependencies
+	sh .ci/dependencies clang
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"

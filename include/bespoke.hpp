@@ -1,11 +1,12 @@
 /* Bespoke for C++17: bespoke.h with owners, typed views of arrays and results that carry their message.
 
-   bespoke.h is the manual: what holds for a function there holds for the method of that name here, and is not said again.
+   bespoke.h is the manual: what holds for a function there holds for the method of its name here, and is not said
+   again.
    All is in the namespace `bespoke`, in this one file; exceptions and RTTI are not needed.
 
      auto session = bespoke::Session::create();
      if (!session) return session.error();
-     session->set_garment(positions, triangles) ...          // std::vector<std::array<float, 3>>, MyVertex*, TArray<FVector> ...
+     session->set_garment(positions, triangles) ...   // std::vector<std::array<float, 3>>, TArray<FVector> ...
      if (auto dressed = session->run(); !dressed) std::puts(dressed.message().c_str());
      auto points = session->read_garment_vertices();         // Result<std::vector<std::array<float, 3>>>
 
@@ -13,10 +14,11 @@
      exceptions, or_throw() gives the value or throws that Error: session.run().or_throw().
    Empty handles.  A session or control that was moved from, released or never made is empty. Calls on it fail with
      INVALID_ARGUMENT.
-   Views.  Points, Triangles, Bones, Indices, Numbers and rows of them are made where they are needed, from containers and
-     pointers, and are read during the call only: temporaries are fine as arguments, a view in a variable is good as long as
-     what it was made from. The type of the numbers follows from the C++ type, and one that does not fit does not compile.
-   Enums.  A later library may use numbers that these do not name. They arrive as they are: have a `default` in a switch.
+   Views.  Points, Triangles, Bones, Indices, Numbers and rows of them are made where they are needed, from containers
+     and pointers, and are read during the call only: temporaries are fine as arguments, a view in a variable is good as
+     long as what it was made from. How numbers are stored follows from their C++ type; a wrong one does not compile.
+   Enums.  A later library may use numbers that these do not name. They arrive as they are: have a `default` in a
+     switch.
    Threads.  As in bespoke.h. Moving, releasing and destroying count as calls. */
 
 #ifndef BESPOKE_HPP
@@ -164,7 +166,8 @@ inline const char *status_name(Status status) noexcept {
     return bespoke_status_name(static_cast<std::uint32_t>(status));
 }
 
-/// The binary interface of the library that is loaded. Session::create compares it with BESPOKE_ABI_VERSION. Threads: any.
+/// The binary interface of the library that is loaded, which Session::create compares with BESPOKE_ABI_VERSION.
+/// Threads: any.
 inline std::uint32_t abi_version() noexcept { return bespoke_abi_version(); }
 
 /// The version of the library that is loaded, such as "0.1.0". Threads: any.
@@ -202,8 +205,8 @@ namespace detail {
 
 /// What a call gave: a value, or an Error. To be looked at: the compiler warns where one is dropped.
 ///
-/// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the program
-/// with a sentence (std::abort), in release builds too.
+/// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the
+/// program with a sentence (std::abort), in release builds too.
 template <class T> class [[nodiscard]] Result {
 public:
     Result(T value) : value_(std::move(value)), error_(Status::ok, {}) {}
@@ -211,6 +214,7 @@ public:
 
     explicit operator bool() const noexcept { return value_.has_value(); }
 
+    /// The value; ends the program where there is none, as do * and ->.
     T &value() & { return require(), *value_; }
     const T &value() const & { return require(), *value_; }
     T &&value() && { return require(), std::move(*value_); }
@@ -230,6 +234,7 @@ public:
     /// Empty where there is a value.
     const std::string &message() const noexcept { return error_.message(); }
 
+    /// The error; ends the program where there is none.
     const Error &error() const {
         if (value_) detail::refuse("error() of a result without an error", {});
         return error_;
@@ -271,10 +276,12 @@ public:
         if (!*this) detail::refuse("value of a result without a value", error_.message());
     }
 
+    /// Status::ok where the call succeeded.
     Status status() const noexcept { return error_.status(); }
     /// Empty where the call succeeded.
     const std::string &message() const noexcept { return error_.message(); }
 
+    /// The error; ends the program where there is none.
     const Error &error() const {
         if (*this) detail::refuse("error() of a result without an error", {});
         return error_;
@@ -320,8 +327,8 @@ using MemberNumber =
 /// What is not known to hold numbers.
 using NoLayout = Packed<void, 0>;
 
-// Structs whose members x, y, z, w are numbers of one type, one after the other: two of them, three or all. Further members
-// may follow. Once for each way of writing the names.
+// Structs whose members x, y, z, w are numbers of one type, one after the other: two of them, three or all. Further
+// members may follow. Once for each way of writing the names.
 #define BESPOKE_HPP_NAMED_MEMBERS(Name, x, y, z, w)                                                                    \
     template <class T, class = void> struct Name##Z : std::false_type {};                                             \
     template <class T>                                                                                                 \
@@ -359,8 +366,9 @@ template <class T> struct LayoutOf<T, true> : std::conditional_t<Lower<T>::width
 
 } // namespace detail
 
-/// How an element of a caller's array is made up. Known are numbers, T[n] and std::array<T, n> of them, and structs that have
-/// members x and y (and z, and w), or X, Y, Z, W, of one type and in a row. Others are told of like this:
+/// How an element of a caller's array is made up. Known are numbers, T[n] and std::array<T, n> of them, and structs of
+/// standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a row. Others are told
+/// of like this:
 ///
 ///     template <> struct bespoke::Layout<Eigen::Vector3f> : bespoke::Packed<float, 3> {};
 template <class T> struct Layout
@@ -419,9 +427,10 @@ constexpr auto size_of(Container &container) -> decltype(static_cast<std::size_t
 template <class Container, class = decltype(size_of(std::declval<Container &>()))>
 using ElementOf = std::remove_pointer_t<decltype(data_of(std::declval<Container &>()))>;
 
-/// The type of a member as it is seen in objects of this type.
-template <class Object, class Member>
-using MemberOf = std::conditional_t<std::is_const_v<Object>, const Member, Member>;
+/// The type of a member as it is seen in objects of this type; none where they have no such member.
+template <class Object, class Class, class Member>
+using MemberOf = std::enable_if_t<std::is_base_of_v<Class, Object>,
+                                  std::conditional_t<std::is_const_v<Object>, const Member, Member>>;
 
 template <class T> using LayoutFor = Layout<std::remove_cv_t<T>>;
 template <class T> using NumberFor = typename LayoutFor<T>::Component;
@@ -502,8 +511,8 @@ public:
         take(data_of(container), size_of(container));
     }
 
-    /// `count` elements, `stride` bytes apart (0: one after the other). With a pointer to numbers, `first` is the first of
-    /// the first element; `count` counts elements all the same.
+    /// `count` elements, `stride` bytes apart (0: one after the other). With a pointer to numbers, `first` is the first
+    /// one of the first element; `count` counts elements all the same.
     template <class T, class = std::enable_if_t<is_element<T> || is_number<T>>>
     Elements(T *first, std::size_t count, std::size_t stride = 0) {
         constexpr std::size_t packed = LayoutFor<T>::width == Width ? sizeof(T) : 0;
@@ -512,19 +521,19 @@ public:
 
     /// One member of each of `count` structs.
     template <class Object, class Class, class Member,
-              class = std::enable_if_t<is_element<MemberOf<Object, Member>>>>
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
     Elements(Object *first, std::size_t count, Member Class::*member) {
         this->set_member(first, count, member);
     }
 
     /// One member of each of a container's structs.
     template <class Container, class Class, class Member, class Object = ElementOf<Container>,
-              class = std::enable_if_t<is_element<MemberOf<Object, Member>>>>
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
     Elements(Container &container, Member Class::*member) {
         this->set_member(data_of(container), size_of(container), member);
     }
     template <class Container, class Class, class Member, class Object = ElementOf<const Container>,
-              class = std::enable_if_t<is_element<MemberOf<Object, Member>>>>
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
     Elements(const Container &container, Member Class::*member) {
         this->set_member(data_of(container), size_of(container), member);
     }
@@ -569,14 +578,15 @@ public:
     }
 
     /// One member of each of `count` structs.
-    template <class Object, class Class, class Member, class = std::enable_if_t<is_row<Member>>>
+    template <class Object, class Class, class Member,
+              class = std::enable_if_t<is_row<MemberOf<const Object, Class, Member>>>>
     Rows(const Object *first, std::size_t count, Member Class::*member) : columns_(LayoutFor<Member>::width) {
         this->set_member(first, count, member);
     }
 
     /// One member of each of a container's structs.
-    template <class Container, class Class, class Member, class = ElementOf<const Container>,
-              class = std::enable_if_t<is_row<Member>>>
+    template <class Container, class Class, class Member, class Object = ElementOf<const Container>,
+              class = std::enable_if_t<is_row<MemberOf<Object, Class, Member>>>>
     Rows(const Container &container, Member Class::*member) : columns_(LayoutFor<Member>::width) {
         this->set_member(data_of(container), size_of(container), member);
     }
@@ -638,6 +648,7 @@ struct Space {
     Axis forward = Axis::negative_z;
     /// Length of the unit in metres.
     double metres_per_unit = 1.0;
+    /// How the corners of a front face follow each other.
     Winding winding = Winding::counter_clockwise;
 
     /// As the C API takes it.
@@ -687,6 +698,7 @@ struct Options {
     double tolerance = 0.0;
     /// Largest number of Newton iterations of each stage. Default 500.
     std::uint32_t max_iterations = 0;
+    /// Form of the surface term.
     SurfaceForm surface_form = SurfaceForm::similarity;
     /// Bytes that the session may take at most. Default: no limit.
     std::uint64_t memory_limit = 0;
@@ -694,8 +706,8 @@ struct Options {
     bool strict = false;
     /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. Default 0.
     double offset = 0.0;
-    /// With a source avatar and no fit weights: what was designed farther from it than this fits less, and not at all from
-    /// twice this distance on. Default 0.1; weight_off: the garment fits as a whole.
+    /// With a source avatar and no fit weights: what was designed farther from it than this fits less, and not at all
+    /// from twice this distance on. Default 0.1; weight_off: the garment fits as a whole.
     double fit_distance = 0.0;
     /// Weight of pins. Default 1000.
     double pin_weight = 0.0;
@@ -728,13 +740,14 @@ struct Options {
         return options;
     }
 
-    /// The defaults written out: bespoke_options_read_defaults. Errors: INVALID_ARGUMENT, where the library does not know
-    /// this header. Threads: any.
+    /// The defaults written out: bespoke_options_read_defaults. Errors: INVALID_ARGUMENT, where the library does not
+    /// know this header. Threads: any.
     static Result<Options> read_defaults() {
         BespokeOptions read{};
         read.struct_size = sizeof read;
-        if (const auto status = static_cast<Status>(bespoke_options_read_defaults(&read)); status != Status::ok) {
-            return Error(status, "the library refuses to write the default options into a struct of this header's size");
+        const auto status = static_cast<Status>(bespoke_options_read_defaults(&read));
+        if (status != Status::ok) {
+            return Error(status, "the library refuses to write into a BespokeOptions of this header's size");
         }
         Options options;
         options.threads = read.threads;
@@ -764,7 +777,9 @@ struct Options {
 
 /// How far a step goes; 0 is no limit. With neither, it goes to the end.
 struct Budget {
+    /// Newton iterations.
     std::uint32_t iterations = 0;
+    /// Looked at after each iteration, so that a step may take somewhat longer.
     std::uint32_t milliseconds = 0;
 };
 
@@ -857,7 +872,8 @@ template <class Handle>
 Result<Progress> read_progress(BespokeStatus (*read)(const Handle *, BespokeProgress *), const Handle *handle) {
     BespokeProgress from{};
     from.struct_size = sizeof from;
-    const auto done = outcome(read(handle, &from), "the library refuses to write into a BespokeProgress of this header's size");
+    const auto done =
+        outcome(read(handle, &from), "the library refuses to write into a BespokeProgress of this header's size");
     if (!done) return done.error();
     Progress to;
     to.stage = static_cast<Stage>(from.stage);
@@ -905,8 +921,8 @@ public:
         return detail::outcome(bespoke_control_cancel(handle_.get()), "the request to stop was refused");
     }
 
-    /// The session at this moment, or its last one: bespoke_control_read_progress. Errors: INVALID_ARGUMENT (empty). Threads:
-    /// any, at any time.
+    /// The session at this moment, or its last one: bespoke_control_read_progress. Errors: INVALID_ARGUMENT (empty).
+    /// Threads: any, at any time.
     Result<Progress> read_progress() const {
         if (!handle_) return detail::empty_handle("control");
         return detail::read_progress<BespokeControl>(bespoke_control_read_progress, handle_.get());
@@ -971,12 +987,14 @@ public:
 
 } // namespace detail
 
-/// Tells whether somebody asked to stop. A cheap copy of what a StopSource gave; one that was made without a source is never
-/// asked to stop. Threads: any, at any time.
+/// Tells whether somebody asked to stop. Comes from a StopSource, and copies are cheap; one that was made without a
+/// source is never asked to stop. Threads: any, at any time.
 class StopToken {
 public:
+    /// Of no source.
     StopToken() = default;
 
+    /// Whether somebody asked to stop.
     bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
 
 private:
@@ -987,18 +1005,20 @@ private:
     std::shared_ptr<detail::StopState> state_;
 };
 
-/// Asks to stop, on behalf of all that run with its tokens: Session::run(source.get_token()). Copies ask for the same. The
-/// request is for good. Threads: any, at any time; not from a signal handler, which a Control is for.
+/// Asks all to stop that run with its tokens: session.run(source.get_token()). Copies ask the same ones. The request is
+/// for good. Threads: any, at any time; not from a signal handler, which a Control is for.
 class StopSource {
 public:
     StopSource() : state_(std::make_shared<detail::StopState>()) {}
 
+    /// What hears of the request.
     StopToken get_token() const noexcept { return StopToken(state_); }
 
+    /// Whether somebody asked to stop.
     bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
 
-    /// Asks to stop: the sessions that run with a token of this source return CANCELLED within 100 ms, whatever they are
-    /// doing. Returns whether it was the first to ask.
+    /// Asks to stop: the sessions that run with a token of this source return CANCELLED within 100 ms, whatever they
+    /// are doing. Returns whether it was the first to ask.
     bool request_stop() const { return state_ && state_->request(); }
 
 private:
@@ -1064,9 +1084,9 @@ inline constexpr std::uint32_t look_after = 20;
 
 /// One garment on its way to one avatar. Move-only; it frees all it holds when it goes.
 ///
-/// What a method does, which state it needs, its errors and threads are those of the function of its name in bespoke.h, with
-/// bespoke_session_ before it. In addition, each of them fails with INVALID_ARGUMENT where the session is empty, or where an
-/// array of numbers does not divide into whole elements.
+/// What a method does, which state it needs, its errors and threads are those of the function of its name in bespoke.h,
+/// with bespoke_session_ before it. In addition, each of them fails with INVALID_ARGUMENT where the session is empty,
+/// or where an array of numbers does not divide into whole elements.
 class Session {
 public:
     /// Empty: a place to move a session to.
@@ -1101,13 +1121,14 @@ public:
     /// Hands the handle over to the caller, to be given to bespoke_session_destroy, and is empty.
     [[nodiscard]] BespokeSession *release() noexcept { return handle_.release(); }
 
-    /// Frees the session now; then it is empty. With BUSY, another thread is inside of it, and it stays as it is. The
-    /// destructor cannot tell, and frees nothing that another thread still uses: it asks that thread's call to stop, and the
-    /// session's memory is lost. Threads: any, and no other call with this session may begin from here on.
+    /// Frees the session now; then it is empty. With BUSY another thread is inside a call with it, and it stays as it
+    /// is. The destructor cannot tell of that: it asks the other call to stop and gives the handle up, so that the
+    /// memory is lost, but not taken from under that call. Threads: any, and no other call with this session may begin
+    /// from here on.
     Result<void> destroy() {
         if (!handle_) return detail::empty_handle("session");
         const BespokeStatus status = bespoke_session_destroy(handle_.get());
-        if (status == BESPOKE_STATUS_BUSY) return failure(status);
+        if (status == BESPOKE_STATUS_BUSY) return failure(handle_.get(), status);
         static_cast<void>(handle_.release());
         return detail::outcome(status, "the session was not freed as a whole");
     }
@@ -1124,7 +1145,8 @@ public:
 
     /// The skeleton around which the garment was modelled, in the space of the garment.
     Result<void> set_source_skeleton(Points joints, Bones bones) {
-        return set(bespoke_session_set_source_skeleton, "source skeleton joints", joints, "source skeleton bones", bones);
+        return set(bespoke_session_set_source_skeleton, "source skeleton joints", joints, "source skeleton bones",
+                   bones);
     }
 
     /// The body to dress.
@@ -1135,7 +1157,8 @@ public:
 
     /// The skeleton of the body to dress, in the pose of the source skeleton and with its joints and bones.
     Result<void> set_target_skeleton(Points joints, Bones bones) {
-        return set(bespoke_session_set_target_skeleton, "target skeleton joints", joints, "target skeleton bones", bones);
+        return set(bespoke_session_set_target_skeleton, "target skeleton joints", joints, "target skeleton bones",
+                   bones);
     }
 
     /// Optional: the body on which the garment was designed, in the space of the garment.
@@ -1144,13 +1167,14 @@ public:
                    triangles);
     }
 
-    /// Optional: skin weights of the target avatar as a full matrix: a row for each joint, in it a number for each vertex.
+    /// Optional: skin weights of the target avatar as a full matrix: a row for each joint, in it a number for each
+    /// vertex.
     Result<void> set_target_skin_weights(NumberRows rows) {
         return set(bespoke_session_set_target_skin_weights, "target skin weights", rows, rows.columns());
     }
 
-    /// Optional: skin weights of the target avatar as engines keep them: a row for each vertex, in it a few joints, and in
-    /// `weights` the weights of these.
+    /// Optional: skin weights of the target avatar as engines keep them: a row for each vertex, in it a few joints, and
+    /// in `weights` the weights of these.
     Result<void> set_target_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
         if (handle_ && joints.columns() != weights.columns()) {
             return Error(Status::invalid_argument, "target skin influences: a vertex has " +
@@ -1244,8 +1268,9 @@ public:
 
     /// The same with a token that stops it and a callable that is told of its progress.
     ///
-    /// `token`: a StopToken or std::stop_token, which stop whatever the session is doing within 100 ms; or anything else
-    /// with a `bool stop_requested() const`, which is looked at before prepare and after every 20 ms or so from then on.
+    /// `token`: a StopToken or std::stop_token, which stop whatever the session is doing within 100 ms; or anything
+    /// else with a `bool stop_requested() const`, which is looked at before prepare and after every 20 ms or so from
+    /// then on.
     /// `on_progress`: called with a `const Progress &` as often, on this thread, and once more with DONE. It may return
     /// nothing, or false to stop. It may throw, which leaves the session where it is; it must not destroy or move it.
     /// Whoever stops it, the run fails with CANCELLED as after cancel(): the request stays until reset().
@@ -1298,7 +1323,8 @@ public:
     Result<Control> create_control() const {
         if (!handle_) return detail::empty_handle("session");
         BespokeControl *control = nullptr;
-        const auto made = detail::outcome(bespoke_session_create_control(handle_.get(), &control), "no control could be made");
+        const auto made =
+            detail::outcome(bespoke_session_create_control(handle_.get(), &control), "no control could be made");
         if (!made) return made.error();
         return Control(control);
     }
@@ -1315,7 +1341,8 @@ public:
         return read_all<Point, PointBuffer>(bespoke_session_read_garment_vertices);
     }
 
-    /// Where the target avatar's vertices are now, into the caller's memory; gives how many. There may be room for more.
+    /// Where the target avatar's vertices are now, into the caller's memory; gives how many. There may be room for
+    /// more.
     Result<std::size_t> read_avatar_vertices(PointBuffer points) const {
         return read(bespoke_session_read_avatar_vertices, "room for avatar vertices", points);
     }
@@ -1325,7 +1352,8 @@ public:
         return read_all<Point, PointBuffer>(bespoke_session_read_avatar_vertices);
     }
 
-    /// How much each garment triangle is distorted now, into the caller's memory; gives how many. There may be room for more.
+    /// How much each garment triangle is distorted now, into the caller's memory; gives how many. There may be room for
+    /// more.
     Result<std::size_t> read_distortion(NumberBuffer values) const {
         return read(bespoke_session_read_distortion, "room for distortion", values);
     }
@@ -1397,17 +1425,18 @@ private:
         }
     };
 
-    /// The error of a call with this session that has just failed.
-    Error failure(BespokeStatus status) const {
+    /// The error of a call with a session that has just failed.
+    static Error failure(const BespokeSession *handle, BespokeStatus status) {
         const auto typed = static_cast<Status>(status);
         if (typed == Status::busy) {
             return Error(typed, "another thread is inside a call with this session; nothing was done");
         }
         std::size_t needed = 0;
-        bespoke_session_last_message(handle_.get(), nullptr, 0, &needed);
+        bespoke_session_last_message(handle, nullptr, 0, &needed);
         std::string message(needed, '\0');
-        bespoke_session_last_message(handle_.get(), &message[0], message.size(), nullptr);
-        message.resize(message.find('\0') == std::string::npos ? message.size() : message.find('\0'));
+        bespoke_session_last_message(handle, &message[0], message.size(), nullptr);
+        // Its zero byte; and another failure may have put a shorter sentence there in between.
+        message.resize(std::char_traits<char>::length(message.c_str()));
         if (message.empty()) message = status_name(typed);
         return Error(typed, std::move(message));
     }
@@ -1415,8 +1444,9 @@ private:
     template <class Function, class... Arguments>
     Result<void> call(Function *function, const Arguments &...arguments) const {
         if (!handle_) return detail::empty_handle("session");
-        const BespokeStatus status = function(handle_.get(), arguments...);
-        if (status != BESPOKE_STATUS_OK) return failure(status);
+        BespokeSession *const handle = handle_.get();
+        const BespokeStatus status = function(handle, arguments...);
+        if (status != BESPOKE_STATUS_OK) return failure(handle, status);
         return {};
     }
 

@@ -30,8 +30,8 @@ struct Obj {
     std::vector<std::array<std::uint32_t, 2>> bones;
 };
 
-/// The vertex that a corner such as "7", "7/1/3" or "-1" names, from 0; none for what is not a number. Whether the mesh has
-/// it is for the library to say.
+/// The vertex that a corner such as "7", "7/1/3" or "-1" names, from 0; none for what is not a number. Whether the mesh
+/// has it is for the library to say.
 std::optional<std::uint32_t> vertex_of(const std::string &corner, std::size_t vertices) {
     std::istringstream text(corner);
     long number = 0;
@@ -92,14 +92,17 @@ void on_interrupt(int) {
     if (BespokeControl *control = running.load()) bespoke_control_cancel(control);
 }
 
-/// A line for each part of the way.
-void show(const bespoke::Progress &progress) {
-    static const char *const names[] = {"prepare", "prepared", "inflate", "fit", "verify", "done"};
-    static bespoke::Stage shown = bespoke::Stage::failed;
-    if (progress.stage == shown || progress.stage > bespoke::Stage::done) return;
-    shown = progress.stage;
-    std::printf("%s\n", names[static_cast<std::uint32_t>(shown)]);
-    std::fflush(stdout);
+/// What goes on, or goes on next, at a stage.
+const char *name_of(bespoke::Stage stage) {
+    switch (stage) {
+    case bespoke::Stage::setup: return "prepare";
+    case bespoke::Stage::prepared:
+    case bespoke::Stage::inflate: return "inflate";
+    case bespoke::Stage::fit: return "fit";
+    case bespoke::Stage::verify: return "verify";
+    case bespoke::Stage::done: return "done";
+    default: return "";
+    }
 }
 
 Result<void> dress(char **paths) {
@@ -116,6 +119,14 @@ Result<void> dress(char **paths) {
     running = control->get();
     std::signal(SIGINT, on_interrupt);
 
+    // A line for each part of the way.
+    std::string shown;
+    const auto show = [&](const bespoke::Progress &progress) {
+        if (shown == name_of(progress.stage)) return;
+        shown = name_of(progress.stage);
+        std::printf("%s\n", shown.c_str());
+        std::fflush(stdout);
+    };
     Result<void> dressed =
         session.set_garment(garment->points, garment->triangles)
             .and_then([&] { return session.set_source_skeleton(skeleton->points, skeleton->bones); })

@@ -1,0 +1,197 @@
+/* Cancel: by the session, a control, a token, std::stop_token and the answer of who watches. */
+#include "check.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace {
+
+using namespace bespoke;
+using Clock = std::chrono::steady_clock;
+
+// Machines that run tests are busy: far above what is promised, far below a run that is not stopped.
+constexpr std::chrono::milliseconds prompt(1000);
+
+/// A scene that takes seconds.
+Scene large_scene() {
+    Scene scene;
+    scene.garment = Tube(0.3, 0.5, 60, 80);
+    scene.body = Tube(0.4, 0.9, 30, 40);
+    return scene;
+}
+
+/// How many runs were stopped inside of prepare.
+int stopped_in_prepare = 0;
+
+/// Runs `run` on one thread and `stop` on another, once the session has come to this stage; the run is cancelled
+/// promptly.
+template <class Run, class Stop> void stopped(Session &session, Stage stage, const Run &run, const Stop &stop) {
+    const Control control = std::move(session.create_control().value());
+    Clock::time_point asked;
+    std::thread other([&] {
+        while (control.read_progress()->stage < stage) std::this_thread::yield();
+        // So that it hits prepare, too, in the middle.
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        asked = Clock::now();
+        stop();
+    });
+    const Result<void> outcome = run();
+    const auto returned = Clock::now();
+    other.join();
+    REFUSED(outcome, Status::cancelled, "cancelled");
+    CHECK(returned - asked < prompt);
+    const Stage end = session.read_progress()->stage;
+    // On a busy machine the other thread may come when prepare is over.
+    CHECK(end == Stage::cancelled || (end == Stage::setup && stage == Stage::setup));
+    if (end == Stage::setup) stopped_in_prepare++;
+}
+
+void by_other_threads() {
+    const Scene scene = large_scene();
+    Session session = session_with(scene);
+    const Control control = std::move(session.create_control().value());
+    for (const Stage stage : {Stage::setup, Stage::inflate}) {
+        stopped(session, stage, [&] { return session.run(); }, [&] { ACCEPTED(control.cancel()); });
+        // The request stays until reset.
+        CHECK(!session.run());
+        ACCEPTED(session.reset());
+        stopped(session, stage, [&] { return session.run([](const Progress &) {}); }, [&] { ACCEPTED(session.cancel()); });
+        ACCEPTED(session.reset());
+        const StopSource source;
+        stopped(session, stage, [&] { return session.run(source.get_token()); },
+                [&] { CHECK(source.request_stop() && !source.request_stop()); });
+        CHECK(source.stop_requested() && source.get_token().stop_requested());
+        ACCEPTED(session.reset());
+#ifdef __cpp_lib_jthread
+        std::stop_source standard;
+        stopped(session, stage, [&] { return session.run(standard.get_token()); }, [&] { standard.request_stop(); });
+        ACCEPTED(session.reset());
+        // As a thread that brings its own token.
+        std::jthread thread([&](std::stop_token token) {
+            REFUSED(session.run(token, [](const Progress &) {}), Status::cancelled, "cancelled");
+        });
+        while (control.read_progress()->stage < stage) std::this_thread::yield();
+        thread.request_stop();
+        thread.join();
+        ACCEPTED(session.reset());
+#endif
+    }
+    CHECK(stopped_in_prepare > 0);
+}
+
+/// One source for several sessions; who comes late is stopped at the beginning.
+void one_source_for_all() {
+    const Scene scene = large_scene();
+    StopSource source;
+    const StopToken token = source.get_token();
+    std::vector<std::thread> threads;
+    std::atomic<int> running{0};
+    for (int k = 0; k < 2; k++) {
+        threads.emplace_back([&] {
+            Session session = session_with(scene);
+            bool is_counted = false;
+            REFUSED(session.run(token,
+                                [&](const Progress &progress) {
+                                    if (progress.stage == Stage::inflate && !is_counted) {
+                                        is_counted = true;
+                                        running++;
+                                    }
+                                }),
+                    Status::cancelled, "cancelled");
+        });
+    }
+    while (running < 2) std::this_thread::yield();
+    StopSource copy = source;
+    CHECK(copy.request_stop() && source.stop_requested() && !source.request_stop());
+    for (std::thread &thread : threads) thread.join();
+    Session late = session_with(scene);
+    REFUSED(late.run(token), Status::cancelled, "cancelled");
+    CHECK(late.read_progress()->stage == Stage::setup);
+    // The token of no source never stops, and a source that was moved from does nothing.
+    CHECK(!StopToken().stop_requested());
+    const StopSource moved = std::move(source);
+    CHECK(moved.stop_requested() && !source.stop_requested() && !source.request_stop());
+    CHECK(!source.get_token().stop_requested());
+}
+
+/// A session that ran with a token is not touched by a request that comes later.
+void a_late_request() {
+    const Scene scene;
+    Session session = session_with(scene);
+    StopSource source;
+    ACCEPTED(session.run(source.get_token(), [](const Progress &) { return true; }));
+    CHECK(source.request_stop());
+    ACCEPTED(session.verify());
+}
+
+/// Any other token, which can only be looked at.
+struct Counter {
+    int *left;
+    bool stop_requested() const { return --*left < 0; }
+};
+
+void by_looking() {
+    const Scene scene = large_scene();
+    Session session = session_with(scene);
+    int left = 3;
+    REFUSED(session.run(Counter{&left}), Status::cancelled, "cancelled");
+    CHECK(left == -1 && session.read_progress()->stage == Stage::cancelled);
+    CHECK(session.read_garment_vertices()->size() == scene.garment.points.size());
+
+    ACCEPTED(session.reset());
+    int calls = 0;
+    REFUSED(session.run([&](const Progress &) { return ++calls < 3; }), Status::cancelled, "cancelled");
+    CHECK(calls == 3 && session.read_progress()->stage == Stage::cancelled);
+
+    // At the beginning, before prepare.
+    ACCEPTED(session.reset());
+    REFUSED(session.run([](const Progress &) { return false; }), Status::cancelled, "cancelled");
+    CHECK(session.read_progress()->stage == Stage::setup);
+    // A "no" that comes with DONE is too late.
+    Session quick = session_with(Scene());
+    ACCEPTED(quick.run([](const Progress &progress) { return progress.stage != Stage::done; }));
+    ACCEPTED(quick.verify());
+}
+
+/// A control outlives its session, and knows its last moment.
+void controls() {
+    Session session = session_with(Scene());
+    const Control control = std::move(session.create_control().value());
+    CHECK(control.read_progress()->stage == Stage::setup);
+    ACCEPTED(session.run());
+    ACCEPTED(session.destroy());
+    CHECK(control.read_progress()->stage == Stage::done && control.read_progress()->t == 1.0);
+    ACCEPTED(control.cancel());
+}
+
+#ifdef __cpp_exceptions
+/// Who watches may throw: it comes out of run, and the session can go on.
+void a_throwing_watcher() {
+    Session session = session_with(Scene());
+    StopSource source;
+    bool is_caught = false;
+    try {
+        static_cast<void>(session.run(source.get_token(), [](const Progress &progress) {
+            if (progress.stage != Stage::setup) throw 7;
+        }));
+    } catch (const int thrown) {
+        is_caught = thrown == 7;
+    }
+    // The source no longer knows the session.
+    CHECK(is_caught && source.request_stop());
+    ACCEPTED(session.run());
+}
+#endif
+
+} // namespace
+
+void stops() {
+    by_other_threads();
+    one_source_for_all();
+    a_late_request();
+    by_looking();
+    controls();
+#ifdef __cpp_exceptions
+    a_throwing_watcher();
+#endif
+}
