@@ -6,9 +6,9 @@
 
      auto session = bespoke::Session::create();
      if (!session) return session.error();
-     session->set_garment(positions, triangles) ...   // std::vector<std::array<float, 3>>, TArray<FVector> ...
-     if (auto dressed = session->run(); !dressed) std::puts(dressed.message().c_str());
-     auto points = session->read_garment_vertices();         // Result<std::vector<std::array<float, 3>>>
+     if (auto set = session->set_garment(positions, triangles); !set) return set.error();   // and so on
+     if (auto dressed = session->run(); !dressed) return dressed.error();
+     auto points = session->read_garment_vertices();        // Result<std::vector<std::array<float, 3>>>
 
    Results.  A call that can fail returns a Result: a value, or an Error with status and message. Where the compiler has
      exceptions, or_throw() gives the value or throws that Error: session.run().or_throw().
@@ -178,8 +178,10 @@ inline const char *version_text() noexcept { return bespoke_version_text(); }
 /// Why a call failed: a status to decide by, and a sentence for people. What or_throw() throws.
 class Error : public std::exception {
 public:
+    /// An error of the caller's own is made in the same way, so that it goes where those of the library go.
     Error(Status status, std::string message) : status_(status), message_(std::move(message)) {}
 
+    /// Not Status::ok.
     Status status() const noexcept { return status_; }
 
     /// What, where and which element, in UTF-8. Never empty where the library failed.
@@ -206,7 +208,8 @@ namespace detail {
 /// What a call gave: a value, or an Error. To be looked at: the compiler warns where one is dropped.
 ///
 /// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the
-/// program with a sentence (std::abort), in release builds too.
+/// program with a sentence (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
+/// the value itself and no reference, so that `for (const auto &entry : session.read_diagnostics().value())` is sound.
 template <class T> class [[nodiscard]] Result {
 public:
     Result(T value) : value_(std::move(value)), error_(Status::ok, {}) {}
@@ -217,11 +220,11 @@ public:
     /// The value; ends the program where there is none, as do * and ->.
     T &value() & { return require(), *value_; }
     const T &value() const & { return require(), *value_; }
-    T &&value() && { return require(), std::move(*value_); }
+    T value() && { return require(), std::move(*value_); }
 
     T &operator*() & { return value(); }
     const T &operator*() const & { return value(); }
-    T &&operator*() && { return std::move(value()); }
+    T operator*() && { return std::move(*this).value(); }
     T *operator->() { return &value(); }
     const T *operator->() const { return &value(); }
 
@@ -251,6 +254,10 @@ public:
     T or_throw() && {
         if (!value_) throw std::move(error_);
         return std::move(*value_);
+    }
+    const T &or_throw() const & {
+        if (!value_) throw error_;
+        return *value_;
     }
 #endif
 
@@ -295,8 +302,8 @@ public:
 
 #ifdef __cpp_exceptions
     /// Throws the Error where the call failed.
-    void or_throw() && {
-        if (!*this) throw std::move(error_);
+    void or_throw() const {
+        if (!*this) throw error_;
     }
 #endif
 
@@ -511,10 +518,16 @@ public:
         take(data_of(container), size_of(container));
     }
 
-    /// `count` elements, `stride` bytes apart (0: one after the other). With a pointer to numbers, `first` is the first
-    /// one of the first element; `count` counts elements all the same.
+    /// `count` elements, one after the other.
+    template <class T, class = std::enable_if_t<is_element<T>>>
+    Elements(T *first, std::size_t count) {
+        this->set(first, count, sizeof(T));
+    }
+
+    /// `count` elements, `stride` bytes apart (0: one after the other). `first` may also point to the first number of
+    /// the first element. It takes the stride, since somebody who leaves it out might mean a count of numbers.
     template <class T, class = std::enable_if_t<is_element<T> || is_number<T>>>
-    Elements(T *first, std::size_t count, std::size_t stride = 0) {
+    Elements(T *first, std::size_t count, std::size_t stride) {
         constexpr std::size_t packed = LayoutFor<T>::width == Width ? sizeof(T) : 0;
         this->set(first, count, stride == 0 ? packed : stride);
     }
@@ -603,9 +616,10 @@ private:
 /// Points (x, y, z): float or double. From
 /// - a container of elements: std::vector<std::array<float, 3>>, MyVec3[n], TArray<FVector> ... (see Layout);
 /// - a container of numbers, three for each point: std::vector<float>, std::span<const double> ...;
-/// - pointer and count of either: {first, count}, and {first, count, stride in bytes};
+/// - pointer and count of elements: {first, count};
+/// - pointer to an element or to its first number, count of elements and stride in bytes: {first, count, stride};
 /// - a member of structs: {vertices, &MyVertex::position}, {first, count, &MyVertex::position}.
-/// The count is that of points everywhere. A number too many or too few is an error of the call, not cut off.
+/// Numbers that are left over when three make a point are an error of the call, not cut off.
 using Points = detail::Elements<detail::Real, 3, const void>;
 
 /// Triangles, three vertices each, counted from 0: std::uint16_t, std::uint32_t or std::int32_t. Made as Points are.
@@ -912,6 +926,7 @@ public:
     /// Takes over a handle from bespoke_session_create_control; null is empty.
     explicit Control(BespokeControl *handle) noexcept : handle_(handle) {}
 
+    /// Whether there is a control in it.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
     /// Asks the session to stop: bespoke_control_cancel. Errors: INVALID_ARGUMENT (empty). Threads: any, at any time; a
@@ -1009,6 +1024,7 @@ private:
 /// for good. Threads: any, at any time; not from a signal handler, which a Control is for.
 class StopSource {
 public:
+    /// A request of its own, which nobody has made yet.
     StopSource() : state_(std::make_shared<detail::StopState>()) {}
 
     /// What hears of the request.
@@ -1244,7 +1260,8 @@ public:
     /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton.
     Result<void> prepare() { return call(bespoke_session_prepare); }
 
-    /// Goes on for a while: to the end of the budget or of the whole way. Gives where the session is then.
+    /// Goes on for a while: to the end of the budget or of the whole way. Gives where the session is then; where it
+    /// failed, read_progress() tells.
     Result<Stage> step(Budget budget = {}) {
         std::uint32_t stage = BESPOKE_STAGE_SETUP;
         const auto done = call(bespoke_session_step, budget.iterations, budget.milliseconds, &stage);
@@ -1403,6 +1420,8 @@ public:
         if (const auto done = call(bespoke_session_read_diagnostics, read.data(), read.size(), &count); !done) {
             return done.error();
         }
+        // Another call may have come in between the two.
+        if (count < read.size()) read.resize(count);
         std::vector<Diagnostic> diagnostics;
         diagnostics.reserve(read.size());
         for (const BespokeDiagnostic &from : read) {
@@ -1511,6 +1530,8 @@ private:
         elements.resize(*count);
         const auto done = read(function, "", Buffer(elements));
         if (!done) return done.error();
+        // Another call may have come in between the two.
+        elements.resize(*done);
         return elements;
     }
 

@@ -113,7 +113,7 @@ Result<void> dress(char **paths) {
     }
     auto made = bespoke::Session::create();
     if (!made) return made.error();
-    bespoke::Session session = std::move(*made);
+    bespoke::Session &session = *made;
     const auto control = session.create_control();
     if (!control) return control.error();
     running = control->get();

@@ -76,7 +76,7 @@ inline bespoke::Options coarse_options() {
 
 /// A session in SETUP with all that has to be set.
 inline bespoke::Session session_with(const Scene &scene) {
-    bespoke::Session session = std::move(bespoke::Session::create().value());
+    bespoke::Session session = bespoke::Session::create().value();
     ACCEPTED(session.set_options(coarse_options()));
     ACCEPTED(session.set_garment(scene.garment.points, scene.garment.triangles));
     ACCEPTED(session.set_source_skeleton(scene.joints, scene.bones));

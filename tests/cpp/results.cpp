@@ -73,6 +73,14 @@ void exceptions() {
         CHECK(std::strcmp(error.what(), "not now") == 0);
         caught++;
     }
+    const Result<int> named = half(8), bad = half(7);
+    CHECK(named.or_throw() == 4 && &named.or_throw() == &named.value());
+    try {
+        static_cast<void>(bad.or_throw());
+    } catch (const Error &error) {
+        CHECK(error.message() == "odd" && bad.message() == "odd");
+        caught++;
+    }
     // As a program with exceptions is written.
     try {
         auto session = bespoke::Session::create().or_throw();
@@ -81,7 +89,7 @@ void exceptions() {
         CHECK(error.status() == Status::invalid_state && !error.message().empty());
         caught++;
     }
-    CHECK(caught == 3);
+    CHECK(caught == 4);
 }
 #endif
 

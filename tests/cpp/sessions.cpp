@@ -70,18 +70,18 @@ void empty(Session &session) {
 void owners() {
     Session none;
     empty(none);
-    Session first = std::move(Session::create().value());
+    Session first = Session::create().value();
     BespokeSession *const handle = first.get();
     CHECK(first && handle != nullptr);
     Session second = std::move(first);
     CHECK(second.get() == handle);
     empty(first);
     // A session that is replaced is freed; the sanitizers would tell.
-    second = std::move(Session::create().value());
+    second = Session::create().value();
     CHECK(second && second.get() != nullptr);
     second = Session();
     empty(second);
-    first = std::move(Session::create().value());
+    first = Session::create().value();
     Session again(first.release());
     empty(first);
     ACCEPTED(again.reset());
@@ -91,8 +91,8 @@ void owners() {
     CHECK(!control && control.get() == nullptr);
     REFUSED(control.cancel(), Status::invalid_argument, "control is empty");
     REFUSED(control.read_progress(), Status::invalid_argument, "control is empty");
-    again = std::move(Session::create().value());
-    control = std::move(again.create_control().value());
+    again = Session::create().value();
+    control = again.create_control().value();
     Control taken = std::move(control);
     REFUSED(control.cancel(), Status::invalid_argument, "control is empty");
     bespoke_control_destroy(taken.release());
@@ -237,8 +237,7 @@ void diagnostics() {
     Session session = session_with(scene);
     ACCEPTED(session.prepare());
     int found = 0;
-    const auto diagnostics = session.read_diagnostics();
-    for (const Diagnostic &diagnostic : *diagnostics) {
+    for (const Diagnostic &diagnostic : *session.read_diagnostics()) {
         CHECK(!diagnostic.sentence.empty() && diagnostic.sentence.find('\0') == std::string::npos);
         if (diagnostic.kind == DiagnosticKind::unused_vertex) {
             CHECK(diagnostic.elements.size() == 1 && diagnostic.elements[0].index == unused);

@@ -26,7 +26,7 @@ int stopped_in_prepare = 0;
 /// Runs `run` on one thread and `stop` on another, once the session has come to this stage; the run is cancelled
 /// promptly.
 template <class Run, class Stop> void stopped(Session &session, Stage stage, const Run &run, const Stop &stop) {
-    const Control control = std::move(session.create_control().value());
+    const Control control = session.create_control().value();
     Clock::time_point asked;
     std::thread other([&] {
         while (control.read_progress()->stage < stage) std::this_thread::yield();
@@ -49,13 +49,14 @@ template <class Run, class Stop> void stopped(Session &session, Stage stage, con
 void by_other_threads() {
     const Scene scene = large_scene();
     Session session = session_with(scene);
-    const Control control = std::move(session.create_control().value());
+    const Control control = session.create_control().value();
     for (const Stage stage : {Stage::setup, Stage::inflate}) {
         stopped(session, stage, [&] { return session.run(); }, [&] { ACCEPTED(control.cancel()); });
         // The request stays until reset.
         CHECK(!session.run());
         ACCEPTED(session.reset());
-        stopped(session, stage, [&] { return session.run([](const Progress &) {}); }, [&] { ACCEPTED(session.cancel()); });
+        stopped(session, stage, [&] { return session.run([](const Progress &) {}); },
+                [&] { ACCEPTED(session.cancel()); });
         ACCEPTED(session.reset());
         const StopSource source;
         stopped(session, stage, [&] { return session.run(source.get_token()); },
@@ -156,7 +157,7 @@ void by_looking() {
 /// A control outlives its session, and knows its last moment.
 void controls() {
     Session session = session_with(Scene());
-    const Control control = std::move(session.create_control().value());
+    const Control control = session.create_control().value();
     CHECK(control.read_progress()->stage == Stage::setup);
     ACCEPTED(session.run());
     ACCEPTED(session.destroy());

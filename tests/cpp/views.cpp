@@ -133,11 +133,12 @@ static_assert(takes<Points, std::vector<float>, const std::vector<double> &, std
                     TArray<float> &, const TArray<double> &, std::array<Vec3, 4>, Vec3 (&)[4]>);
 static_assert(refuses<Points, std::vector<int>, std::vector<std::uint32_t>, std::vector<long double>, std::vector<char>,
                       std::vector<bool>, std::string, std::vector<std::string>, std::list<float>,
-                      std::vector<std::vector<float>>, std::vector<std::array<float, 2>>, std::vector<std::array<int, 3>>,
-                      std::vector<float *>, std::vector<Vec2>, std::vector<Vec4>, std::vector<IndexTriple>,
+                      std::vector<std::vector<float>>, std::vector<std::array<float, 2>>,
+                      std::vector<std::array<int, 3>>, std::vector<float *>, std::vector<Vec2>, std::vector<Vec4>,
+                      std::vector<IndexTriple>,
                       std::vector<Shuffled>, std::vector<Mixed>, std::vector<Gap>, std::vector<Hidden>,
-                      std::vector<Functions>, std::vector<Vertex>, float *, float, int, std::nullptr_t, Triangles, Numbers,
-                      std::array<std::array<std::array<float, 3>, 3>, 3>, TArray<int>>);
+                      std::vector<Functions>, std::vector<Vertex>, float *, float, int, std::nullptr_t, Triangles,
+                      Numbers, std::array<std::array<std::array<float, 3>, 3>, 3>, TArray<int>>);
 static_assert(takes<Triangles, std::vector<std::uint16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>,
                     std::vector<std::array<std::uint16_t, 3>>, TArray<std::int32_t>, std::vector<IndexTriple>,
                     const std::uint32_t (&)[2][3]>);
@@ -148,12 +149,16 @@ static_assert(takes<Bones, std::vector<Vec2>, std::vector<std::array<std::uint32
 static_assert(refuses<Bones, std::vector<std::array<std::uint32_t, 3>>, std::vector<double>>);
 static_assert(takes<Indices, std::vector<std::uint32_t>, std::array<std::uint16_t, 2>, std::vector<int>>);
 static_assert(refuses<Indices, std::vector<float>, std::vector<Vec2>>);
-static_assert(takes<Numbers, std::vector<float>, std::vector<double>> && refuses<Numbers, std::vector<int>, std::vector<Vec3>>);
+static_assert(takes<Numbers, std::vector<float>, std::vector<double>>);
+static_assert(refuses<Numbers, std::vector<int>, std::vector<Vec3>>);
 
 // Pointers count elements; a member has to be what an element is.
-static_assert(made_of<Points, const float *, std::size_t> && made_of<Points, Vec3 *, std::size_t> &&
-              made_of<Points, const double *, std::size_t, std::size_t> && made_of<Triangles, std::uint16_t *, std::size_t>);
-static_assert(!made_of<Points, const int *, std::size_t> && !made_of<Points, const Vec2 *, std::size_t> &&
+static_assert(made_of<Points, const std::array<float, 3> *, std::size_t> && made_of<Points, Vec3 *, std::size_t> &&
+              made_of<Points, const double *, std::size_t, std::size_t> &&
+              made_of<Triangles, std::uint16_t *, std::size_t, int> && made_of<Numbers, const float *, std::size_t>);
+// Without a stride, somebody may have meant a count of numbers.
+static_assert(!made_of<Points, const float *, std::size_t> && !made_of<Points, const Vec2 *, std::size_t> &&
+              !made_of<Points, const int *, std::size_t, std::size_t> &&
               !made_of<Triangles, const float *, std::size_t> && !made_of<Points, const void *, std::size_t>);
 using Vertices = std::vector<Vertex>;
 static_assert(made_of<Points, Vertices &, decltype(&Vertex::position)> &&
@@ -161,9 +166,11 @@ static_assert(made_of<Points, Vertices &, decltype(&Vertex::position)> &&
               made_of<Points, Vertices, decltype(&Vertex::normal)> &&
               made_of<Points, const Vertex *, std::size_t, decltype(&Vertex::normal)> &&
               made_of<Points, const Derived *, std::size_t, decltype(&Vertex::normal)> &&
-              made_of<Numbers, Vertices, decltype(&Vertex::fit)> && made_of<Indices, Vertices, decltype(&Vertex::pin)> &&
+              made_of<Numbers, Vertices, decltype(&Vertex::fit)> &&
+              made_of<Indices, Vertices, decltype(&Vertex::pin)> &&
               made_of<Triangles, Vertices, decltype(&Vertex::label)>);
-static_assert(!made_of<Points, Vertices, decltype(&Vertex::label)> && !made_of<Points, Vertices, decltype(&Vertex::fit)> &&
+static_assert(!made_of<Points, Vertices, decltype(&Vertex::label)> &&
+              !made_of<Points, Vertices, decltype(&Vertex::fit)> &&
               !made_of<Points, Vertices, decltype(&Vertex::weights)> &&
               !made_of<Triangles, Vertices, decltype(&Vertex::position)> &&
               !made_of<Points, std::vector<float>, decltype(&Vertex::position)>);
@@ -172,20 +179,23 @@ static_assert(!made_of<Points, Vertices, decltype(&Vertex::label)> && !made_of<P
 static_assert(takes<NumberRows, std::vector<std::array<float, 4>>, std::vector<Vec4>, double (&)[4][2]>);
 static_assert(refuses<NumberRows, std::vector<float>, std::vector<std::array<int, 4>>>);
 static_assert(takes<IndexRows, std::vector<std::array<std::uint16_t, 8>>> && refuses<IndexRows, std::vector<Vec4>>);
-static_assert(made_of<NumberRows, std::vector<float>, std::size_t> && made_of<NumberRows, double *, std::size_t, std::size_t> &&
+static_assert(made_of<NumberRows, std::vector<float>, std::size_t> &&
+              made_of<NumberRows, double *, std::size_t, std::size_t> &&
               made_of<IndexRows, Vertices, decltype(&Vertex::joints)> &&
               made_of<NumberRows, const Vertex *, std::size_t, decltype(&Vertex::weights)>);
-static_assert(!made_of<NumberRows, std::vector<int>, std::size_t> && !made_of<IndexRows, float *, std::size_t, std::size_t> &&
+static_assert(!made_of<NumberRows, std::vector<int>, std::size_t> &&
+              !made_of<IndexRows, float *, std::size_t, std::size_t> &&
               !made_of<NumberRows, Vertices, decltype(&Vertex::joints)>);
 
 // What is written can be written, and is still there afterwards.
 static_assert(takes<PointBuffer, std::vector<float> &, std::vector<Vec3> &, float (&)[12], TArray<Upper> &>);
-static_assert(refuses<PointBuffer, const std::vector<float> &, std::vector<float>, const float (&)[12], std::array<float, 3>,
-                      std::vector<int> &, const TArray<Upper> &, TArray<Upper>>);
+static_assert(refuses<PointBuffer, const std::vector<float> &, std::vector<float>, const float (&)[12],
+                      std::array<float, 3>, std::vector<int> &, const TArray<Upper> &, TArray<Upper>>);
 static_assert(made_of<PointBuffer, Vertices &, decltype(&Vertex::position)> &&
               !made_of<PointBuffer, const Vertices &, decltype(&Vertex::position)> &&
               !made_of<PointBuffer, Vertices, decltype(&Vertex::position)> &&
-              made_of<PointBuffer, float *, std::size_t> && !made_of<PointBuffer, const float *, std::size_t>);
+              made_of<PointBuffer, float *, std::size_t, std::size_t> &&
+              !made_of<PointBuffer, const float *, std::size_t, std::size_t>);
 static_assert(takes<NumberBuffer, std::vector<double> &> && refuses<NumberBuffer, std::vector<Vec3> &>);
 #if __cplusplus >= 202002L
 static_assert(takes<Points, std::span<const float>, std::span<Vec3, 4>> && refuses<Points, std::span<int>>);
@@ -203,13 +213,15 @@ bool lies(const View &view, const void *data, std::size_t count, std::size_t str
 void elements() {
     const std::vector<float> flat(12);
     CHECK(lies(Points(flat), flat.data(), 4, 0, BESPOKE_COMPONENT_F32));
-    CHECK(lies(Points(flat.data(), 4), flat.data(), 4, 0, BESPOKE_COMPONENT_F32));
+    CHECK(lies(Points(flat.data(), 4, 0), flat.data(), 4, 0, BESPOKE_COMPONENT_F32));
     CHECK(lies(Points(flat.data(), 2, 24), flat.data(), 2, 24, BESPOKE_COMPONENT_F32));
     CHECK(lies(Numbers(flat), flat.data(), 12, 4, BESPOKE_COMPONENT_F32));
     const double rows[4][3] = {};
     CHECK(lies(Points(rows), rows, 4, 24, BESPOKE_COMPONENT_F64));
     const std::vector<Padded> padded(3);
     CHECK(lies(Points(padded), padded.data(), 3, 32, BESPOKE_COMPONENT_F64));
+    CHECK(lies(Points(padded.data(), 2), padded.data(), 2, 32, BESPOKE_COMPONENT_F64));
+    CHECK(lies(Points(padded.data(), 2, 64), padded.data(), 2, 64, BESPOKE_COMPONENT_F64));
     const std::vector<Flat> wide(3);
     CHECK(lies(Points(wide), wide.data(), 3, 20, BESPOKE_COMPONENT_F32));
     const std::vector<Opaque> opaque(3);
