@@ -373,9 +373,9 @@ template <class T> struct LayoutOf<T, true> : std::conditional_t<Lower<T>::width
 
 } // namespace detail
 
-/// How an element of a caller's array is made up. Known are numbers, T[n] and std::array<T, n> of them, and structs of
-/// standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a row. Others are told
-/// of like this:
+/// How an element of a caller's array is made up. Known are numbers, T[n], std::array<T, n> and std::pair<T, T> of them,
+/// and structs of standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a row.
+/// Others are told of like this:
 ///
 ///     template <> struct bespoke::Layout<Eigen::Vector3f> : bespoke::Packed<float, 3> {};
 template <class T> struct Layout
@@ -383,6 +383,7 @@ template <class T> struct Layout
 template <class T, std::size_t Width> struct Layout<T[Width]> : Packed<T, std::is_arithmetic_v<T> ? Width : 0> {};
 template <class T, std::size_t Width>
 struct Layout<std::array<T, Width>> : Packed<T, std::is_arithmetic_v<T> ? Width : 0> {};
+template <class T> struct Layout<std::pair<T, T>> : Packed<T, std::is_arithmetic_v<T> ? 2 : 0> {};
 
 // ---- Views of the caller's arrays -----------------------------------------------------------------------------------
 

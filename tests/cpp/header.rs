@@ -52,6 +52,7 @@ fn every_function_and_every_name_of_the_c_api_has_its_place() {
 fn every_field_crosses() {
     let cpp = code(&text("include/bespoke.hpp"));
     let layout = text("tests/capi/layout.inc");
+    let used: BTreeSet<_> = cpp.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '.').collect();
     let mut count = 0;
     for (name, objects) in [
         ("BespokeOptions", &["options", "read"][..]),
@@ -67,8 +68,8 @@ fn every_field_crosses() {
                 continue;
             }
             for object in objects {
-                let used = words(&cpp, field).contains(field) && cpp.contains(&format!("{object}.{field}"));
-                assert!(used, "{name}.{field} does not cross bespoke.hpp");
+                let access = format!("{object}.{field}");
+                assert!(used.contains(&*access), "{name}.{field} does not cross bespoke.hpp");
             }
             count += 1;
         }
@@ -128,4 +129,25 @@ fn a_library_of_another_binary_interface_is_refused() {
     for word in ["4711", "interface 1,", env!("CARGO_PKG_VERSION")] {
         assert!(said.contains(word), "{said}");
     }
+}
+
+/// What the README shows compiles.
+#[test]
+fn the_readme_shows_c_plus_plus() {
+    let readme = text("README.md");
+    let shown = readme.split("```cpp\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a block of C++");
+    let program = format!(
+        "#include \"bespoke.hpp\"\n\
+         using Points = std::vector<std::array<float, 3>>;\n\
+         struct Vertex {{ float position[3]; }};\n\
+         void show(double) {{}}\n\
+         void shown(const Points &points, const std::vector<std::uint32_t> &triangles, const Points &joints,\n\
+                    const std::vector<std::array<std::uint16_t, 2>> &bones, const std::vector<Vertex> &vertices,\n\
+                    const std::vector<std::uint16_t> &indices, const Points &target_joints,\n\
+                    const bespoke::StopToken &stop_token) {{\n{shown}\nshow(static_cast<double>(result.size()));\n}}\n\
+         int main() {{ return 0; }}\n"
+    );
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cpp-readme.cpp");
+    fs::write(&source, program).expect("a source");
+    GCC.compile("readme", &[source], &root().join("include"));
 }

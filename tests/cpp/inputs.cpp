@@ -203,6 +203,11 @@ void fields_of_options() {
     CHECK(c.threads == 21 && c.max_iterations == 22 && c.memory_limit == 23 && c.strict == 1);
     CHECK(c.surface_form == BESPOKE_SURFACE_FORM_PRINTED && c.reserved == 0);
 
+#if __cplusplus >= 202002L
+    const BespokeOptions named = Options{.threads = 3, .voxel = 0.1}.get();
+    CHECK(named.threads == 3 && named.voxel == 0.1 && named.dhat == 0.0);
+#endif
+
     // The defaults, read and handed back, are those that the library wrote.
     BespokeOptions written{};
     written.struct_size = sizeof written;

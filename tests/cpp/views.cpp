@@ -135,9 +135,8 @@ static_assert(refuses<Points, std::vector<int>, std::vector<std::uint32_t>, std:
                       std::vector<bool>, std::string, std::vector<std::string>, std::list<float>,
                       std::vector<std::vector<float>>, std::vector<std::array<float, 2>>,
                       std::vector<std::array<int, 3>>, std::vector<float *>, std::vector<Vec2>, std::vector<Vec4>,
-                      std::vector<IndexTriple>,
-                      std::vector<Shuffled>, std::vector<Mixed>, std::vector<Gap>, std::vector<Hidden>,
-                      std::vector<Functions>, std::vector<Vertex>, float *, float, int, std::nullptr_t, Triangles,
+                      std::vector<IndexTriple>, std::vector<Shuffled>, std::vector<Mixed>, std::vector<Gap>,
+                      std::vector<Hidden>, std::vector<Functions>, std::vector<Vertex>, float *, float, int, std::nullptr_t, Triangles,
                       Numbers, std::array<std::array<std::array<float, 3>, 3>, 3>, TArray<int>>);
 static_assert(takes<Triangles, std::vector<std::uint16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>,
                     std::vector<std::array<std::uint16_t, 3>>, TArray<std::int32_t>, std::vector<IndexTriple>,
@@ -145,8 +144,10 @@ static_assert(takes<Triangles, std::vector<std::uint16_t>, std::vector<std::uint
 static_assert(refuses<Triangles, std::vector<float>, std::vector<std::int16_t>, std::vector<std::uint8_t>,
                       std::vector<std::size_t>, std::vector<std::int64_t>, std::vector<char16_t>, std::vector<char32_t>,
                       std::vector<wchar_t>, std::vector<bool>, std::vector<Vec3>, std::vector<Vec2>, Bones, Points>);
-static_assert(takes<Bones, std::vector<Vec2>, std::vector<std::array<std::uint32_t, 2>>, std::vector<std::uint16_t>>);
-static_assert(refuses<Bones, std::vector<std::array<std::uint32_t, 3>>, std::vector<double>>);
+static_assert(takes<Bones, std::vector<Vec2>, std::vector<std::array<std::uint32_t, 2>>, std::vector<std::uint16_t>,
+                    std::vector<std::pair<std::uint16_t, std::uint16_t>>>);
+static_assert(refuses<Bones, std::vector<std::array<std::uint32_t, 3>>, std::vector<double>,
+                      std::vector<std::pair<int, float>>, std::vector<std::pair<float, float>>>);
 static_assert(takes<Indices, std::vector<std::uint32_t>, std::array<std::uint16_t, 2>, std::vector<int>>);
 static_assert(refuses<Indices, std::vector<float>, std::vector<Vec2>>);
 static_assert(takes<Numbers, std::vector<float>, std::vector<double>>);
@@ -232,6 +233,8 @@ void elements() {
     CHECK(lies(Triangles(corners), corners.data(), 2, 12, BESPOKE_COMPONENT_U32));
     const std::uint16_t shorts[] = {0, 1, 1, 2};
     CHECK(lies(Bones(shorts), shorts, 2, 0, BESPOKE_COMPONENT_U16));
+    const std::vector<std::pair<int, int>> pairs(3);
+    CHECK(lies(Bones(pairs), pairs.data(), 3, 8, BESPOKE_COMPONENT_U32));
     CHECK(lies(Indices(shorts), shorts, 4, 2, BESPOKE_COMPONENT_U16));
     CHECK(lies(Points(), nullptr, 0, 0, BESPOKE_COMPONENT_F32));
     CHECK(lies(Triangles({}), nullptr, 0, 0, BESPOKE_COMPONENT_U32));
