@@ -973,10 +973,10 @@ public:
         return true;
     }
 
+    /// Who enters looks at the token afterwards, for a request that came before.
     void enter(const BespokeSession *session) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sessions_.push_back(session);
-        if (is_requested()) bespoke_session_cancel(session);
     }
 
     void leave(const BespokeSession *session) {
