@@ -149,7 +149,7 @@ impl Sample {
 }
 
 /// An open tube around the y axis.
-fn tube(radius: f32, bottom: f32, top: f32, around: u32, rings: u32) -> Mesh {
+pub fn tube(radius: f32, bottom: f32, top: f32, around: u32, rings: u32) -> Mesh {
     let positions = (0..rings * around).map(|k| {
         let angle = (k % around) as f32 / around as f32 * std::f32::consts::TAU;
         let y = bottom + (top - bottom) * (k / around) as f32 / (rings - 1) as f32;

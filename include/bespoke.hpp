@@ -1,0 +1,1544 @@
+/* Bespoke for C++17: bespoke.h with owners, typed views of arrays and results that carry their message.
+
+   bespoke.h is the manual: what holds for a function there holds for the method of its name here, and is not said
+   again.
+   All is in the namespace `bespoke`, in this one file; exceptions and RTTI are not needed.
+
+     auto session = bespoke::Session::create();
+     if (!session) return session.error();
+     if (auto set = session->set_garment(positions, triangles); !set) return set.error();   // and so on
+     if (auto dressed = session->run(); !dressed) return dressed.error();
+     auto points = session->read_garment_vertices();        // Result<std::vector<std::array<float, 3>>>
+
+   Results.  A call that can fail returns a Result: a value, or an Error with status and message. Where the compiler has
+     exceptions, or_throw() gives the value or throws that Error: session.run().or_throw().
+   Empty handles.  A session or control that was moved from, released or never made is empty. Calls on it fail with
+     INVALID_ARGUMENT.
+   Views.  Points, Triangles, Bones, Indices, Numbers and rows of them are made where they are needed, from containers
+     and pointers, and are read during the call only: temporaries are fine as arguments, a view in a variable is good as
+     long as what it was made from. How numbers are stored follows from their C++ type; a wrong one does not compile.
+   Enums.  A later library may use numbers that these do not name. They arrive as they are: have a `default` in a
+     switch.
+   Threads.  As in bespoke.h. Moving, releasing and destroying count as calls. */
+
+#ifndef BESPOKE_HPP
+#define BESPOKE_HPP
+
+#include "bespoke.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#if __cplusplus >= 202002L || (defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#if __has_include(<stop_token>)
+#include <stop_token>
+#endif
+#endif
+
+namespace bespoke {
+
+// ---- Enums ----------------------------------------------------------------------------------------------------------
+
+/// The outcome of a call: BespokeStatus.
+enum class Status : std::uint32_t {
+    ok = BESPOKE_STATUS_OK,
+    invalid_argument = BESPOKE_STATUS_INVALID_ARGUMENT,
+    invalid_state = BESPOKE_STATUS_INVALID_STATE,
+    invalid_mesh = BESPOKE_STATUS_INVALID_MESH,
+    invalid_skeleton = BESPOKE_STATUS_INVALID_SKELETON,
+    invalid_weights = BESPOKE_STATUS_INVALID_WEIGHTS,
+    self_intersection = BESPOKE_STATUS_SELF_INTERSECTION,
+    not_enclosed = BESPOKE_STATUS_NOT_ENCLOSED,
+    inflation_stalled = BESPOKE_STATUS_INFLATION_STALLED,
+    not_verified = BESPOKE_STATUS_NOT_VERIFIED,
+    cancelled = BESPOKE_STATUS_CANCELLED,
+    busy = BESPOKE_STATUS_BUSY,
+    internal = BESPOKE_STATUS_INTERNAL,
+    memory_limit = BESPOKE_STATUS_MEMORY_LIMIT,
+};
+
+/// Where a session is on its way: BespokeStage.
+enum class Stage : std::uint32_t {
+    setup = BESPOKE_STAGE_SETUP,
+    prepared = BESPOKE_STAGE_PREPARED,
+    inflate = BESPOKE_STAGE_INFLATE,
+    fit = BESPOKE_STAGE_FIT,
+    verify = BESPOKE_STAGE_VERIFY,
+    done = BESPOKE_STAGE_DONE,
+    failed = BESPOKE_STAGE_FAILED,
+    cancelled = BESPOKE_STAGE_CANCELLED,
+};
+
+/// How one number of an array is stored: BespokeComponent.
+enum class Component : std::uint32_t {
+    f32 = BESPOKE_COMPONENT_F32,
+    f64 = BESPOKE_COMPONENT_F64,
+    u16 = BESPOKE_COMPONENT_U16,
+    u32 = BESPOKE_COMPONENT_U32,
+};
+
+/// A direction along one axis of the caller's coordinates: BespokeAxis.
+enum class Axis : std::uint32_t {
+    positive_x = BESPOKE_AXIS_POSITIVE_X,
+    negative_x = BESPOKE_AXIS_NEGATIVE_X,
+    positive_y = BESPOKE_AXIS_POSITIVE_Y,
+    negative_y = BESPOKE_AXIS_NEGATIVE_Y,
+    positive_z = BESPOKE_AXIS_POSITIVE_Z,
+    negative_z = BESPOKE_AXIS_NEGATIVE_Z,
+};
+
+/// How the corners of a front face follow each other for somebody who looks at its front: BespokeWinding.
+enum class Winding : std::uint32_t {
+    counter_clockwise = BESPOKE_WINDING_COUNTER_CLOCKWISE,
+    clockwise = BESPOKE_WINDING_CLOCKWISE,
+};
+
+/// Form of the surface term (Eq. 2 of the paper): BespokeSurfaceForm.
+enum class SurfaceForm : std::uint32_t {
+    similarity = BESPOKE_SURFACE_FORM_SIMILARITY,
+    printed = BESPOKE_SURFACE_FORM_PRINTED,
+};
+
+/// What a diagnostic is about: BespokeDiagnosticKind.
+enum class DiagnosticKind : std::uint32_t {
+    split_vertices = BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES,
+    duplicate_triangle = BESPOKE_DIAGNOSTIC_KIND_DUPLICATE_TRIANGLE,
+    degenerate_triangle = BESPOKE_DIAGNOSTIC_KIND_DEGENERATE_TRIANGLE,
+    non_manifold_edge = BESPOKE_DIAGNOSTIC_KIND_NON_MANIFOLD_EDGE,
+    unused_vertex = BESPOKE_DIAGNOSTIC_KIND_UNUSED_VERTEX,
+    loose_piece = BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE,
+    self_intersection = BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION,
+    near_contact = BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT,
+    avatar_pokes = BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES,
+    coarse_coordinates = BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES,
+    result_intersection = BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION,
+    pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
+    rigid_group_bent = BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT,
+};
+
+/// How much a diagnostic matters: BespokeSeverity.
+enum class Severity : std::uint32_t {
+    note = BESPOKE_SEVERITY_NOTE,
+    warning = BESPOKE_SEVERITY_WARNING,
+    error = BESPOKE_SEVERITY_ERROR,
+};
+
+/// Which of the inputs an element belongs to: BespokeSubject. `layer` and any value above is a layer.
+enum class Subject : std::uint32_t {
+    garment = BESPOKE_SUBJECT_GARMENT,
+    target_avatar = BESPOKE_SUBJECT_TARGET_AVATAR,
+    source_avatar = BESPOKE_SUBJECT_SOURCE_AVATAR,
+    source_skeleton = BESPOKE_SUBJECT_SOURCE_SKELETON,
+    target_skeleton = BESPOKE_SUBJECT_TARGET_SKELETON,
+    layer = BESPOKE_SUBJECT_LAYER,
+};
+
+/// What the index of an element counts: BespokeElementKind.
+enum class ElementKind : std::uint32_t {
+    vertex = BESPOKE_ELEMENT_KIND_VERTEX,
+    triangle = BESPOKE_ELEMENT_KIND_TRIANGLE,
+    bone = BESPOKE_ELEMENT_KIND_BONE,
+};
+
+// ---- Constants and versions -----------------------------------------------------------------------------------------
+
+/// The value of a weight that switches its term off; 0 means the default.
+inline constexpr double weight_off = BESPOKE_WEIGHT_OFF;
+
+/// Length of Progress::energies.
+inline constexpr std::size_t max_terms = BESPOKE_MAX_TERMS;
+
+/// The name of a status, such as "BESPOKE_STATUS_BUSY"; "BESPOKE_STATUS_UNKNOWN" for any other number. Threads: any.
+inline const char *status_name(Status status) noexcept {
+    return bespoke_status_name(static_cast<std::uint32_t>(status));
+}
+
+/// The binary interface of the library that is loaded, which Session::create compares with BESPOKE_ABI_VERSION.
+/// Threads: any.
+inline std::uint32_t abi_version() noexcept { return bespoke_abi_version(); }
+
+/// The version of the library that is loaded, such as "0.1.0". Threads: any.
+inline const char *version_text() noexcept { return bespoke_version_text(); }
+
+// ---- Results --------------------------------------------------------------------------------------------------------
+
+/// Why a call failed: a status to decide by, and a sentence for people. What or_throw() throws.
+class Error : public std::exception {
+public:
+    /// An error of the caller's own is made in the same way, so that it goes where those of the library go.
+    Error(Status status, std::string message) : status_(status), message_(std::move(message)) {}
+
+    /// Not Status::ok.
+    Status status() const noexcept { return status_; }
+
+    /// What, where and which element, in UTF-8. Never empty where the library failed.
+    const std::string &message() const noexcept { return message_; }
+
+    /// The message.
+    const char *what() const noexcept override { return message_.c_str(); }
+
+private:
+    Status status_;
+    std::string message_;
+};
+
+namespace detail {
+
+/// The end of a program that uses what is not there: a sentence on the standard error output, then abort.
+[[noreturn]] inline void refuse(const char *mistake, const std::string &message) noexcept {
+    std::fprintf(stderr, "bespoke: %s%s%s\n", mistake, message.empty() ? "" : ": ", message.c_str());
+    std::abort();
+}
+
+} // namespace detail
+
+/// What a call gave: a value, or an Error. To be looked at: the compiler warns where one is dropped.
+///
+/// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the
+/// program with a sentence (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
+/// the value itself and no reference, so that `for (const auto &entry : session.read_diagnostics().value())` is sound.
+template <class T> class [[nodiscard]] Result {
+public:
+    Result(T value) : value_(std::move(value)), error_(Status::ok, {}) {}
+    Result(Error error) : error_(std::move(error)) {}
+
+    explicit operator bool() const noexcept { return value_.has_value(); }
+
+    /// The value; ends the program where there is none, as do * and ->.
+    T &value() & { return require(), *value_; }
+    const T &value() const & { return require(), *value_; }
+    T value() && { return require(), std::move(*value_); }
+
+    T &operator*() & { return value(); }
+    const T &operator*() const & { return value(); }
+    T operator*() && { return std::move(*this).value(); }
+    T *operator->() { return &value(); }
+    const T *operator->() const { return &value(); }
+
+    /// The value, or this one where there is none.
+    template <class U> T value_or(U &&other) const & { return value_ ? *value_ : T(std::forward<U>(other)); }
+    template <class U> T value_or(U &&other) && { return value_ ? std::move(*value_) : T(std::forward<U>(other)); }
+
+    /// Status::ok where there is a value.
+    Status status() const noexcept { return error_.status(); }
+    /// Empty where there is a value.
+    const std::string &message() const noexcept { return error_.message(); }
+
+    /// The error; ends the program where there is none.
+    const Error &error() const {
+        if (value_) detail::refuse("error() of a result without an error", {});
+        return error_;
+    }
+
+    /// `next(value)`, which returns a Result, or this error.
+    template <class Next> auto and_then(Next &&next) && -> std::invoke_result_t<Next, T &&> {
+        if (!value_) return std::move(error_);
+        return std::forward<Next>(next)(std::move(*value_));
+    }
+
+#ifdef __cpp_exceptions
+    /// The value; throws the Error where there is none.
+    T or_throw() && {
+        if (!value_) throw std::move(error_);
+        return std::move(*value_);
+    }
+    const T &or_throw() const & {
+        if (!value_) throw error_;
+        return *value_;
+    }
+#endif
+
+private:
+    void require() const {
+        if (!value_) detail::refuse("value of a result without a value", error_.message());
+    }
+
+    std::optional<T> value_;
+    Error error_;
+};
+
+/// What a call gave that has nothing to give but its success.
+template <> class [[nodiscard]] Result<void> {
+public:
+    Result() : error_(Status::ok, {}) {}
+    Result(Error error) : error_(std::move(error)) {}
+
+    explicit operator bool() const noexcept { return error_.status() == Status::ok; }
+
+    /// Ends the program with a sentence where the call failed.
+    void value() const {
+        if (!*this) detail::refuse("value of a result without a value", error_.message());
+    }
+
+    /// Status::ok where the call succeeded.
+    Status status() const noexcept { return error_.status(); }
+    /// Empty where the call succeeded.
+    const std::string &message() const noexcept { return error_.message(); }
+
+    /// The error; ends the program where there is none.
+    const Error &error() const {
+        if (*this) detail::refuse("error() of a result without an error", {});
+        return error_;
+    }
+
+    /// `next()`, which returns a Result, or this error.
+    template <class Next> auto and_then(Next &&next) && -> std::invoke_result_t<Next> {
+        if (!*this) return std::move(error_);
+        return std::forward<Next>(next)();
+    }
+
+#ifdef __cpp_exceptions
+    /// Throws the Error where the call failed.
+    void or_throw() const {
+        if (!*this) throw error_;
+    }
+#endif
+
+private:
+    Error error_;
+};
+
+// ---- Layouts of elements --------------------------------------------------------------------------------------------
+
+/// An element of `Width` numbers, one after the other, `Offset` bytes from its beginning.
+template <class Number, std::size_t Width, std::size_t Offset = 0> struct Packed {
+    using Component = Number;
+    static constexpr std::size_t width = Width;
+    static constexpr std::size_t offset = Offset;
+};
+
+namespace detail {
+
+template <class Member> struct MemberType;
+template <class Class, class Type> struct MemberType<Type Class::*> {
+    using type = std::remove_cv_t<Type>;
+};
+/// The type of a data member, from the pointer to it; none for functions.
+template <class Member>
+using MemberNumber =
+    std::enable_if_t<std::is_member_object_pointer_v<Member>, typename MemberType<std::remove_cv_t<Member>>::type>;
+
+/// What is not known to hold numbers.
+using NoLayout = Packed<void, 0>;
+
+// Structs whose members x, y, z, w are numbers of one type, one after the other: two of them, three or all. Further
+// members may follow. Once for each way of writing the names.
+#define BESPOKE_HPP_NAMED_MEMBERS(Name, x, y, z, w)                                                                    \
+    template <class T, class = void> struct Name##Z : std::false_type {};                                             \
+    template <class T>                                                                                                 \
+    struct Name##Z<T, std::enable_if_t<std::is_same_v<MemberNumber<decltype(&T::x)>, MemberNumber<decltype(&T::z)>>>> \
+        : std::true_type {};                                                                                           \
+    template <class T, class = void> struct Name##W : std::false_type {};                                             \
+    template <class T>                                                                                                 \
+    struct Name##W<T, std::enable_if_t<std::is_same_v<MemberNumber<decltype(&T::x)>, MemberNumber<decltype(&T::w)>>>> \
+        : std::true_type {};                                                                                           \
+    template <class T> constexpr std::size_t Name##_width() {                                                          \
+        constexpr std::size_t first = offsetof(T, x), size = sizeof(MemberNumber<decltype(&T::x)>);                    \
+        if constexpr (offsetof(T, y) != first + size) {                                                                \
+            return 0;                                                                                                  \
+        } else if constexpr (!Name##Z<T>::value) {                                                                     \
+            return 2;                                                                                                  \
+        } else if constexpr (offsetof(T, z) != first + 2 * size) {                                                     \
+            return 0;                                                                                                  \
+        } else if constexpr (!Name##W<T>::value) {                                                                     \
+            return 3;                                                                                                  \
+        } else {                                                                                                       \
+            return offsetof(T, w) == first + 3 * size ? 4 : 0;                                                         \
+        }                                                                                                              \
+    }                                                                                                                  \
+    template <class T, class = void> struct Name : NoLayout {};                                                        \
+    template <class T>                                                                                                 \
+    struct Name<T, std::enable_if_t<std::is_standard_layout_v<T> &&                                                    \
+                                    std::is_same_v<MemberNumber<decltype(&T::x)>, MemberNumber<decltype(&T::y)>>>>     \
+        : Packed<MemberNumber<decltype(&T::x)>, Name##_width<T>(), offsetof(T, x)> {};
+BESPOKE_HPP_NAMED_MEMBERS(Lower, x, y, z, w)
+BESPOKE_HPP_NAMED_MEMBERS(Upper, X, Y, Z, W)
+#undef BESPOKE_HPP_NAMED_MEMBERS
+
+template <class T, bool is_class = std::is_class_v<T>> struct LayoutOf : NoLayout {};
+template <class T> struct LayoutOf<T, true> : std::conditional_t<Lower<T>::width != 0, Lower<T>, Upper<T>> {};
+
+} // namespace detail
+
+/// How an element of a caller's array is made up. Known are numbers, T[n], std::array<T, n> and std::pair<T, T> of them,
+/// and structs of standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a row.
+/// Others are told of like this:
+///
+///     template <> struct bespoke::Layout<Eigen::Vector3f> : bespoke::Packed<float, 3> {};
+template <class T> struct Layout
+    : std::conditional_t<std::is_arithmetic_v<T>, Packed<T, 1>, detail::LayoutOf<T>> {};
+template <class T, std::size_t Width> struct Layout<T[Width]> : Packed<T, std::is_arithmetic_v<T> ? Width : 0> {};
+template <class T, std::size_t Width>
+struct Layout<std::array<T, Width>> : Packed<T, std::is_arithmetic_v<T> ? Width : 0> {};
+template <class T> struct Layout<std::pair<T, T>> : Packed<T, std::is_arithmetic_v<T> ? 2 : 0> {};
+
+// ---- Views of the caller's arrays -----------------------------------------------------------------------------------
+
+namespace detail {
+
+/// The numbers of positions, weights and distances: float, double.
+struct Real {
+    template <class T> static constexpr bool holds = std::is_same_v<T, float> || std::is_same_v<T, double>;
+    static constexpr Component first = Component::f32;
+};
+
+/// The numbers that count vertices and joints: 16-bit unsigned integers, and those of 32 bits, also where their type is
+/// signed: a negative one is an index that no mesh has, and is refused.
+struct Index {
+    template <class T>
+    static constexpr bool holds =
+        std::is_same_v<T, unsigned short> ||
+        (sizeof(std::conditional_t<std::is_void_v<T>, char, T>) == 4 &&
+         (std::is_same_v<T, unsigned> || std::is_same_v<T, int> || std::is_same_v<T, unsigned long> ||
+          std::is_same_v<T, long>));
+    static constexpr Component first = Component::u32;
+};
+
+template <class T> constexpr std::uint32_t component_of() {
+    constexpr auto component = std::is_same_v<T, double>  ? Component::f64
+                               : std::is_same_v<T, float> ? Component::f32
+                               : sizeof(T) == 2           ? Component::u16
+                                                          : Component::u32;
+    return static_cast<std::uint32_t>(component);
+}
+
+/// Elements side by side: std::vector, std::array, std::span, arrays of C and their like, TArray of the Unreal Engine.
+template <class Container> constexpr auto data_of(Container &container) -> decltype(std::data(container)) {
+    return std::data(container);
+}
+template <class Container> constexpr auto data_of(Container &container) -> decltype(container.GetData()) {
+    return container.GetData();
+}
+template <class Container>
+constexpr auto size_of(Container &container) -> decltype(static_cast<std::size_t>(std::size(container))) {
+    return static_cast<std::size_t>(std::size(container));
+}
+template <class Container>
+constexpr auto size_of(Container &container) -> decltype(static_cast<std::size_t>(container.Num())) {
+    return static_cast<std::size_t>(container.Num());
+}
+
+/// The type of a container's elements, const where they cannot be written.
+template <class Container, class = decltype(size_of(std::declval<Container &>()))>
+using ElementOf = std::remove_pointer_t<decltype(data_of(std::declval<Container &>()))>;
+
+/// The type of a member as it is seen in objects of this type; none where they have no such member.
+template <class Object, class Class, class Member>
+using MemberOf = std::enable_if_t<std::is_base_of_v<Class, Object>,
+                                  std::conditional_t<std::is_const_v<Object>, const Member, Member>>;
+
+template <class T> using LayoutFor = Layout<std::remove_cv_t<T>>;
+template <class T> using NumberFor = typename LayoutFor<T>::Component;
+
+/// Where the array lies, for both kinds of it: `Void` is const void where it is read, void where it is written.
+template <class Family, class Void> class Strided {
+public:
+    /// What a whole number of elements leaves over of a flat array, and how many numbers that has.
+    std::size_t left_over() const noexcept { return left_over_; }
+    std::size_t numbers() const noexcept { return numbers_; }
+
+    /// The array as the C API takes it: a BespokeView, or a BespokeBuffer where it is written.
+    auto get() const noexcept {
+        if constexpr (std::is_const_v<Void>) {
+            return BespokeView{data_, count_, stride_, component_};
+        } else {
+            return BespokeBuffer{data_, count_, stride_, component_};
+        }
+    }
+
+protected:
+    template <class T>
+    static constexpr bool holds =
+        (std::is_const_v<Void> || !std::is_const_v<T>) && Family::template holds<NumberFor<T>>;
+
+    Strided() = default;
+
+    template <class T> void set(T *first, std::size_t count, std::size_t stride) {
+        using Bytes = std::conditional_t<std::is_const_v<Void>, const unsigned char, unsigned char>;
+        data_ = first == nullptr ? nullptr : reinterpret_cast<Bytes *>(first) + LayoutFor<T>::offset;
+        count_ = count;
+        stride_ = stride;
+        component_ = component_of<NumberFor<T>>();
+    }
+
+    /// Numbers without further structure, `width` for each element.
+    template <class T> void set_flat(T *first, std::size_t numbers, std::size_t width) {
+        set(first, width == 0 ? 0 : numbers / width, 0);
+        numbers_ = numbers;
+        left_over_ = width == 0 ? numbers : numbers % width;
+    }
+
+    template <class Object, class Class, class Member>
+    void set_member(Object *first, std::size_t count, Member Class::*member) {
+        set(first == nullptr || count == 0 ? nullptr : &(first->*member), count, sizeof(Object));
+    }
+
+private:
+    Void *data_ = nullptr;
+    std::size_t count_ = 0;
+    std::size_t stride_ = 0;
+    std::uint32_t component_ = static_cast<std::uint32_t>(Family::first);
+    std::size_t numbers_ = 0;
+    std::size_t left_over_ = 0;
+};
+
+/// Elements of `Width` numbers each. See the names below for what can be made of what.
+template <class Family, std::size_t Width, class Void> class Elements : public Strided<Family, Void> {
+    using Base = Strided<Family, Void>;
+    template <class T> static constexpr bool is_element = Base::template holds<T> && LayoutFor<T>::width == Width;
+    template <class T> static constexpr bool is_number = Base::template holds<T> && std::is_arithmetic_v<T>;
+
+public:
+    static constexpr std::size_t width = Width;
+
+    /// None.
+    Elements() = default;
+
+    /// A container of elements, or of numbers, `Width` for each element.
+    template <class Container, class T = ElementOf<Container>,
+              class = std::enable_if_t<is_element<T> || is_number<T>>>
+    Elements(Container &container) {
+        take(data_of(container), size_of(container));
+    }
+    template <class Container, class T = ElementOf<const Container>,
+              class = std::enable_if_t<is_element<T> || is_number<T>>>
+    Elements(const Container &container) {
+        take(data_of(container), size_of(container));
+    }
+
+    /// `count` elements, one after the other.
+    template <class T, class = std::enable_if_t<is_element<T>>>
+    Elements(T *first, std::size_t count) {
+        this->set(first, count, sizeof(T));
+    }
+
+    /// `count` elements, `stride` bytes apart (0: one after the other). `first` may also point to the first number of
+    /// the first element. It takes the stride, since somebody who leaves it out might mean a count of numbers.
+    template <class T, class = std::enable_if_t<is_element<T> || is_number<T>>>
+    Elements(T *first, std::size_t count, std::size_t stride) {
+        constexpr std::size_t packed = LayoutFor<T>::width == Width ? sizeof(T) : 0;
+        this->set(first, count, stride == 0 ? packed : stride);
+    }
+
+    /// One member of each of `count` structs.
+    template <class Object, class Class, class Member,
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
+    Elements(Object *first, std::size_t count, Member Class::*member) {
+        this->set_member(first, count, member);
+    }
+
+    /// One member of each of a container's structs.
+    template <class Container, class Class, class Member, class Object = ElementOf<Container>,
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
+    Elements(Container &container, Member Class::*member) {
+        this->set_member(data_of(container), size_of(container), member);
+    }
+    template <class Container, class Class, class Member, class Object = ElementOf<const Container>,
+              class = std::enable_if_t<is_element<MemberOf<Object, Class, Member>>>>
+    Elements(const Container &container, Member Class::*member) {
+        this->set_member(data_of(container), size_of(container), member);
+    }
+
+private:
+    template <class T> void take(T *first, std::size_t count) {
+        if constexpr (LayoutFor<T>::width == Width) {
+            this->set(first, count, sizeof(T));
+        } else {
+            this->set_flat(first, count, Width);
+        }
+    }
+};
+
+/// Rows of numbers, as many in each.
+template <class Family> class Rows : public Strided<Family, const void> {
+    using Base = Strided<Family, const void>;
+    template <class T> static constexpr bool is_row = Base::template holds<T> && LayoutFor<T>::width != 0;
+    template <class T> static constexpr bool is_number = Base::template holds<T> && std::is_arithmetic_v<T>;
+
+public:
+    /// None.
+    Rows() = default;
+
+    /// A container of rows: of std::array, for example.
+    template <class Container, class T = ElementOf<const Container>,
+              class = std::enable_if_t<is_row<T> && !is_number<T>>>
+    Rows(const Container &container) : columns_(LayoutFor<T>::width) {
+        this->set(data_of(container), size_of(container), sizeof(T));
+    }
+
+    /// A container of numbers, row after row, `columns` in each.
+    template <class Container, class T = ElementOf<const Container>, class = std::enable_if_t<is_number<T>>>
+    Rows(const Container &container, std::size_t columns) : columns_(columns) {
+        this->set_flat(data_of(container), size_of(container), columns);
+    }
+
+    /// `rows` rows of `columns` numbers, `stride` bytes apart (0: one after the other).
+    template <class T, class = std::enable_if_t<is_number<T>>>
+    Rows(const T *first, std::size_t rows, std::size_t columns, std::size_t stride = 0) : columns_(columns) {
+        this->set(first, rows, stride);
+    }
+
+    /// One member of each of `count` structs.
+    template <class Object, class Class, class Member,
+              class = std::enable_if_t<is_row<MemberOf<const Object, Class, Member>>>>
+    Rows(const Object *first, std::size_t count, Member Class::*member) : columns_(LayoutFor<Member>::width) {
+        this->set_member(first, count, member);
+    }
+
+    /// One member of each of a container's structs.
+    template <class Container, class Class, class Member, class Object = ElementOf<const Container>,
+              class = std::enable_if_t<is_row<MemberOf<Object, Class, Member>>>>
+    Rows(const Container &container, Member Class::*member) : columns_(LayoutFor<Member>::width) {
+        this->set_member(data_of(container), size_of(container), member);
+    }
+
+    /// Numbers in each row.
+    std::size_t columns() const noexcept { return columns_; }
+
+private:
+    std::size_t columns_ = 0;
+};
+
+} // namespace detail
+
+/// Points (x, y, z): float or double. From
+/// - a container of elements: std::vector<std::array<float, 3>>, MyVec3[n], TArray<FVector> ... (see Layout);
+/// - a container of numbers, three for each point: std::vector<float>, std::span<const double> ...;
+/// - pointer and count of elements: {first, count};
+/// - pointer to an element or to its first number, count of elements and stride in bytes: {first, count, stride};
+/// - a member of structs: {vertices, &MyVertex::position}, {first, count, &MyVertex::position}.
+/// Numbers that are left over when three make a point are an error of the call, not cut off.
+using Points = detail::Elements<detail::Real, 3, const void>;
+
+/// Triangles, three vertices each, counted from 0: std::uint16_t, std::uint32_t or std::int32_t. Made as Points are.
+using Triangles = detail::Elements<detail::Index, 3, const void>;
+
+/// Bones, two joints each, counted from 0, of the types of Triangles. Made as Points are.
+using Bones = detail::Elements<detail::Index, 2, const void>;
+
+/// Vertices, counted from 0, of the types of Triangles. Made as Points are.
+using Indices = detail::Elements<detail::Index, 1, const void>;
+
+/// Numbers: float or double. Made as Points are.
+using Numbers = detail::Elements<detail::Real, 1, const void>;
+
+/// Rows of numbers, float or double. From
+/// - a container of rows: std::vector<std::array<float, 4>>, MyVec4[n] ... (see Layout);
+/// - a container of numbers and how many there are in a row: {weights, columns};
+/// - pointer, rows and columns: {first, rows, columns}, and {first, rows, columns, stride in bytes};
+/// - a member of structs: {vertices, &MyVertex::weights}, {first, count, &MyVertex::weights}.
+using NumberRows = detail::Rows<detail::Real>;
+
+/// Rows of joints, counted from 0, of the types of Triangles. Made as NumberRows are.
+using IndexRows = detail::Rows<detail::Index>;
+
+/// Room for points that are written: made as Points are, of what can be written and is not a temporary.
+using PointBuffer = detail::Elements<detail::Real, 3, void>;
+
+/// Room for numbers that are written: made as PointBuffer is.
+using NumberBuffer = detail::Elements<detail::Real, 1, void>;
+
+// ---- Structs --------------------------------------------------------------------------------------------------------
+
+/// A coordinate system: BespokeSpace. Handedness follows from the axes.
+struct Space {
+    /// The axis to the right.
+    Axis right = Axis::positive_x;
+    /// The axis upwards.
+    Axis up = Axis::positive_y;
+    /// The axis forwards, into the picture.
+    Axis forward = Axis::negative_z;
+    /// Length of the unit in metres.
+    double metres_per_unit = 1.0;
+    /// How the corners of a front face follow each other.
+    Winding winding = Winding::counter_clockwise;
+
+    /// As the C API takes it.
+    BespokeSpace get() const noexcept {
+        BespokeSpace space{};
+        space.struct_size = sizeof space;
+        space.right = static_cast<std::uint32_t>(right);
+        space.up = static_cast<std::uint32_t>(up);
+        space.forward = static_cast<std::uint32_t>(forward);
+        space.metres_per_unit = metres_per_unit;
+        space.winding = static_cast<std::uint32_t>(winding);
+        return space;
+    }
+};
+
+/// What may be tuned: BespokeOptions. Zero means the default, which is what a new Options has everywhere; `weight_off`
+/// switches a term off where that is possible. Lengths are in the normalised space, in which the longest side of the
+/// skeleton's bounding box is 2.
+struct Options {
+    /// Threads of this session. Default: as many as the machine has cores.
+    std::uint32_t threads = 0;
+    /// Weight of the fit term, higher is tighter. Default 2; weight_off possible.
+    double fit_weight = 0.0;
+    /// With a source avatar: the part of its clearance that the fit aims at. Default 1; weight_off: tight.
+    double designed_clearance = 0.0;
+    /// Weight of the surface term, which keeps the design's shape. Default 1.
+    double surface_weight = 0.0;
+    /// Weight of the curvature of boundary curves. Default 1; weight_off possible.
+    double curvature_weight = 0.0;
+    /// Weight of the torsion of boundary curves. Default 1; weight_off possible.
+    double torsion_weight = 0.0;
+    /// Weight of the place of cuffs, hems and collars along their bones. Default 10; weight_off possible.
+    double position_weight = 0.0;
+    /// Weight of the contact barrier, on squared distances. Default 1e8.
+    double barrier_weight = 0.0;
+    /// Distance at which the barrier begins. Default 0.002.
+    double dhat = 0.0;
+    /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+    double inflation_dhat = 0.0;
+    /// While the avatar grows: weight of the contact barrier. Default 1e4.
+    double inflation_barrier_weight = 0.0;
+    /// Edge of a voxel of the distance field. Default 0.01.
+    double voxel = 0.0;
+    /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+    double separation_floor = 0.0;
+    /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+    double tolerance = 0.0;
+    /// Largest number of Newton iterations of each stage. Default 500.
+    std::uint32_t max_iterations = 0;
+    /// Form of the surface term.
+    SurfaceForm surface_form = SurfaceForm::similarity;
+    /// Bytes that the session may take at most. Default: no limit.
+    std::uint64_t memory_limit = 0;
+    /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
+    bool strict = false;
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. Default 0.
+    double offset = 0.0;
+    /// With a source avatar and no fit weights: what was designed farther from it than this fits less, and not at all
+    /// from twice this distance on. Default 0.1; weight_off: the garment fits as a whole.
+    double fit_distance = 0.0;
+    /// Weight of pins. Default 1000.
+    double pin_weight = 0.0;
+
+    /// As the C API takes them.
+    BespokeOptions get() const noexcept {
+        BespokeOptions options{};
+        options.struct_size = sizeof options;
+        options.threads = threads;
+        options.fit_weight = fit_weight;
+        options.designed_clearance = designed_clearance;
+        options.surface_weight = surface_weight;
+        options.curvature_weight = curvature_weight;
+        options.torsion_weight = torsion_weight;
+        options.position_weight = position_weight;
+        options.barrier_weight = barrier_weight;
+        options.dhat = dhat;
+        options.inflation_dhat = inflation_dhat;
+        options.inflation_barrier_weight = inflation_barrier_weight;
+        options.voxel = voxel;
+        options.separation_floor = separation_floor;
+        options.tolerance = tolerance;
+        options.max_iterations = max_iterations;
+        options.surface_form = static_cast<std::uint32_t>(surface_form);
+        options.memory_limit = memory_limit;
+        options.strict = strict ? 1 : 0;
+        options.offset = offset;
+        options.fit_distance = fit_distance;
+        options.pin_weight = pin_weight;
+        return options;
+    }
+
+    /// The defaults written out: bespoke_options_read_defaults. Errors: INVALID_ARGUMENT, where the library does not
+    /// know this header. Threads: any.
+    static Result<Options> read_defaults() {
+        BespokeOptions read{};
+        read.struct_size = sizeof read;
+        const auto status = static_cast<Status>(bespoke_options_read_defaults(&read));
+        if (status != Status::ok) {
+            return Error(status, "the library refuses to write into a BespokeOptions of this header's size");
+        }
+        Options options;
+        options.threads = read.threads;
+        options.fit_weight = read.fit_weight;
+        options.designed_clearance = read.designed_clearance;
+        options.surface_weight = read.surface_weight;
+        options.curvature_weight = read.curvature_weight;
+        options.torsion_weight = read.torsion_weight;
+        options.position_weight = read.position_weight;
+        options.barrier_weight = read.barrier_weight;
+        options.dhat = read.dhat;
+        options.inflation_dhat = read.inflation_dhat;
+        options.inflation_barrier_weight = read.inflation_barrier_weight;
+        options.voxel = read.voxel;
+        options.separation_floor = read.separation_floor;
+        options.tolerance = read.tolerance;
+        options.max_iterations = read.max_iterations;
+        options.surface_form = static_cast<SurfaceForm>(read.surface_form);
+        options.memory_limit = read.memory_limit;
+        options.strict = read.strict != 0;
+        options.offset = read.offset;
+        options.fit_distance = read.fit_distance;
+        options.pin_weight = read.pin_weight;
+        return options;
+    }
+};
+
+/// How far a step goes; 0 is no limit. With neither, it goes to the end.
+struct Budget {
+    /// Newton iterations.
+    std::uint32_t iterations = 0;
+    /// Looked at after each iteration, so that a step may take somewhat longer.
+    std::uint32_t milliseconds = 0;
+};
+
+/// A session at one moment: BespokeProgress. Lengths are in the normalised space.
+struct Progress {
+    Stage stage = Stage::setup;
+    /// Iterations of this stage so far.
+    std::uint32_t iteration = 0;
+    /// How many of `energies` are in use.
+    std::uint32_t energy_count = 0;
+    /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
+    double t = 0.0;
+    /// The objective: the sum of `energies`.
+    double energy = 0.0;
+    /// Euclidean norm of the objective's gradient.
+    double gradient_norm = 0.0;
+    /// Smallest distance of a contact pair; infinite where no pair is near.
+    double min_distance = 0.0;
+    /// Contact pairs closer than dhat.
+    std::uint64_t active_contacts = 0;
+    /// Seconds in each part so far.
+    double prepare_seconds = 0.0;
+    double inflate_seconds = 0.0;
+    double fit_seconds = 0.0;
+    double verify_seconds = 0.0;
+    /// Each term with its weight, in the order of Session::read_energies.
+    std::array<double, max_terms> energies{};
+};
+
+/// Pairs of triangles that touch or cross each other.
+using Intersections = BespokeIntersections;
+
+/// The work of one stage.
+using Work = BespokeWork;
+
+/// What a session has done so far.
+using Report = BespokeReport;
+
+/// One term of the objective, to which it adds weight * value.
+struct Energy {
+    /// Such as "surface".
+    std::string name;
+    /// Value without its weight.
+    double value = 0.0;
+    double weight = 0.0;
+};
+
+/// A vertex, triangle or bone of an input: BespokeElement.
+struct Element {
+    Subject subject;
+    ElementKind kind;
+    /// The caller's index, from 0.
+    std::uint32_t index;
+
+    /// Which layer it belongs to, from 0; none where it is no layer's.
+    std::optional<std::uint32_t> layer() const noexcept {
+        if (subject < Subject::layer) return std::nullopt;
+        return static_cast<std::uint32_t>(subject) - static_cast<std::uint32_t>(Subject::layer);
+    }
+};
+
+/// One thing worth knowing about the inputs or the result: BespokeDiagnostic.
+struct Diagnostic {
+    DiagnosticKind kind;
+    Severity severity;
+    /// What it is about, for a tool to select.
+    std::vector<Element> elements;
+    /// In the normalised space; NaN where it has none.
+    double distance;
+    /// One sentence, UTF-8.
+    std::string sentence;
+};
+
+namespace detail {
+
+inline Error empty_handle(const char *what) {
+    return Error(Status::invalid_argument,
+                 std::string("the ") + what + " is empty: it was moved from, released, destroyed or never made");
+}
+
+/// Success, or the failure of a call without a session's message.
+inline Result<void> outcome(BespokeStatus status, const char *sentence) {
+    if (status == BESPOKE_STATUS_OK) return {};
+    const auto typed = static_cast<Status>(status);
+    return Error(typed, std::string(status_name(typed)) + ": " + sentence);
+}
+
+/// A moment, from whatever can be asked for one. It fails only where the library does not know the struct.
+template <class Handle>
+Result<Progress> read_progress(BespokeStatus (*read)(const Handle *, BespokeProgress *), const Handle *handle) {
+    BespokeProgress from{};
+    from.struct_size = sizeof from;
+    const auto done =
+        outcome(read(handle, &from), "the library refuses to write into a BespokeProgress of this header's size");
+    if (!done) return done.error();
+    Progress to;
+    to.stage = static_cast<Stage>(from.stage);
+    to.iteration = from.iteration;
+    to.energy_count = from.energy_count;
+    to.t = from.t;
+    to.energy = from.energy;
+    to.gradient_norm = from.gradient_norm;
+    to.min_distance = from.min_distance;
+    to.active_contacts = from.active_contacts;
+    to.prepare_seconds = from.prepare_seconds;
+    to.inflate_seconds = from.inflate_seconds;
+    to.fit_seconds = from.fit_seconds;
+    to.verify_seconds = from.verify_seconds;
+    for (std::size_t k = 0; k < max_terms; k++) to.energies[k] = from.energies[k];
+    return to;
+}
+
+/// The text up to its zero byte, or to the end of its room.
+template <std::size_t Size> std::string text_of(const char (&text)[Size]) {
+    std::size_t length = 0;
+    while (length < Size && text[length] != '\0') length++;
+    return std::string(text, length);
+}
+
+} // namespace detail
+
+// ---- Cancel ---------------------------------------------------------------------------------------------------------
+
+/// Cancel and progress of one session, apart from it: it may outlive the session. Move-only.
+class Control {
+public:
+    /// Empty.
+    Control() = default;
+
+    /// Takes over a handle from bespoke_session_create_control; null is empty.
+    explicit Control(BespokeControl *handle) noexcept : handle_(handle) {}
+
+    /// Whether there is a control in it.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// Asks the session to stop: bespoke_control_cancel. Errors: INVALID_ARGUMENT (empty). Threads: any, at any time; a
+    /// signal handler may call it where the control is not empty.
+    Result<void> cancel() const {
+        if (!handle_) return detail::empty_handle("control");
+        return detail::outcome(bespoke_control_cancel(handle_.get()), "the request to stop was refused");
+    }
+
+    /// The session at this moment, or its last one: bespoke_control_read_progress. Errors: INVALID_ARGUMENT (empty).
+    /// Threads: any, at any time.
+    Result<Progress> read_progress() const {
+        if (!handle_) return detail::empty_handle("control");
+        return detail::read_progress<BespokeControl>(bespoke_control_read_progress, handle_.get());
+    }
+
+    /// The handle for the C API, which stays this object's; null where it is empty.
+    BespokeControl *get() const noexcept { return handle_.get(); }
+
+    /// Hands the handle over to the caller, to be given to bespoke_control_destroy, and is empty.
+    [[nodiscard]] BespokeControl *release() noexcept { return handle_.release(); }
+
+private:
+    struct Destroy {
+        void operator()(BespokeControl *handle) const noexcept { bespoke_control_destroy(handle); }
+    };
+
+    std::unique_ptr<BespokeControl, Destroy> handle_;
+};
+
+namespace detail {
+
+/// What sources and tokens of one request to stop share: the request, and the sessions that run with it now.
+class StopState {
+public:
+    bool is_requested() const noexcept { return is_requested_.load(std::memory_order_acquire); }
+
+    /// Whether this was the first request. Every session that runs with it is asked to stop.
+    bool request() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (is_requested_.exchange(true, std::memory_order_acq_rel)) return false;
+        for (const BespokeSession *session : sessions_) bespoke_session_cancel(session);
+        return true;
+    }
+
+    /// Who enters looks at the token afterwards, for a request that came before.
+    void enter(const BespokeSession *session) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        sessions_.push_back(session);
+    }
+
+    void leave(const BespokeSession *session) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        for (auto entry = sessions_.begin(); entry != sessions_.end(); ++entry) {
+            if (*entry == session) {
+                sessions_.erase(entry);
+                return;
+            }
+        }
+    }
+
+private:
+    std::atomic<bool> is_requested_{false};
+    std::mutex mutex_;
+    std::vector<const BespokeSession *> sessions_;
+};
+
+/// While it lives, a request to stop reaches the session at once. Tokens that are not known here are only polled.
+template <class Token> class StopLink {
+public:
+    StopLink(const Token &, const BespokeSession *) {}
+};
+
+} // namespace detail
+
+/// Tells whether somebody asked to stop. Comes from a StopSource, and copies are cheap; one that was made without a
+/// source is never asked to stop. Threads: any, at any time.
+class StopToken {
+public:
+    /// Of no source.
+    StopToken() = default;
+
+    /// Whether somebody asked to stop.
+    bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
+
+private:
+    friend class StopSource;
+    friend class detail::StopLink<StopToken>;
+    explicit StopToken(std::shared_ptr<detail::StopState> state) noexcept : state_(std::move(state)) {}
+
+    std::shared_ptr<detail::StopState> state_;
+};
+
+/// Asks all to stop that run with its tokens: session.run(source.get_token()). Copies ask the same ones. The request is
+/// for good. Threads: any, at any time; not from a signal handler, which a Control is for.
+class StopSource {
+public:
+    /// A request of its own, which nobody has made yet.
+    StopSource() : state_(std::make_shared<detail::StopState>()) {}
+
+    /// What hears of the request.
+    StopToken get_token() const noexcept { return StopToken(state_); }
+
+    /// Whether somebody asked to stop.
+    bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
+
+    /// Asks to stop: the sessions that run with a token of this source return CANCELLED within 100 ms, whatever they
+    /// are doing. Returns whether it was the first to ask.
+    bool request_stop() const { return state_ && state_->request(); }
+
+private:
+    std::shared_ptr<detail::StopState> state_;
+};
+
+namespace detail {
+
+template <> class StopLink<StopToken> {
+public:
+    StopLink(const StopToken &token, const BespokeSession *session) : state_(token.state_), session_(session) {
+        if (state_) state_->enter(session_);
+    }
+    ~StopLink() {
+        if (state_) state_->leave(session_);
+    }
+    StopLink(const StopLink &) = delete;
+    StopLink &operator=(const StopLink &) = delete;
+
+private:
+    std::shared_ptr<StopState> state_;
+    const BespokeSession *session_;
+};
+
+#ifdef __cpp_lib_jthread
+template <> class StopLink<std::stop_token> {
+public:
+    StopLink(const std::stop_token &token, const BespokeSession *session) : callback_(token, Cancel{session}) {}
+
+private:
+    struct Cancel {
+        const BespokeSession *session;
+        void operator()() const noexcept { bespoke_session_cancel(session); }
+    };
+
+    std::stop_callback<Cancel> callback_;
+};
+#endif
+
+template <class T, class = void> inline constexpr bool is_stop_token = false;
+template <class T>
+inline constexpr bool
+    is_stop_token<T, std::void_t<decltype(static_cast<bool>(std::declval<const T &>().stop_requested()))>> = true;
+
+template <class T> inline constexpr bool is_progress_callable = std::is_invocable_v<T &, const Progress &>;
+
+/// Tells of a moment, and whether to go on: what the callable returns, or yes where it returns nothing.
+template <class OnProgress> bool tell(OnProgress &on_progress, const Progress &progress) {
+    if constexpr (std::is_void_v<std::invoke_result_t<OnProgress &, const Progress &>>) {
+        on_progress(progress);
+        return true;
+    } else {
+        return static_cast<bool>(on_progress(progress));
+    }
+}
+
+/// Milliseconds of a step between two looks at token and progress.
+inline constexpr std::uint32_t look_after = 20;
+
+} // namespace detail
+
+// ---- Session --------------------------------------------------------------------------------------------------------
+
+/// One garment on its way to one avatar. Move-only; it frees all it holds when it goes.
+///
+/// What a method does, which state it needs, its errors and threads are those of the function of its name in bespoke.h,
+/// with bespoke_session_ before it. In addition, each of them fails with INVALID_ARGUMENT where the session is empty,
+/// or where an array of numbers does not divide into whole elements.
+class Session {
+public:
+    /// Empty: a place to move a session to.
+    Session() = default;
+
+    /// Takes over a handle from bespoke_session_create; null is empty.
+    explicit Session(BespokeSession *handle) noexcept : handle_(handle) {}
+
+    /// A new session: bespoke_session_create. Errors: INVALID_STATE where the library that is loaded has another binary
+    /// interface than this header; INTERNAL. Threads: any, at any time.
+    static Result<Session> create() {
+        if (bespoke_abi_version() != BESPOKE_ABI_VERSION) {
+            return Error(Status::invalid_state, "the bespoke library that is loaded, version " +
+                                                    std::string(bespoke_version_text()) + ", has binary interface " +
+                                                    std::to_string(bespoke_abi_version()) +
+                                                    ", but this program was compiled for " +
+                                                    std::to_string(BESPOKE_ABI_VERSION) +
+                                                    "; load the library that belongs to the header, or compile anew");
+        }
+        BespokeSession *handle = nullptr;
+        const auto made = detail::outcome(bespoke_session_create(&handle), "no session could be made");
+        if (!made) return made.error();
+        return Session(handle);
+    }
+
+    /// Whether there is a session in it.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// The handle for the C API, which stays this object's; null where it is empty.
+    BespokeSession *get() const noexcept { return handle_.get(); }
+
+    /// Hands the handle over to the caller, to be given to bespoke_session_destroy, and is empty.
+    [[nodiscard]] BespokeSession *release() noexcept { return handle_.release(); }
+
+    /// Frees the session now; then it is empty. With BUSY another thread is inside a call with it, and it stays as it
+    /// is. The destructor cannot tell of that: it asks the other call to stop and gives the handle up, so that the
+    /// memory is lost, but not taken from under that call. Threads: any, and no other call with this session may begin
+    /// from here on.
+    Result<void> destroy() {
+        if (!handle_) return detail::empty_handle("session");
+        const BespokeStatus status = bespoke_session_destroy(handle_.get());
+        if (status == BESPOKE_STATUS_BUSY) return failure(handle_.get(), status);
+        static_cast<void>(handle_.release());
+        return detail::outcome(status, "the session was not freed as a whole");
+    }
+
+    /// Back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+    Result<void> reset() { return call(bespoke_session_reset); }
+
+    // ---- What goes in
+
+    /// The garment as it was modelled, around the source skeleton.
+    Result<void> set_garment(Points positions, Triangles triangles) {
+        return set(bespoke_session_set_garment, "garment positions", positions, "garment triangles", triangles);
+    }
+
+    /// The skeleton around which the garment was modelled, in the space of the garment.
+    Result<void> set_source_skeleton(Points joints, Bones bones) {
+        return set(bespoke_session_set_source_skeleton, "source skeleton joints", joints, "source skeleton bones",
+                   bones);
+    }
+
+    /// The body to dress.
+    Result<void> set_target_avatar(Points positions, Triangles triangles) {
+        return set(bespoke_session_set_target_avatar, "target avatar positions", positions, "target avatar triangles",
+                   triangles);
+    }
+
+    /// The skeleton of the body to dress, in the pose of the source skeleton and with its joints and bones.
+    Result<void> set_target_skeleton(Points joints, Bones bones) {
+        return set(bespoke_session_set_target_skeleton, "target skeleton joints", joints, "target skeleton bones",
+                   bones);
+    }
+
+    /// Optional: the body on which the garment was designed, in the space of the garment.
+    Result<void> set_source_avatar(Points positions, Triangles triangles) {
+        return set(bespoke_session_set_source_avatar, "source avatar positions", positions, "source avatar triangles",
+                   triangles);
+    }
+
+    /// Optional: skin weights of the target avatar as a full matrix: a row for each joint, in it a number for each
+    /// vertex.
+    Result<void> set_target_skin_weights(NumberRows rows) {
+        return set(bespoke_session_set_target_skin_weights, "target skin weights", rows, rows.columns());
+    }
+
+    /// Optional: skin weights of the target avatar as engines keep them: a row for each vertex, in it a few joints, and
+    /// in `weights` the weights of these.
+    Result<void> set_target_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
+        if (handle_ && joints.columns() != weights.columns()) {
+            return Error(Status::invalid_argument, "target skin influences: a vertex has " +
+                                                       std::to_string(joints.columns()) + " joints, but " +
+                                                       std::to_string(weights.columns()) + " weights");
+        }
+        return set(bespoke_session_set_target_skin_influences, "target skin joints", joints, "target skin weights",
+                   weights, joints.columns(), joint_count);
+    }
+
+    /// Optional: the space of garment, source skeleton and source avatar.
+    Result<void> set_source_space(const Space &space) {
+        const BespokeSpace given = space.get();
+        return call(bespoke_session_set_source_space, &given);
+    }
+
+    /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+    Result<void> set_target_space(const Space &space) {
+        const BespokeSpace given = space.get();
+        return call(bespoke_session_set_target_space, &given);
+    }
+
+    /// Optional: how strongly each garment vertex is drawn to the body.
+    Result<void> set_fit_weights(Numbers weights) {
+        return set(bespoke_session_set_fit_weights, "fit weights", weights);
+    }
+
+    /// Optional: the garment vertices that are not drawn to the body.
+    Result<void> set_no_fit_vertices(Indices vertices) {
+        return set(bespoke_session_set_no_fit_vertices, "vertices that do not fit", vertices);
+    }
+
+    /// Optional: garment vertices that are held where they were designed, carried along with the bone beside them.
+    Result<void> set_pinned_vertices(Indices vertices) {
+        return set(bespoke_session_set_pinned_vertices, "pinned vertices", vertices, nullptr);
+    }
+
+    /// Optional: garment vertices that are held in these places, one for each.
+    Result<void> set_pinned_vertices(Indices vertices, Points places) {
+        return set(bespoke_session_set_pinned_vertices, "pinned vertices", vertices, "places of pins", places);
+    }
+
+    /// Optional: garment vertices that are to stay one rigid body. One more group with each call.
+    Result<void> add_rigid_group(Indices vertices) {
+        return set(bespoke_session_add_rigid_group, "rigid group", vertices);
+    }
+
+    /// Forgets all rigid groups.
+    Result<void> clear_rigid_groups() { return call(bespoke_session_clear_rigid_groups); }
+
+    /// Optional: a garment that the avatar wears already. One more layer with each call.
+    Result<void> add_layer(Points positions, Triangles triangles) {
+        return set(bespoke_session_add_layer, "layer positions", positions, "layer triangles", triangles);
+    }
+
+    /// Takes all layers off the avatar.
+    Result<void> clear_layers() { return call(bespoke_session_clear_layers); }
+
+    /// Replaces all options by these.
+    Result<void> set_options(const Options &options) {
+        const BespokeOptions given = options.get();
+        return call(bespoke_session_set_options, &given);
+    }
+
+    // ---- The way
+
+    /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton.
+    Result<void> prepare() { return call(bespoke_session_prepare); }
+
+    /// Goes on for a while: to the end of the budget or of the whole way. Gives where the session is then; where it
+    /// failed, read_progress() tells.
+    Result<Stage> step(Budget budget = {}) {
+        std::uint32_t stage = BESPOKE_STAGE_SETUP;
+        const auto done = call(bespoke_session_step, budget.iterations, budget.milliseconds, &stage);
+        if (!done) return done.error();
+        return static_cast<Stage>(stage);
+    }
+
+    /// All that is left of the way. A success is DONE: the result is verified.
+    Result<void> run() { return call(bespoke_session_run); }
+
+    /// The same with somebody who watches, a token or a callable; see below.
+    template <class Watcher, class = std::enable_if_t<detail::is_stop_token<std::decay_t<Watcher>> ||
+                                                      detail::is_progress_callable<Watcher>>>
+    Result<void> run(Watcher &&watcher) {
+        if constexpr (detail::is_stop_token<std::decay_t<Watcher>>) {
+            return run(watcher, [](const Progress &) {});
+        } else {
+            return run(StopToken(), watcher);
+        }
+    }
+
+    /// The same with a token that stops it and a callable that is told of its progress.
+    ///
+    /// `token`: a StopToken or std::stop_token, which stop whatever the session is doing within 100 ms; or anything
+    /// else with a `bool stop_requested() const`, which is looked at before prepare and after every 20 ms or so from
+    /// then on.
+    /// `on_progress`: called with a `const Progress &` as often, on this thread, and once more with DONE. It may return
+    /// nothing, or false to stop. It may throw, which leaves the session where it is; it must not destroy or move it.
+    /// Whoever stops it, the run fails with CANCELLED as after cancel(): the request stays until reset().
+    template <class Token, class OnProgress, class = std::enable_if_t<detail::is_stop_token<Token>>,
+              class = std::enable_if_t<detail::is_progress_callable<OnProgress>>>
+    Result<void> run(const Token &token, OnProgress &&on_progress) {
+        if (!handle_) return detail::empty_handle("session");
+        const detail::StopLink<Token> link(token, handle_.get());
+        auto now = read_progress();
+        if (!now) return now.error();
+        for (Stage stage = now->stage, begun = stage; stage != Stage::done || begun == Stage::done;) {
+            const bool goes_on = detail::tell(on_progress, *now);
+            if (!goes_on || token.stop_requested()) bespoke_session_cancel(handle_.get());
+            if (stage == Stage::setup) {
+                if (auto prepared = prepare(); !prepared) return prepared;
+                stage = Stage::prepared;
+            } else {
+                const auto stepped = step({0, detail::look_after});
+                if (!stepped) return stepped.error();
+                stage = *stepped;
+            }
+            now = read_progress();
+            if (!now) return now.error();
+        }
+        detail::tell(on_progress, *now);
+        return {};
+    }
+
+    /// Counts the intersections of the vertices as they would be read now, in this precision: f32 or f64.
+    Result<Intersections> verify(Component precision = Component::f32) const {
+        Intersections found{};
+        const auto done = call(bespoke_session_verify, static_cast<std::uint32_t>(precision), &found);
+        if (!done) return done.error();
+        return found;
+    }
+
+    /// Asks the session to stop. Threads: any, at any time, also while another call runs.
+    Result<void> cancel() const {
+        if (!handle_) return detail::empty_handle("session");
+        return detail::outcome(bespoke_session_cancel(handle_.get()), "the request to stop was refused");
+    }
+
+    /// The session at this moment. Threads: any, at any time, also while another call runs.
+    Result<Progress> read_progress() const {
+        if (!handle_) return detail::empty_handle("session");
+        return detail::read_progress<BespokeSession>(bespoke_session_read_progress, handle_.get());
+    }
+
+    /// Cancel and progress for another thread, apart from the session. Threads: any, at any time.
+    Result<Control> create_control() const {
+        if (!handle_) return detail::empty_handle("session");
+        BespokeControl *control = nullptr;
+        const auto made =
+            detail::outcome(bespoke_session_create_control(handle_.get(), &control), "no control could be made");
+        if (!made) return made.error();
+        return Control(control);
+    }
+
+    // ---- What comes out
+
+    /// Where the garment's vertices are now, into the caller's memory; gives how many. There may be room for more.
+    Result<std::size_t> read_garment_vertices(PointBuffer points) const {
+        return read(bespoke_session_read_garment_vertices, "room for garment vertices", points);
+    }
+
+    /// The same in new memory, in a precision and shape: read_garment_vertices<std::array<double, 3>>().
+    template <class Point = std::array<float, 3>> Result<std::vector<Point>> read_garment_vertices() const {
+        return read_all<Point, PointBuffer>(bespoke_session_read_garment_vertices);
+    }
+
+    /// Where the target avatar's vertices are now, into the caller's memory; gives how many. There may be room for
+    /// more.
+    Result<std::size_t> read_avatar_vertices(PointBuffer points) const {
+        return read(bespoke_session_read_avatar_vertices, "room for avatar vertices", points);
+    }
+
+    /// The same in new memory.
+    template <class Point = std::array<float, 3>> Result<std::vector<Point>> read_avatar_vertices() const {
+        return read_all<Point, PointBuffer>(bespoke_session_read_avatar_vertices);
+    }
+
+    /// How much each garment triangle is distorted now, into the caller's memory; gives how many. There may be room for
+    /// more.
+    Result<std::size_t> read_distortion(NumberBuffer values) const {
+        return read(bespoke_session_read_distortion, "room for distortion", values);
+    }
+
+    /// The same in new memory, as float or double.
+    template <class Number = float> Result<std::vector<Number>> read_distortion() const {
+        return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
+    }
+
+    /// What the session has done so far.
+    Result<Report> read_report() const {
+        Report report{};
+        report.struct_size = sizeof report;
+        const auto done = call(bespoke_session_read_report, &report);
+        if (!done) return done.error();
+        return report;
+    }
+
+    /// Term `index` of the objective, from 0 up to the report's energy_count.
+    Result<Energy> read_energy(std::uint32_t index) const {
+        BespokeEnergy energy{};
+        const auto done = call(bespoke_session_read_energy, index, &energy);
+        if (!done) return done.error();
+        return Energy{detail::text_of(energy.name), energy.value, energy.weight};
+    }
+
+    /// All terms of the objective.
+    Result<std::vector<Energy>> read_energies() const {
+        const auto report = read_report();
+        if (!report) return report.error();
+        std::vector<Energy> energies;
+        for (std::uint32_t index = 0; index < report->energy_count; index++) {
+            auto energy = read_energy(index);
+            if (!energy) return energy.error();
+            energies.push_back(std::move(*energy));
+        }
+        return energies;
+    }
+
+    /// What is worth knowing about the inputs and the result. None before prepare.
+    Result<std::vector<Diagnostic>> read_diagnostics() const {
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_diagnostics, nullptr, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<BespokeDiagnostic> read(count);
+        if (const auto done = call(bespoke_session_read_diagnostics, read.data(), read.size(), &count); !done) {
+            return done.error();
+        }
+        // Another call may have come in between the two.
+        if (count < read.size()) read.resize(count);
+        std::vector<Diagnostic> diagnostics;
+        diagnostics.reserve(read.size());
+        for (const BespokeDiagnostic &from : read) {
+            Diagnostic to{static_cast<DiagnosticKind>(from.kind), static_cast<Severity>(from.severity), {},
+                          from.distance, detail::text_of(from.sentence)};
+            for (std::uint32_t k = 0; k < from.element_count && k < BESPOKE_MAX_ELEMENTS; k++) {
+                const BespokeElement &element = from.elements[k];
+                to.elements.push_back({static_cast<Subject>(element.subject), static_cast<ElementKind>(element.kind),
+                                       element.index});
+            }
+            diagnostics.push_back(std::move(to));
+        }
+        return diagnostics;
+    }
+
+private:
+    struct Destroy {
+        void operator()(BespokeSession *handle) const noexcept {
+            if (bespoke_session_destroy(handle) == BESPOKE_STATUS_BUSY) bespoke_session_cancel(handle);
+        }
+    };
+
+    /// The error of a call with a session that has just failed.
+    static Error failure(const BespokeSession *handle, BespokeStatus status) {
+        const auto typed = static_cast<Status>(status);
+        if (typed == Status::busy) {
+            return Error(typed, "another thread is inside a call with this session; nothing was done");
+        }
+        std::size_t needed = 0;
+        bespoke_session_last_message(handle, nullptr, 0, &needed);
+        std::string message(needed, '\0');
+        bespoke_session_last_message(handle, &message[0], message.size(), nullptr);
+        // Its zero byte; and another failure may have put a shorter sentence there in between.
+        message.resize(std::char_traits<char>::length(message.c_str()));
+        if (message.empty()) message = status_name(typed);
+        return Error(typed, std::move(message));
+    }
+
+    template <class Function, class... Arguments>
+    Result<void> call(Function *function, const Arguments &...arguments) const {
+        if (!handle_) return detail::empty_handle("session");
+        BespokeSession *const handle = handle_.get();
+        const BespokeStatus status = function(handle, arguments...);
+        if (status != BESPOKE_STATUS_OK) return failure(handle, status);
+        return {};
+    }
+
+    /// Success, or what is wrong with an array: it does not divide into elements of `width` numbers.
+    template <class Family, class Void>
+    static Result<void> divides(const char *what, const detail::Strided<Family, Void> &array, std::size_t width) {
+        if (array.left_over() == 0) return {};
+        return Error(Status::invalid_argument, std::string(what) + ": there are " + std::to_string(array.numbers()) +
+                                                   " numbers, which cannot be divided into elements of " +
+                                                   std::to_string(width) + " each: " +
+                                                   std::to_string(array.left_over()) + " would be left over");
+    }
+    template <class Family, std::size_t Width, class Void>
+    static Result<void> divides(const char *what, const detail::Elements<Family, Width, Void> &array) {
+        return divides(what, array, Width);
+    }
+    template <class Family> static Result<void> divides(const char *what, const detail::Rows<Family> &rows) {
+        return divides(what, rows, rows.columns());
+    }
+
+    template <class Function, class Array, class... Further>
+    Result<void> set(Function *function, const char *what, const Array &array, const Further &...further) {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides(what, array); !whole) return whole;
+        const BespokeView view = array.get();
+        return call(function, &view, further...);
+    }
+    template <class Function, class First, class Second, class... Further>
+    Result<void> set(Function *function, const char *first_what, const First &first, const char *second_what,
+                     const Second &second, const Further &...further) {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides(first_what, first); !whole) return whole;
+        return set_second(function, first.get(), second_what, second, further...);
+    }
+    template <class Function, class Second, class... Further>
+    Result<void> set_second(Function *function, const BespokeView &first, const char *what, const Second &second,
+                            const Further &...further) {
+        if (auto whole = divides(what, second); !whole) return whole;
+        const BespokeView view = second.get();
+        return call(function, &first, &view, further...);
+    }
+
+    using Read = BespokeStatus(const BespokeSession *, const BespokeBuffer *, std::size_t *);
+
+    template <class Buffer> Result<std::size_t> read(Read *function, const char *what, const Buffer &room) const {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides(what, room); !whole) return whole.error();
+        const BespokeBuffer buffer = room.get();
+        std::size_t count = 0;
+        const auto done = call(function, &buffer, &count);
+        if (!done) return done.error();
+        return count;
+    }
+
+    template <class Element, class Buffer> Result<std::vector<Element>> read_all(Read *function) const {
+        static_assert(std::is_constructible_v<Buffer, std::vector<Element> &> &&
+                          detail::LayoutFor<Element>::width == Buffer::width,
+                      "the elements have to be made of as many floats or doubles as are read; see bespoke::Layout");
+        std::vector<Element> elements;
+        const auto count = read(function, "", Buffer(elements));
+        if (!count) return count.error();
+        elements.resize(*count);
+        const auto done = read(function, "", Buffer(elements));
+        if (!done) return done.error();
+        // Another call may have come in between the two.
+        elements.resize(*done);
+        return elements;
+    }
+
+    std::unique_ptr<BespokeSession, Destroy> handle_;
+};
+
+} // namespace bespoke
+
+#endif /* BESPOKE_HPP */
