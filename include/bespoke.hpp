@@ -24,6 +24,10 @@
 #ifndef BESPOKE_HPP
 #define BESPOKE_HPP
 
+#if __cplusplus < 201703L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 201703L)
+#error "bespoke.hpp needs C++17; bespoke.h does with any C++"
+#endif
+
 #include "bespoke.h"
 
 #include <array>
