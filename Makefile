@@ -7,13 +7,14 @@
 #             removes them again. docs/packaging.md says what goes where
 # make test   every test
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
+# make dist   the folder to ship and its archive (build/dist; docs/dist.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
-# As root, `demo`, `gallery`, `figures` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+# As root, `demo`, `gallery`, `figures`, `dist` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
 
 CC = cc
 CFLAGS = -O2 -g
@@ -75,6 +76,10 @@ install:
 .PHONY: uninstall
 uninstall:
 	$(INSTALLER) uninstall
+
+.PHONY: dist
+dist: dependencies
+	sh packaging/dist/dist.sh build/dist
 
 .PHONY: dependencies
 dependencies:
