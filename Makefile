@@ -77,9 +77,19 @@ install:
 uninstall:
 	$(INSTALLER) uninstall
 
+# The folder to ship. It is made from Debian's sources; where they cannot be had, `test` says that it skips it.
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
+ARCHIVE = build/dist/bespoke-$(VERSION)-linux-x86_64.tar.gz
+SHIPS = $(shell [ "$$(uname -sm)" = 'Linux x86_64' ] && command -v apt-get)
 .PHONY: dist
 dist: dependencies
 	sh packaging/dist/dist.sh build/dist
+
+# The TBB that hosts bring along.
+.PHONY: host-tbb
+host-tbb: dependencies
+	sh .ci/dependencies pip3
+	sh tests/dist/tbb.sh build/tbb
 
 .PHONY: dependencies
 dependencies:
@@ -121,10 +131,11 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 # The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
 # so that nothing is built twice.
 .PHONY: test
-test: dependencies
+test: dependencies $(if $(SHIPS),dist host-tbb)
 	sh .ci/dependencies cmake pkg-config
 	$(MAKE) build/retarget
-	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
+		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

@@ -24,13 +24,15 @@ export SOURCE_DATE_EPOCH="$epoch"
 
 sh "$here/sources.sh" "$folder/sources"
 echo "dist: OpenVDB and oneTBB as static libraries"
-make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$folder/static"
+make --silent -f "$here/static.mk" -j"$(nproc)" CXX="${CXX:-c++}" SOURCES="$folder/sources" OUT="$folder/static"
 
 echo "dist: the library"
-# Sentences of a defect name places in the sources: as they are called everywhere, not as on this machine.
+# Sentences of a defect name places in the sources: as they are called everywhere, not as on this machine. The flags are
+# apart by a character that no path has.
 cargo=${CARGO_HOME:-$HOME/.cargo}
-RUSTFLAGS="--remap-path-prefix=$cargo=cargo --remap-path-prefix=$(rustc --print sysroot)=rust --remap-path-prefix=$root=bespoke" \
-    BESPOKE_STATIC_OPENVDB=$folder/static cargo build --locked --profile dist --lib
+sysroot=$(rustc --print sysroot)
+flags=$(printf -- '--remap-path-prefix=%s\037' "$cargo=cargo" "$sysroot=rust" "$root=bespoke")
+CARGO_ENCODED_RUSTFLAGS=${flags%?} BESPOKE_STATIC_OPENVDB=$folder/static cargo build --locked --profile dist --lib
 library=${CARGO_TARGET_DIR:-target}/dist/libbespoke.so
 
 echo "dist: the program"

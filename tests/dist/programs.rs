@@ -1,5 +1,6 @@
 //! The C programs of these tests, compiled once.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -25,11 +26,16 @@ pub fn host() -> &'static Path {
     })
 }
 
-/// What the host printed.
+/// What the host printed. Nothing may be said on the standard error: it belongs to the host.
 #[track_caller]
-pub fn run_host(words: &[&std::ffi::OsStr]) -> String {
+pub fn run_host(words: &[&OsStr]) -> String {
     // A path for libraries that the caller has set would decide which TBB is found.
-    done(Command::new(host()).args(words).env_remove("LD_LIBRARY_PATH").env_remove("LD_PRELOAD"))
+    let mut command = Command::new(host());
+    command.args(words).env_remove("LD_LIBRARY_PATH").env_remove("LD_PRELOAD").env_remove("TBB_VERSION");
+    let output = command.output().expect("the host can be run");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && errors.is_empty(), "{command:?}: {}\n{errors}", output.status);
+    String::from_utf8(output.stdout).expect("the host prints text")
 }
 
 /// The hash in its last line.
