@@ -2,9 +2,12 @@
 # Makes the folder to ship, and its archive: dist.sh FOLDER
 #
 # Leaves FOLDER/bespoke-VERSION-linux-MACHINE and the same as .tar.gz, for which the same sources on the same system give
-# the same bytes. docs/dist.md says what is in it and why it is built in this way. CC and CXX apply.
+# the same bytes. docs/dist.md says what is in it and why it is built in this way.
 set -eu
 umask 022
+# What is shipped does not depend on what the caller prefers.
+unset CFLAGS CXXFLAGS MAKEFLAGS MFLAGS CARGO_BUILD_TARGET OPENVDB_ROOT
+export CC=cc CXX=c++
 root=$(cd "$(dirname "$0")/../.." && pwd)
 here=$root/packaging/dist
 mkdir -p "$1"
@@ -24,7 +27,7 @@ export SOURCE_DATE_EPOCH="$epoch"
 
 sh "$here/sources.sh" "$folder/sources"
 echo "dist: OpenVDB and oneTBB as static libraries"
-make --silent -f "$here/static.mk" -j"$(nproc)" CXX="${CXX:-c++}" SOURCES="$folder/sources" OUT="$folder/static"
+make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$folder/static"
 
 echo "dist: the library"
 # Sentences of a defect name places in the sources: as they are called everywhere, not as on this machine. The flags are
@@ -39,7 +42,8 @@ echo "dist: the program"
 # What the linker looks for by its plain name, the loader by the name within.
 mkdir -p "$folder/link"
 ln -sf "$(realpath "$library")" "$folder/link/libbespoke.so"
-${CC:-cc} -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/link" -lbespoke -lm \
+# shellcheck disable=SC2016
+cc -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/link" -lbespoke -lm \
     '-Wl,-rpath,$ORIGIN/../lib'
 
 rm -rf "$stage"

@@ -36,7 +36,7 @@ version() { # PACKAGE
 
 debian=https://snapshot.debian.org/package
 boost=$(dpkg -S /usr/include/boost/version.hpp | cut -d : -f 1)
-gcc=$(${CXX:-c++} -dumpversion)
+gcc=$(basename "$(dirname "$(c++ -print-file-name=libstdc++.a)")")
 sysroot=$(rustc --print sysroot)
 {
     cat "$here/licences/head.md"
@@ -52,7 +52,7 @@ sysroot=$(rustc --print sysroot)
     part boost "$(sed -n 's/^#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)" BSL-1.0 \
         "headers that OpenVDB uses; <https://www.boost.org>" "/usr/share/doc/$boost/copyright"
     part libstdc++ "$gcc" "GPL-3.0 with the GCC Runtime Library Exception 3.1" "<https://gcc.gnu.org>" \
-        "/usr/share/doc/gcc-${gcc%%.*}-base/copyright" /usr/share/common-licenses/GPL-3
+        "/usr/share/doc/gcc-$gcc-base/copyright" /usr/share/common-licenses/GPL-3
     part rust "$(rustc --version | cut -d ' ' -f 2)" "MIT OR Apache-2.0, and others for parts" "<https://www.rust-lang.org>" \
         "$sysroot/share/doc/rust/COPYRIGHT-library.html"
     cargo tree --locked --edges normal --prefix none --format '{p}|{l}' >"$folder/tree"

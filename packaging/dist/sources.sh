@@ -12,10 +12,14 @@ onetbb 2021.8.0 7e9111b8bb59c8800bf6d0b06afe7b0891937443d2dae1ee1101c8e2ede6a7ef
 mkdir -p "$folder"
 cd "$folder"
 
+updated=""
+
 # The mirror that this machine uses for the suite, if it does.
 mirror() {
+    # What stands in braces is for apt to fill in.
+    # shellcheck disable=SC2016
     apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' "Codename: $suite" 'Component: main' \
-        'Created-By: Packages' 2>/dev/null | head -n 1
+        'Created-By: Packages' | head -n 1
 }
 
 fetch() { # PACKAGE
@@ -24,6 +28,10 @@ fetch() { # PACKAGE
         exit 1
     fi
     keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+    if [ ! -f "$keyring" ]; then
+        echo "sources: $keyring is not there; install debian-archive-keyring" >&2
+        exit 1
+    fi
     uri=$(mirror)
     # Lists of our own: those of the system are not touched, and root is not needed.
     mkdir -p apt/lists/partial apt/cache
@@ -32,7 +40,8 @@ fetch() { # PACKAGE
         -o "Dir::State::lists=$PWD/apt/lists" -o "Dir::Cache=$PWD/apt/cache" -o APT::Sandbox::User="$(id -un)"
     package=$1
     shift
-    [ -n "$(ls -A apt/lists/partial/.. | grep Sources || true)" ] || apt-get -qq "$@" update
+    [ -n "$updated" ] || apt-get -qq "$@" update
+    updated=yes
     # Without the patches of Debian; docs/dist.md says why.
     apt-get -qq "$@" source --download-only --tar-only "$package"
 }

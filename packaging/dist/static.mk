@@ -7,6 +7,7 @@
 # No compression, no delayed loading, no logging, and half floats of OpenVDB's own: so that nothing but these two and
 # headers of Boost is linked in.
 
+CXX = c++
 # Paths of this machine stay out of what is built.
 FLAGS = -std=c++17 -O2 -DNDEBUG -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections \
 	-fdata-sections -ffile-prefix-map=$(abspath $(OUT))/include=include -ffile-prefix-map=$(abspath $(SOURCES))=.
