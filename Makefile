@@ -33,8 +33,7 @@ SAMPLE = build/sample
 # Real meshes, where they are at hand: more tests, and the table of `make pairs`.
 ASSETS = $(or $(BESPOKE_ASSETS),../shared/assets)
 
-# Where `install` puts what, and the defaults of what is empty here: packaging/install.sh. `make` wants them, too, where
-# BINDIR or LIBDIR is given.
+# Where `install` puts what; packaging/install.sh has the defaults of what is empty here.
 PREFIX ?= /usr/local
 STRIP ?= strip
 INSTALLER = DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' BINDIR='$(BINDIR)' LIBDIR='$(LIBDIR)' \
@@ -136,6 +135,9 @@ test: dependencies $(if $(SHIPS),dist host-tbb)
 	$(MAKE) build/retarget
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release
+	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
+	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
+	[ -z "$$(find build/stage ! -type d)" ]
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

@@ -5,9 +5,10 @@
 #   install.sh uninstall                 removes the same files, and what folders it leaves empty
 #   install.sh run-path                  prints the way from BINDIR to LIBDIR, for the run path of PROGRAM
 #
-# The environment says where: PREFIX (/usr/local), BINDIR, LIBDIR, INCLUDEDIR, DOCDIR (below it), and DESTDIR, which goes
-# before all of them and is told to nobody. STRIP is what takes the debug information out (strip); empty keeps it.
-# docs/packaging.md lists what is installed. All files are whole under other names before the first gets its own.
+# The environment says where: PREFIX (/usr/local), BINDIR, LIBDIR, INCLUDEDIR, DOCDIR (below it), and DESTDIR, which
+# goes before all of them and is in no file. STRIP is the program that takes the debug information out (strip); empty
+# keeps it. docs/packaging.md lists what is installed. All files are whole under other names before the first gets its
+# own.
 set -eu
 umask 022
 root=$(dirname "$0")/..
@@ -82,7 +83,7 @@ each() { # COMMAND
     done
     # Beside the README, which shows the pictures.
     for text in "$root"/docs/*; do
-        "$1" text "$text" "$docdir/docs/${text##*/}"
+        [ ! -f "$text" ] || "$1" text "$text" "$docdir/docs/${text##*/}"
     done
 }
 
@@ -127,17 +128,18 @@ discard() { # KIND SOURCE PLACE
 }
 
 remove() { # KIND SOURCE PLACE
-    left="; some of the files are gone and some are not: uninstall again"
     rm -f "$destdir$3" "$destdir$3.new" || fail "$destdir$3 cannot be removed"
+    left="; some of the files are gone and some are not: uninstall again"
 }
 
-# Our own folders; those shared with others only in a prefix that is not the system's, and never the prefix itself.
+# Folders that only installations make, and those that have other uses where the prefix is not the system's; never the
+# prefix itself, and only what is empty.
 prune() {
-    for folder in "$cmakedir" "$docdir/docs" "$docdir"; do
+    for folder in "$cmakedir" "${cmakedir%/*}" "$pkgconfigdir" "$docdir/docs" "$docdir"; do
         rmdir "$destdir$folder" 2>/dev/null || true
     done
     case $prefix in "" | /usr | /usr/local) return ;; esac
-    for folder in "${cmakedir%/*}" "$pkgconfigdir" "$libdir" "$includedir" "$bindir" "${docdir%/*}"; do
+    for folder in "$libdir" "$includedir" "$bindir" "${docdir%/*}"; do
         while case $folder in "$prefix"/*) ;; *) false ;; esac && rmdir "$destdir$folder" 2>/dev/null; do
             folder=${folder%/*}
         done
@@ -146,6 +148,7 @@ prune() {
 
 # The loader knows some folders by a list of what is in them.
 refresh() {
+    PATH=$PATH:/sbin:/usr/sbin
     if [ -z "$destdir" ] && [ "$(id -u)" = 0 ] && ldconfig -N -X -v 2>/dev/null | grep -q "^$libdir:"; then
         ldconfig || fail "ldconfig cannot tell the loader about $libdir; call it"
     fi
@@ -171,8 +174,8 @@ $(fill PKGCONFIG_TO_INCLUDE "$(way "$pkgconfigdir" "$includedir")")
 $(fill CMAKE_TO_LIB "$(way "$cmakedir" "$libdir")")
 $(fill CMAKE_TO_INCLUDE "$(way "$cmakedir" "$includedir")")"
     trap 'each discard' EXIT
-    # A signal ends the script, and so leads to the line above.
-    trap 'exit 130' HUP INT TERM
+    # To end here leads to the line above.
+    trap 'echo "install.sh: stopped by a signal$left" >&2; exit 130' HUP INT TERM
     each prepare
     each commit
     left=""
@@ -181,6 +184,7 @@ $(fill CMAKE_TO_INCLUDE "$(way "$cmakedir" "$includedir")")"
     ;;
 uninstall)
     each remove
+    left=""
     prune
     refresh
     echo "removed bespoke $version from $destdir$prefix"

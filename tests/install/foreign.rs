@@ -1,6 +1,6 @@
-//! Somebody else's project builds against an installed prefix that was moved, and its programs run: tests/install/foreign.
+//! Somebody else's project (tests/install/foreign) builds against an installed prefix that was moved, and its programs
+//! run.
 
-use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -127,11 +127,11 @@ fn pkg_config_project_builds_and_runs() {
     }
     let place = Place::new("pkg-config");
     let path = place.prefix.join("lib/pkgconfig");
-    let asked = |argument: &dyn AsRef<OsStr>| {
+    let asked = |argument: &str| {
         succeed(command("pkg-config").env("PKG_CONFIG_PATH", &path).arg(argument).arg("bespoke")).trim().to_owned()
     };
-    assert_eq!(asked(&"--modversion"), env!("CARGO_PKG_VERSION"));
-    assert_eq!(asked(&"--validate"), "");
+    assert_eq!(asked("--modversion"), env!("CARGO_PKG_VERSION"));
+    assert_eq!(asked("--validate"), "");
     let build = format!("BUILD={}", place.build.display());
     succeed(command("make").current_dir(&place.sources).env("PKG_CONFIG_PATH", &path).arg(build));
     place.programs_work();

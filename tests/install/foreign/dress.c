@@ -1,4 +1,4 @@
-/* Puts a sleeve, modelled around a bone, on a thicker arm. Ends with 0 where the result is verified and around the arm. */
+/* Puts a sleeve, modelled around a bone, on a thicker arm. Ends with 0 where the result is verified and around it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
