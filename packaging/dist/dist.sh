@@ -6,6 +6,7 @@
 set -eu
 umask 022
 # What is shipped does not depend on what the caller prefers.
+export LC_ALL=C
 unset CFLAGS CXXFLAGS MAKEFLAGS MFLAGS CARGO_BUILD_TARGET OPENVDB_ROOT
 export CC=cc CXX=c++
 root=$(cd "$(dirname "$0")/../.." && pwd)
