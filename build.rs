@@ -66,6 +66,8 @@ fn shim() {
     for library in ["openvdb", "tbb", "stdc++"] {
         println!("cargo:rustc-link-lib=static:-bundle={library}");
     }
+    // GCC asks for it weakly, which draws nothing out of a static library, and leaves it to the host to have one.
+    println!("cargo:rustc-cdylib-link-arg=-Wl,--undefined=__cxa_pure_virtual");
 }
 
 /// The folder in which the compiler has its C++ runtime as a static library.

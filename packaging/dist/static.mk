@@ -20,8 +20,10 @@ VDB_NAMES = Grid MetaMap Metadata io/Archive io/Compression io/DelayedLoadMetada
 VDB_OBJECTS = $(VDB_NAMES:%=$(OUT)/objects/openvdb/%.o)
 TBB_OBJECTS = $(patsubst $(TBB)/src/tbb/%.cpp,$(OUT)/objects/tbb/%.o,$(wildcard $(TBB)/src/tbb/*.cpp))
 # oneTBB opens other libraries (allocator, binding to processors, tracing) by their names, and would get those of the
-# host's TBB: switched off, as in every static build of it.
-TBB_FLAGS = -D__TBB_BUILD -D__TBB_DYNAMIC_LOAD_ENABLED=0 -D__TBB_SOURCE_DIRECTLY_INCLUDED=1 -flifetime-dse=1
+# host's TBB: switched off. Without the second line it would still take the allocator and the binding of a host that has
+# them in memory, and so die with them.
+TBB_FLAGS = -D__TBB_BUILD -D__TBB_SOURCE_DIRECTLY_INCLUDED=1 -D__TBB_DYNAMIC_LOAD_ENABLED=0 \
+	-D__TBB_WEAK_SYMBOLS_PRESENT=0 -flifetime-dse=1
 ifeq ($(shell uname -m),x86_64)
 TBB_FLAGS += -mrtm -mwaitpkg
 endif

@@ -1,10 +1,11 @@
-//! Exactly the functions of the header are exported, and nothing of C++ or Rust that could meet that of the host.
+//! Exactly the functions of the header are exported, and nothing of C++ or Rust that could meet that of the host; nor is
+//! anything asked for that the host may or may not have.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use crate::shipped::{done, libraries, root};
+use crate::shipped::{done, folder, libraries, root};
 
 /// The pinned list: tests/dist/symbols.txt, one name a line.
 fn pinned() -> BTreeSet<String> {
@@ -40,4 +41,21 @@ fn nothing_else_is_exported() {
         }
         assert_eq!(exported, pinned(), "the {name} library exports another list than tests/dist/symbols.txt");
     }
+}
+
+/// A symbol without a version, such as `scalable_malloc`, would be taken from whatever the host has loaded, and a library
+/// that is opened by its name would be the host's.
+#[test]
+fn nothing_of_the_host_is_asked_for() {
+    let Some(folder) = folder() else { return };
+    let library = folder.join("lib/libbespoke.so");
+    let listed = done(Command::new("nm").args(["--dynamic", "--undefined-only", "--format=posix"]).arg(&library));
+    // What every compiler asks for in case that somebody profiles or has transactional memory.
+    let usual = ["__gmon_start__", "_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable"];
+    for symbol in listed.lines().filter_map(|line| line.split(' ').next()) {
+        let of_the_system = symbol.contains("@GLIBC_") || symbol.contains("@GCC_");
+        assert!(of_the_system || usual.contains(&symbol), "{symbol} is asked for, which is not of the system");
+        assert!(!symbol.starts_with("dlopen@"), "something opens libraries");
+    }
+    assert!(listed.contains("malloc@GLIBC_"), "malloc is not in the list: {listed}");
 }
