@@ -14,7 +14,8 @@
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
-# As root, `demo`, `gallery`, `figures`, `dist` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+# As root, `demo`, `gallery`, `figures`, `dist` and `test` install what is missing with apt. Rust has to be there
+# (https://rustup.rs).
 
 CC = cc
 CFLAGS = -O2 -g

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 /// Folders to look in before the system's: `OPENVDB_ROOT` holds `include` and `lib`.
 const ROOT: &str = "OPENVDB_ROOT";
 
-/// Folder with `include` and `lib` that `packaging/dist/static.mk` made: OpenVDB and oneTBB become part of the library, and
-/// the C++ runtime with them, so that it needs neither on the machine it runs on.
+/// Folder with `include` and `lib` that `packaging/dist/static.mk` made: OpenVDB and oneTBB become part of the library,
+/// and the C++ runtime with them, so that it needs none of them on the machine it runs on.
 const STATIC_ROOT: &str = "BESPOKE_STATIC_OPENVDB";
 
 /// The number in the name by which the loader finds the library, `BESPOKE_ABI_VERSION`; a test compares them.
@@ -78,7 +78,7 @@ fn standard_library(build: &cc::Build) -> PathBuf {
         Some(folder) if folder.is_absolute() => folder.to_path_buf(),
         _ => {
             eprintln!(
-                "error: the C++ compiler has no libstdc++.a, which {STATIC_ROOT} asks for: take GCC's with its static library."
+                "error: the C++ compiler has no libstdc++.a, which {STATIC_ROOT} asks for: take GCC's with its libraries."
             );
             std::process::exit(1);
         }

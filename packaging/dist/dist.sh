@@ -1,8 +1,8 @@
 #!/bin/sh
 # Makes the folder to ship, and its archive: dist.sh FOLDER
 #
-# Leaves FOLDER/bespoke-VERSION-linux-MACHINE and the same as .tar.gz, for which the same sources on the same system give
-# the same bytes. docs/dist.md says what is in it and why it is built in this way.
+# Leaves FOLDER/bespoke-VERSION-linux-MACHINE and the same as .tar.gz: the same bytes for the same sources on the same
+# system. docs/dist.md says what is in it and why it is built in this way.
 set -eu
 umask 022
 # What is shipped does not depend on what the caller prefers.

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Gathers the licences of everything that is inside the shipped library: licences.sh SOURCES FOLDER
 #
-# SOURCES is what sources.sh left. FOLDER gets README.md, which lists all parts, and a folder with texts for each. A part
-# without a text is an error: an answer to it is a line in licences/crates.txt.
+# SOURCES is what sources.sh left. FOLDER gets README.md, which lists all parts, and a folder with texts for each. A
+# part without a text is an error: an answer to it is a line in licences/crates.txt.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 sources=$1
@@ -44,17 +44,19 @@ sysroot=$(rustc --print sysroot)
         "source: $debian/openvdb (\`openvdb_$(version openvdb).orig.tar.xz\`), unchanged; <https://www.openvdb.org>" \
         "$sources/openvdb/LICENSE"
     # The notice at the head of its sources is the licence of OpenVDB's half floats.
-    sed -n '1,/^\/*$/d; /^\/\/\/\//q; s/^\/\/ \{0,1\}//p' "$sources/openvdb/openvdb/openvdb/math/Half.h" >"$folder/LICENSE"
+    half=$sources/openvdb/openvdb/openvdb/math/Half.h
+    sed -n '1,/^\/*$/d; /^\/\/\/\//q; s/^\/\/ \{0,1\}//p' "$half" >"$folder/LICENSE"
     part half "as in OpenVDB" BSD-3-Clause "\`openvdb/math/Half.h\` of OpenVDB" "$folder/LICENSE"
     rm "$folder/LICENSE"
     part onetbb "$(version onetbb)" Apache-2.0 "$debian/onetbb, <https://github.com/uxlfoundation/oneTBB>" \
         "$sources/onetbb/LICENSE.txt" "$sources/onetbb/third-party-programs.txt"
-    part boost "$(sed -n 's/^#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)" BSL-1.0 \
+    number=$(sed -n 's/^#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)
+    part boost "$number" BSL-1.0 \
         "headers that OpenVDB uses; <https://www.boost.org>" "/usr/share/doc/$boost/copyright"
     part libstdc++ "$gcc" "GPL-3.0 with the GCC Runtime Library Exception 3.1" "<https://gcc.gnu.org>" \
         "/usr/share/doc/gcc-$gcc-base/copyright" /usr/share/common-licenses/GPL-3
-    part rust "$(rustc --version | cut -d ' ' -f 2)" "MIT OR Apache-2.0, and others for parts" "<https://www.rust-lang.org>" \
-        "$sysroot/share/doc/rust/COPYRIGHT-library.html"
+    part rust "$(rustc --version | cut -d ' ' -f 2)" "MIT OR Apache-2.0, and others for parts" \
+        "<https://www.rust-lang.org>" "$sysroot/share/doc/rust/COPYRIGHT-library.html"
     cargo tree --locked --edges normal --prefix none --format '{p}|{l}' >"$folder/tree"
     sed 's/ (\*)$//; s/ (proc-macro)//' "$folder/tree" | sort -u | while IFS='|' read -r crate licence; do
         name=${crate%% *}
@@ -74,7 +76,8 @@ sysroot=$(rustc --print sysroot)
             cp "$here/licences/$instead" "$folder/crates/$name-$number/LICENSE"
         fi
         if [ -z "$(ls "$folder/crates/$name-$number")" ]; then
-            echo "licences: the crate $name $number has no text of its licence ($licence); give it one in licences/crates.txt" >&2
+            echo "licences: the crate $name $number has no text of its licence ($licence);" \
+                "give it one in packaging/dist/licences/crates.txt" >&2
             exit 1
         fi
         chmod 644 "$folder/crates/$name-$number"/*

@@ -23,8 +23,9 @@ mirror() {
 }
 
 fetch() { # PACKAGE
+    package=$1
     if ! command -v apt-get >/dev/null 2>&1; then
-        echo "sources: $1 is not in $folder, and there is no apt-get to fetch it with" >&2
+        echo "sources: $package is not in $folder, and there is no apt-get to fetch it with" >&2
         exit 1
     fi
     keyring=/usr/share/keyrings/debian-archive-keyring.gpg
@@ -36,10 +37,8 @@ fetch() { # PACKAGE
     # Lists of our own: those of the system are not touched, and root is not needed.
     mkdir -p apt/lists/partial apt/cache
     echo "deb-src [signed-by=$keyring] ${uri:-http://deb.debian.org/debian} $suite main" >apt/sources.list
-    set -- "$1" -o "Dir::Etc::sourcelist=$PWD/apt/sources.list" -o Dir::Etc::sourceparts=- \
+    set -- -o "Dir::Etc::sourcelist=$PWD/apt/sources.list" -o Dir::Etc::sourceparts=- \
         -o "Dir::State::lists=$PWD/apt/lists" -o "Dir::Cache=$PWD/apt/cache" -o APT::Sandbox::User="$(id -un)"
-    package=$1
-    shift
     [ -n "$updated" ] || apt-get -qq "$@" update
     updated=yes
     # Without the patches of Debian; docs/dist.md says why.

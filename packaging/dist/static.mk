@@ -15,8 +15,8 @@ FLAGS = -std=c++17 -O2 -DNDEBUG -fPIC -fvisibility=hidden -fvisibility-inlines-h
 VDB = $(SOURCES)/openvdb/openvdb/openvdb
 TBB = $(SOURCES)/onetbb
 # What the voxeliser reaches by name or through tables of virtual functions. Nothing is read or written by OpenVDB.
-VDB_NAMES = Grid MetaMap Metadata io/Archive io/Compression io/DelayedLoadMetadata io/GridDescriptor math/Half math/Maps \
-	math/Proximity math/Transform points/StreamCompression util/Formats util/Util
+VDB_NAMES = Grid MetaMap Metadata io/Archive io/Compression io/DelayedLoadMetadata io/GridDescriptor math/Half \
+	math/Maps math/Proximity math/Transform points/StreamCompression util/Formats util/Util
 VDB_OBJECTS = $(VDB_NAMES:%=$(OUT)/objects/openvdb/%.o)
 TBB_OBJECTS = $(patsubst $(TBB)/src/tbb/%.cpp,$(OUT)/objects/tbb/%.o,$(wildcard $(TBB)/src/tbb/*.cpp))
 # oneTBB opens other libraries (allocator, binding to processors, tracing) by their names, and would get those of the
@@ -43,7 +43,8 @@ $(HEADERS): $(MAKEFILE_LIST) $(SOURCES)/openvdb/.unpacked $(SOURCES)/onetbb/.unp
 	mkdir -p $(OUT)/include
 	cd $(SOURCES)/openvdb/openvdb && tar -cf - $$(find openvdb -name '*.h') | tar -xf - -C $(abspath $(OUT))/include
 	cp -r $(TBB)/include/. $(OUT)/include/
-	sed -e 's/$${OpenVDB_MAJOR_VERSION}/$(MAJOR)/; s/$${OpenVDB_MINOR_VERSION}/$(MINOR)/; s/$${OpenVDB_PATCH_VERSION}/$(PATCH)/' \
+	sed -e 's/$${OpenVDB_MAJOR_VERSION}/$(MAJOR)/; s/$${OpenVDB_MINOR_VERSION}/$(MINOR)/' \
+		-e 's/$${OpenVDB_PATCH_VERSION}/$(PATCH)/' \
 		-e 's/$${OPENVDB_ABI_VERSION_NUMBER}/$(MAJOR)/; s/$${OPENVDB_NAMESPACE_SUFFIX}//' \
 		-e "s/\$${OPENVDB_PACKED_VERSION}/$$(($(MAJOR) << 24 | $(MINOR) << 16 | $(PATCH)))/" \
 		-e 's/^#cmakedefine .*//; s/@OPENVDB_[A-Z0-9_]*@//' $(VDB)/version.h.in >$(OUT)/include/openvdb/version.h

@@ -1,7 +1,7 @@
 /* A process into which the library is loaded as a plugin:
 
      host plain LIBRARY                        dresses
-     host tbb LIBRARY TBB WORK local|global    the same beside another TBB with global symbols, which WORK uses all the time
+     host tbb LIBRARY TBB WORK local|global    the same beside another TBB with global symbols, which WORK uses
      host reopen LIBRARY                       opens, dresses and closes, several times
      host copies LIBRARY COPY                  two copies with global symbols, in use at once
      host apart LIBRARY COPY                   the same, but nothing of the first may be called while the second works

@@ -1,5 +1,5 @@
-//! Exactly the functions of the header are exported, and nothing of C++ or Rust that could meet that of the host; nor is
-//! anything asked for that the host may or may not have.
+//! Exactly the functions of the header are exported, and nothing of C++ or Rust that could meet that of the host; nor
+//! is anything asked for that the host may or may not have.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -43,8 +43,8 @@ fn nothing_else_is_exported() {
     }
 }
 
-/// A symbol without a version, such as `scalable_malloc`, would be taken from whatever the host has loaded, and a library
-/// that is opened by its name would be the host's.
+/// A symbol without a version, such as `scalable_malloc`, would be taken from whatever the host has loaded, and a
+/// library that is opened by its name would be the host's.
 #[test]
 fn nothing_of_the_host_is_asked_for() {
     let Some(folder) = folder() else { return };

@@ -1,4 +1,4 @@
-// Work that a host does with its own TBB. It is linked with none: the one in the process is taken, as plugins of engines do.
+// Work that a host does with its own TBB. It is linked with none, and takes the one that is in the process.
 #include <cmath>
 #include <vector>
 
