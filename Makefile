@@ -7,13 +7,15 @@
 #             removes them again. docs/packaging.md says what goes where
 # make test   every test
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
+# make dist   the folder to ship and its archive (build/dist; docs/dist.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
 #
-# As root, `demo`, `gallery`, `figures` and `test` install what is missing with apt. Rust has to be there (https://rustup.rs).
+# As root, `demo`, `gallery`, `figures`, `dist` and `test` install what is missing with apt. Rust has to be there
+# (https://rustup.rs).
 
 CC = cc
 CFLAGS = -O2 -g
@@ -75,6 +77,20 @@ install:
 uninstall:
 	$(INSTALLER) uninstall
 
+# The folder to ship. It is made from Debian's sources; where they cannot be had, `test` says that it skips it.
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
+ARCHIVE = build/dist/bespoke-$(VERSION)-linux-x86_64.tar.gz
+SHIPS = $(shell [ "$$(uname -sm)" = 'Linux x86_64' ] && command -v apt-get)
+.PHONY: dist
+dist: dependencies
+	sh packaging/dist/dist.sh build/dist
+
+# The TBB that hosts bring along.
+.PHONY: host-tbb
+host-tbb: dependencies
+	sh .ci/dependencies pip3
+	sh tests/dist/tbb.sh build/tbb
+
 .PHONY: dependencies
 dependencies:
 	sh .ci/dependencies
@@ -115,10 +131,11 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 # The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
 # so that nothing is built twice.
 .PHONY: test
-test: dependencies
+test: dependencies $(if $(SHIPS),dist host-tbb)
 	sh .ci/dependencies cmake pkg-config clang mcs mono
 	$(MAKE) build/retarget
-	BESPOKE_RETARGET=$(CURDIR)/build/retarget cargo test --release
+	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
+		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]

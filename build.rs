@@ -1,10 +1,14 @@
 //! Builds the C++ shim around OpenVDB and links it, and says what kind of shared library comes out.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Folders to look in before the system's: `OPENVDB_ROOT` holds `include` and `lib`.
 const ROOT: &str = "OPENVDB_ROOT";
+
+/// Folder with `include` and `lib` that `packaging/dist/static.mk` made: OpenVDB and oneTBB become part of the library,
+/// and the C++ runtime with them, so that it needs none of them on the machine it runs on.
+const STATIC_ROOT: &str = "BESPOKE_STATIC_OPENVDB";
 
 /// The number in the name by which the loader finds the library, `BESPOKE_ABI_VERSION`; a test compares them.
 const ABI: u32 = 1;
@@ -20,14 +24,24 @@ fn shim() {
         println!("cargo:rerun-if-changed={path}");
     }
     println!("cargo:rerun-if-env-changed={ROOT}");
-    let root = env::var_os(ROOT).map(PathBuf::from);
+    println!("cargo:rerun-if-env-changed={STATIC_ROOT}");
+    let static_root = env::var_os(STATIC_ROOT).map(PathBuf::from);
+    let root = static_root.clone().or_else(|| env::var_os(ROOT).map(PathBuf::from));
 
     let mut build = cc::Build::new();
     // The voxeliser is two orders slower without optimisation, so the profile does not decide.
     build.cpp(true).std("c++17").opt_level(2).warnings(true).extra_warnings(true);
     // Half floats are only named by the headers, never used: no need to link Imath for its table.
     build.define("IMATH_HALF_NO_LOOKUP_TABLE", None);
-    if let Some(root) = &root {
+    if let Some(root) = &static_root {
+        // As the headers of a system, whose warnings are not ours to see.
+        build
+            .flag("-isystem")
+            .flag(root.join("include"))
+            .flag("-fvisibility=hidden")
+            .flag("-fvisibility-inlines-hidden");
+        build.define("NDEBUG", None).cpp_link_stdlib(None);
+    } else if let Some(root) = &root {
         build.include(root.join("include"));
     }
     let mut probe = build.clone();
@@ -43,8 +57,32 @@ fn shim() {
     if let Some(root) = &root {
         println!("cargo:rustc-link-search=native={}", root.join("lib").display());
     }
-    println!("cargo:rustc-link-lib=openvdb");
-    println!("cargo:rustc-link-lib=tbb");
+    if static_root.is_none() {
+        println!("cargo:rustc-link-lib=openvdb");
+        println!("cargo:rustc-link-lib=tbb");
+        return;
+    }
+    println!("cargo:rustc-link-search=native={}", standard_library(&build).display());
+    for library in ["openvdb", "tbb", "stdc++"] {
+        println!("cargo:rustc-link-lib=static:-bundle={library}");
+    }
+    // GCC asks for it weakly, which draws nothing out of a static library, and leaves it to the host to have one.
+    println!("cargo:rustc-cdylib-link-arg=-Wl,--undefined=__cxa_pure_virtual");
+}
+
+/// The folder in which the compiler has its C++ runtime as a static library.
+fn standard_library(build: &cc::Build) -> PathBuf {
+    let output = build.get_compiler().to_command().arg("-print-file-name=libstdc++.a").output();
+    let file = output.ok().and_then(|output| String::from_utf8(output.stdout).ok()).unwrap_or_default();
+    match Path::new(file.trim()).parent() {
+        Some(folder) if folder.is_absolute() => folder.to_path_buf(),
+        _ => {
+            eprintln!(
+                "error: the C++ compiler has no libstdc++.a, which {STATIC_ROOT} asks for: take GCC's with its libraries."
+            );
+            std::process::exit(1);
+        }
+    }
 }
 
 /// Name and manners of the shared library.

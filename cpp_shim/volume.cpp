@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <mutex>
 #include <vector>
 
 #include <openvdb/openvdb.h>
@@ -74,8 +73,6 @@ const char* defect(const float* points, size_t point_count, const uint32_t* tria
     return nullptr;
 }
 
-std::once_flag initialised;
-
 } // namespace
 
 int bespoke_volume_build(const float* points, size_t point_count, const uint32_t* triangles,
@@ -90,7 +87,7 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
         return fail(BESPOKE_VOLUME_INVALID, text, message, message_capacity);
     }
     try {
-        std::call_once(initialised, [] { openvdb::initialize(); });
+        // openvdb::initialize() would only register types by name for reading files, and draw all of them in.
         std::vector<openvdb::Vec3s> positions(point_count);
         for (size_t i = 0; i < point_count; ++i) {
             positions[i] = openvdb::Vec3s(points[3 * i], points[3 * i + 1], points[3 * i + 2]);

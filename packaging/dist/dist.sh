@@ -1,0 +1,71 @@
+#!/bin/sh
+# Makes the folder to ship, and its archive: dist.sh FOLDER
+#
+# Leaves FOLDER/bespoke-VERSION-linux-MACHINE and the same as .tar.gz: the same bytes for the same sources on the same
+# system. docs/dist.md says what is in it and why it is built in this way.
+set -eu
+umask 022
+# What is shipped does not depend on what the caller prefers.
+export LC_ALL=C
+unset CFLAGS CXXFLAGS MAKEFLAGS MFLAGS CARGO_BUILD_TARGET OPENVDB_ROOT
+export CC=cc CXX=c++
+root=$(cd "$(dirname "$0")/../.." && pwd)
+here=$root/packaging/dist
+mkdir -p "$1"
+folder=$(cd "$1" && pwd)
+cd "$root"
+
+if [ "$(uname)" != Linux ]; then
+    echo "dist: only Linux has a folder to ship so far" >&2
+    exit 1
+fi
+version=$(sed -n 's/^version = "\(.*\)"$/\1/p' Cargo.toml | head -n 1)
+name=bespoke-$version-linux-$(uname -m)
+stage=$folder/$name
+# Git's answers also where the sources belong to somebody else; none where they came without their history.
+ours() {
+    git -c safe.directory="$root" "$@" 2>/dev/null
+}
+# The age of every file in the archive: that of the commit.
+epoch=${SOURCE_DATE_EPOCH:-$(ours log -1 --format=%ct || stat -c %Y Cargo.toml)}
+export SOURCE_DATE_EPOCH="$epoch"
+
+sh "$here/sources.sh" "$folder/sources"
+echo "dist: OpenVDB and oneTBB as static libraries"
+make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$folder/static"
+
+echo "dist: the library"
+# Sentences of a defect name places in the sources: as they are called everywhere, not as on this machine. The flags are
+# apart by a character that no path has.
+cargo=${CARGO_HOME:-$HOME/.cargo}
+sysroot=$(rustc --print sysroot)
+flags=$(printf -- '--remap-path-prefix=%s\037' "$cargo=cargo" "$sysroot=rust" "$root=bespoke")
+CARGO_ENCODED_RUSTFLAGS=${flags%?} BESPOKE_STATIC_OPENVDB=$folder/static cargo build --locked --profile dist --lib
+library=${CARGO_TARGET_DIR:-target}/dist/libbespoke.so
+
+echo "dist: the program"
+# What the linker looks for by its plain name, the loader by the name within.
+mkdir -p "$folder/link"
+ln -sf "$(realpath "$library")" "$folder/link/libbespoke.so"
+# shellcheck disable=SC2016
+cc -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/link" -lbespoke -lm \
+    '-Wl,-rpath,$ORIGIN/../lib'
+
+rm -rf "$stage"
+env -u DESTDIR -u BINDIR -u LIBDIR -u INCLUDEDIR PREFIX="$stage" DOCDIR="$stage" \
+    sh packaging/install.sh install "$library" "$folder/link/retarget"
+# What a plugin author reads and copies from: the files of the project, without what was built among them.
+for sources in examples_c bindings; do
+    [ -d "$sources" ] || continue
+    { ours ls-files -z "$sources" || find "$sources" -type f -print0; } | xargs -0 cp --parents -t "$stage"
+done
+sh "$here/licences.sh" "$folder/sources" "$stage/licences"
+
+archive=$folder/$name.tar.gz
+# Without the name and the date that gzip would put in.
+tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" --mode=u+rw,go+r,go-w --format=gnu \
+    -cf - "$name" | gzip -9n >"$archive.new"
+mv "$archive.new" "$archive"
+sh "$here/needs.sh" "$stage"
+echo "dist: $archive"
+echo "dist: $(wc -c <"$archive") bytes, SHA-256 $(sha256sum <"$archive" | cut -d ' ' -f 1)"

@@ -1,0 +1,79 @@
+//! The shipped program on a machine that has nothing but the C library and GCC's runtime.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shipped::{done, folder, scratch};
+
+/// An open tube around the y axis and its skeleton, as OBJ.
+fn tube(radius: f64, reach: f64) -> String {
+    let (around, rings) = (12, 9);
+    let mut text = String::new();
+    for k in 0..rings * around {
+        let angle = f64::from(k % around) / f64::from(around) * std::f64::consts::TAU;
+        let y = reach * (2.0 * f64::from(k / around) / f64::from(rings - 1) - 1.0);
+        text += &format!("v {} {y} {}\n", radius * angle.sin(), radius * angle.cos());
+    }
+    for k in 0..(rings - 1) * around {
+        let next = k / around * around + (k + 1) % around;
+        let [a, b, c, d] = [k + 1, next + 1, next + around + 1, k + around + 1];
+        text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+    }
+    text
+}
+
+/// Writes what the program reads, and says its options for it.
+pub fn inputs(place: &Path) -> [&'static str; 12] {
+    fs::write(place.join("g.obj"), tube(0.3, 0.55)).expect("the garment can be written");
+    fs::write(place.join("a.obj"), tube(0.4, 0.9)).expect("the avatar can be written");
+    fs::write(place.join("s.obj"), "v 0 -1 0\nv 0 0 0\nv 0 1 0\nl 1 2\nl 2 3\n").expect("the skeleton can be written");
+    let skeletons = ["--source-skeleton", "s.obj", "--target-skeleton", "s.obj"];
+    let [a, b, c, d] = skeletons;
+    [a, b, c, d, "--garment", "g.obj", "--avatar", "a.obj", "--voxel", "0.03", "-o", "out.obj"]
+}
+
+/// The program `retarget` of the folder, by whatever name it is installed.
+pub fn program(folder: &Path) -> PathBuf {
+    let entries = fs::read_dir(folder.join("bin")).expect("the folder bin");
+    let mut programs = entries.map(|entry| entry.expect("an entry").path());
+    programs.find(|path| path.to_string_lossy().ends_with("retarget")).expect("retarget is among the programs")
+}
+
+#[test]
+fn it_dresses_where_nothing_is_installed() {
+    let Some(folder) = folder() else { return };
+    if done(Command::new("id").arg("-u")).trim() != "0" {
+        println!("SKIPPED: the folder to ship on a bare machine, for only root can change the root of a process");
+        return;
+    }
+    let machine = scratch("bare");
+    done(Command::new("cp").arg("-r").arg(folder).arg(machine.join("bespoke")));
+    // The loader by its own name, and what it finds for the program here that is of the system.
+    let listed = done(Command::new("ldd").arg(program(folder)));
+    let system = listed.lines().filter_map(|line| line.split_whitespace().find(|word| word.starts_with('/')));
+    let mut names = Vec::new();
+    for file in system.map(Path::new).filter(|file| !file.ends_with("libbespoke.so.1") && !file.starts_with(folder)) {
+        let name = file.file_name().expect("a file").to_string_lossy().into_owned();
+        let place = if name.starts_with("ld-") {
+            machine.join(&file.to_string_lossy()[1..])
+        } else {
+            machine.join("lib").join(&name)
+        };
+        fs::create_dir_all(place.parent().expect("a folder")).expect("a folder of the bare machine");
+        fs::copy(file, place).expect("a file of the system can be copied");
+        names.push(name);
+    }
+    names.sort();
+    assert_eq!(names, ["ld-linux-x86-64.so.2", "libc.so.6", "libgcc_s.so.1", "libm.so.6"]);
+    let options = inputs(&machine);
+    let inside = Path::new("/bespoke").join(program(folder).strip_prefix(folder).expect("it lies in the folder"));
+    // All that the loader reads of /proc: where the program lies, which is what $ORIGIN stands for.
+    fs::create_dir_all(machine.join("proc/self")).expect("a folder of the bare machine");
+    std::os::unix::fs::symlink(&inside, machine.join("proc/self/exe")).expect("a link to the program");
+    let mut command = Command::new("chroot");
+    command.arg(&machine).arg(inside).args(options).env_remove("LD_LIBRARY_PATH").current_dir(&machine);
+    done(&mut command);
+    let vertices = fs::read_to_string(machine.join("out.obj")).expect("the result").matches("v ").count();
+    assert_eq!(vertices, 108, "the result has the vertices of the garment");
+}

@@ -1,0 +1,16 @@
+/* Dresses one tube with a sleeve through a library that was opened by its path, as a host opens a plugin. */
+#ifndef BESPOKE_TESTS_DIST_TUBE_H
+#define BESPOKE_TESTS_DIST_TUBE_H
+
+#include <stdint.h>
+
+/* Opens the library at `path` with these flags of dlopen; ends the program where that fails. */
+void *tube_open(const char *path, int flags);
+
+/* Dresses, and says what came out: FNV-1a of the 32-bit coordinates. Ends the program where the library refuses. */
+uint64_t tube_dress(void *library);
+
+/* Ends the program with a sentence. */
+void tube_fail(const char *format, ...);
+
+#endif
