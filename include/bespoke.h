@@ -42,8 +42,8 @@
 // Process.  Nothing is shared but code: several plugins may use the library in one process, or bring a copy each. Signals,
 //   locale, environment, standard streams and allocator of the host are left alone; the floating-point mode of the calling
 //   thread (rounding, flushing of subnormal numbers, traps) is the default during a call, and as it was after it. Once
-//   loaded, the library stays until the process ends: dlclose is safe after all sessions are destroyed, and dlopen finds it
-//   again.
+//   loaded, the library stays until the process ends, and with it some sleeping threads of oneTBB: dlclose is safe after all
+//   sessions are destroyed, and dlopen finds it again.
 // Fork.  Not supported: a process that was forked cannot use the sessions of its parent (INVALID_STATE, and they stay
 //   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls are
 //   harmless there.

@@ -8,18 +8,21 @@ mod generator;
 mod library;
 mod mono;
 mod other_library;
+#[path = "../support/process.rs"]
+mod process;
 mod sample;
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use mono::{binding, program, run, scratch};
+use mono::{binding, program};
+use process::{root, scratch, succeed};
 
 /// Runs one case of Cases.cs with the library in this folder.
 fn case(name: &str, library: &Path) {
     if let Some(binding) = binding() {
-        run(program(&binding.join("Cases.exe"), library).arg(name).arg(sample::folder()));
+        succeed(program(&binding.join("Cases.exe"), library).arg(name).arg(sample::folder()));
     }
 }
 
@@ -49,7 +52,7 @@ const FURTHER_CASES: &[&str] = &["other_interface", "no_library"];
 #[test]
 fn every_case_is_run() {
     if let Some(binding) = binding() {
-        let listed = run(program(&binding.join("Cases.exe"), library::folder()).arg("--list"));
+        let listed = succeed(program(&binding.join("Cases.exe"), library::folder()).arg("--list"));
         let mut listed: Vec<&str> = listed.lines().collect();
         let mut run_here = [CASES, FURTHER_CASES].concat();
         listed.sort_unstable();
@@ -65,15 +68,14 @@ fn another_binary_interface_is_refused() {
 
 #[test]
 fn a_missing_library_is_the_exception_of_the_runtime() {
-    case("no_library", &scratch("no-library"));
+    case("no_library", &scratch("csharp-no-library"));
 }
 
 #[test]
 fn structs_numbers_and_functions_are_those_of_c() {
     if let Some(binding) = binding() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let files = ["tests/capi/layout.inc", "include/bespoke.h"].map(|file| root.join(file));
-        let said = run(program(&binding.join("Layout.exe"), library::folder()).args(files));
+        let files = ["tests/capi/layout.inc", "include/bespoke.h"].map(|file| root().join(file));
+        let said = succeed(program(&binding.join("Layout.exe"), library::folder()).args(files));
         assert!(said.contains(" structs, "), "{said}");
     }
 }
@@ -95,9 +97,10 @@ fn every_public_item_is_documented() {
 #[test]
 fn all_of_it_compiles_ahead_of_time() {
     if let Some(binding) = binding() {
-        let output = scratch("ahead").join("Bespoke.dll.so");
+        let output = scratch("csharp-ahead").join("Bespoke.dll.so");
         let mut mono = Command::new("mono");
-        let said = run(mono.arg(format!("--aot=full,outfile={}", output.display())).arg(binding.join("Bespoke.dll")));
+        let said =
+            succeed(mono.arg(format!("--aot=full,outfile={}", output.display())).arg(binding.join("Bespoke.dll")));
         let compiled =
             said.lines().find_map(|line| line.strip_prefix("Compiled: ")).and_then(|line| line.split_once('/'));
         let (done, all) = compiled.unwrap_or_else(|| panic!("no count in {said}"));
@@ -110,11 +113,11 @@ fn all_of_it_compiles_ahead_of_time() {
 #[test]
 fn example_dresses_files() {
     let Some(binding) = binding() else { return };
-    let folder = scratch("dress");
+    let folder = scratch("csharp-dress");
     let inputs = sample::write_obj(&folder);
     let dress = || program(&binding.join("Dress.exe"), library::folder());
     let output = folder.join("dressed.obj");
-    let said = run(dress().args(&inputs).arg(&output));
+    let said = succeed(dress().args(&inputs).arg(&output));
     for word in ["prepared", "inflate", "fit", "done", "verified, 0 + 0 intersections"] {
         assert!(said.contains(word), "{said}");
     }

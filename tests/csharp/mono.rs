@@ -1,39 +1,23 @@
 //! Debian's C# compiler and runtime.
 
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::OnceLock;
 
-/// An empty folder for one test.
-pub fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("csharp-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder for the test");
-    folder
-}
+use crate::process::{is_there, root, scratch, succeed};
 
 /// A folder with Bespoke.dll and all programs that use it, compiled without a warning. None, and a line that says so,
 /// where there is no mono.
 pub fn binding() -> Option<&'static Path> {
     static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
-    FOLDER.get_or_init(|| is_there("mcs").and_then(|()| is_there("mono")).map(|()| compile())).as_deref()
-}
-
-fn is_there(program: &str) -> Option<()> {
-    let tried = Command::new(program).arg("--version").stdout(Stdio::null()).status();
-    if let Err(reason) = &tried {
-        println!("SKIPPED: {program} cannot be run: {reason}");
-    }
-    tried.ok().map(|_| ())
+    FOLDER.get_or_init(|| (is_there("mcs") && is_there("mono")).then(compile)).as_deref()
 }
 
 fn compile() -> PathBuf {
-    let folder = scratch("binding");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let binding = root.join("bindings/csharp/Bespoke/*.cs").display().to_string();
+    let folder = scratch("csharp-binding");
+    let binding = root().join("bindings/csharp/Bespoke/*.cs").display().to_string();
     let tests = |names: &[&str]| -> Vec<String> {
-        names.iter().map(|name| root.join(format!("tests/csharp/{name}.cs")).display().to_string()).collect()
+        names.iter().map(|name| root().join(format!("tests/csharp/{name}.cs")).display().to_string()).collect()
     };
     // The binding alone has unsafe code; who uses it needs none.
     let documentation = format!("-doc:{}", folder.join("Bespoke.xml").display());
@@ -41,7 +25,7 @@ fn compile() -> PathBuf {
     let reference = format!("-r:{}", folder.join("Bespoke.dll").display());
     let cases = tests(&["Cases", "Check", "Inputs", "Dressing", "Errors", "Running", "Lifetime"]);
     mcs(&folder, "Cases.exe", &["-r:System.Core", &reference], &cases);
-    let example = root.join("bindings/csharp/Dress/*.cs").display().to_string();
+    let example = root().join("bindings/csharp/Dress/*.cs").display().to_string();
     mcs(&folder, "Dress.exe", &[&reference, &example], &[]);
     // Sees what is internal.
     mcs(&folder, "Layout.exe", &["-r:System.Core", "-unsafe", &binding], &tests(&["Layout", "Check"]));
@@ -51,7 +35,7 @@ fn compile() -> PathBuf {
 fn mcs(folder: &Path, name: &str, options: &[&str], sources: &[String]) {
     let mut command = Command::new("mcs");
     command.args(["-langversion:7.2", "-warnaserror+", "-warn:4"]).arg(format!("-out:{}", folder.join(name).display()));
-    run(command.args(options).args(sources));
+    succeed(command.args(options).args(sources));
 }
 
 /// A program that finds the library in this folder.
@@ -60,13 +44,4 @@ pub fn program(path: &Path, library: &Path) -> Command {
     command.env("LD_LIBRARY_PATH", library).env("DYLD_LIBRARY_PATH", library);
     command.arg("--debug").arg(path);
     command
-}
-
-/// What a program says that has to succeed.
-#[track_caller]
-pub fn run(command: &mut Command) -> String {
-    let output = command.output().expect("a program that is there");
-    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    assert!(output.status.success(), "{command:?}: {}\n{said}\n{complained}", output.status);
-    said
 }

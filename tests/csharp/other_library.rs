@@ -4,11 +4,11 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::mono::scratch;
+use crate::process::scratch;
 
 /// The folder with it.
 pub fn folder() -> PathBuf {
-    let folder = scratch("other-library");
+    let folder = scratch("csharp-other-library");
     let source = folder.join("other.c");
     let text = "unsigned bespoke_abi_version(void) { return 99; }\n\
                 const char *bespoke_version_text(void) { return \"9.9.9\"; }\n";

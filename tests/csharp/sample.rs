@@ -13,7 +13,7 @@ use glam::DVec3;
 use crate::generator::mesh::Mesh;
 use crate::generator::skeleton::BONES;
 use crate::generator::{Kind, Sample, sample};
-use crate::mono::scratch;
+use crate::process::scratch;
 
 static JACKET: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Jacket));
 static HEAVY: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Heavy));
@@ -23,7 +23,7 @@ static MANNEQUIN: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Mannequin));
 pub fn folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
-        let folder = scratch("sample");
+        let folder = scratch("csharp-sample");
         let write =
             |name: &str, bytes: Vec<u8>| fs::write(folder.join(name), bytes).expect("the folder can be written");
         write("garment.positions", points(&JACKET.mesh.positions));

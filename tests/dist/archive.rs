@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::bare::{inputs, program};
-use crate::shipped::{done, folder, root, scratch, there_is};
+use crate::process::{is_there, root, scratch, succeed};
+use crate::shipped::folder;
 
 #[test]
 fn every_part_comes_with_its_licence() {
@@ -26,7 +27,7 @@ fn every_part_comes_with_its_licence() {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tree = Command::new(cargo);
     tree.args(["tree", "--locked", "--edges", "normal", "--prefix", "none", "--format", "{p}"]);
-    let tree = done(tree.current_dir(root()));
+    let tree = succeed(tree.current_dir(root()));
     let mut count = 0;
     for line in tree.lines() {
         let mut words = line.split(' ');
@@ -80,7 +81,7 @@ fn headers_bindings_and_examples_are_those_of_the_project() {
 /// Runs a program in a folder with its inputs; it has to find the library on its own.
 fn dresses(program: &Path, place: &Path) {
     let options = inputs(place);
-    done(Command::new(program).args(options).current_dir(place).env_remove("LD_LIBRARY_PATH"));
+    succeed(Command::new(program).args(options).current_dir(place).env_remove("LD_LIBRARY_PATH"));
     assert!(place.join("out.obj").is_file(), "{} wrote nothing", program.display());
 }
 
@@ -92,33 +93,33 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn the_shipped_program_finds_its_library() {
     let Some(folder) = folder() else { return };
-    dresses(&program(folder), &scratch("program"));
+    dresses(&program(folder), &scratch("dist-program"));
 }
 
 #[test]
 fn the_example_is_built_with_pkg_config() {
     let Some(folder) = folder() else { return };
-    if !there_is("pkg-config", "the example with pkg-config") {
+    if !is_there("pkg-config") {
         return;
     }
-    let place = scratch("pkg-config");
+    let place = scratch("dist-pkg-config");
     let mut flags = Command::new("pkg-config");
     flags.args(["--cflags", "--libs", "bespoke"]).env("PKG_CONFIG_PATH", folder.join("lib/pkgconfig"));
-    let flags = done(&mut flags);
+    let flags = succeed(&mut flags);
     let example = place.join("example");
     let mut compile = Command::new("cc");
     compile.arg("-std=c99").args(sources(folder)).args(flags.split_whitespace()).arg("-lm").arg("-o").arg(&example);
-    done(compile.arg(format!("-Wl,-rpath,{}", folder.join("lib").display())));
+    succeed(compile.arg(format!("-Wl,-rpath,{}", folder.join("lib").display())));
     dresses(&example, &place);
 }
 
 #[test]
 fn the_example_is_built_with_cmake() {
     let Some(folder) = folder() else { return };
-    if !there_is("cmake", "the example with CMake") {
+    if !is_there("cmake") {
         return;
     }
-    let place = scratch("cmake");
+    let place = scratch("dist-cmake");
     let project = "cmake_minimum_required(VERSION 3.16)\n\
                    project(example C)\n\
                    find_package(Bespoke 0.1 REQUIRED)\n\
@@ -128,7 +129,7 @@ fn the_example_is_built_with_cmake() {
     fs::write(place.join("CMakeLists.txt"), project).expect("the project can be written");
     let mut configure = Command::new("cmake");
     configure.args(["-S", ".", "-B", "build"]).arg(format!("-DCMAKE_PREFIX_PATH={}", folder.display()));
-    done(configure.arg(format!("-DFOLDER={}", folder.display())).current_dir(&place));
-    done(Command::new("cmake").args(["--build", "build"]).current_dir(&place));
+    succeed(configure.arg(format!("-DFOLDER={}", folder.display())).current_dir(&place));
+    succeed(Command::new("cmake").args(["--build", "build"]).current_dir(&place));
     dresses(&place.join("build/example"), &place);
 }

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shipped::{done, folder, scratch};
+use crate::process::{scratch, succeed};
+use crate::shipped::folder;
 
 /// An open tube around the y axis and its skeleton, as OBJ.
 fn tube(radius: f64, reach: f64) -> String {
@@ -43,14 +44,14 @@ pub fn program(folder: &Path) -> PathBuf {
 #[test]
 fn it_dresses_where_nothing_is_installed() {
     let Some(folder) = folder() else { return };
-    if done(Command::new("id").arg("-u")).trim() != "0" {
+    if succeed(Command::new("id").arg("-u")).trim() != "0" {
         println!("SKIPPED: the folder to ship on a bare machine, for only root can change the root of a process");
         return;
     }
-    let machine = scratch("bare");
-    done(Command::new("cp").arg("-r").arg(folder).arg(machine.join("bespoke")));
+    let machine = scratch("dist-bare");
+    succeed(Command::new("cp").arg("-r").arg(folder).arg(machine.join("bespoke")));
     // The loader by its own name, and what it finds for the program here that is of the system.
-    let listed = done(Command::new("ldd").arg(program(folder)));
+    let listed = succeed(Command::new("ldd").arg(program(folder)));
     let system = listed.lines().filter_map(|line| line.split_whitespace().find(|word| word.starts_with('/')));
     let mut names = Vec::new();
     for file in system.map(Path::new).filter(|file| !file.ends_with("libbespoke.so.1") && !file.starts_with(folder)) {
@@ -73,7 +74,7 @@ fn it_dresses_where_nothing_is_installed() {
     std::os::unix::fs::symlink(&inside, machine.join("proc/self/exe")).expect("a link to the program");
     let mut command = Command::new("chroot");
     command.arg(&machine).arg(inside).args(options).env_remove("LD_LIBRARY_PATH").current_dir(&machine);
-    done(&mut command);
+    succeed(&mut command);
     let vertices = fs::read_to_string(machine.join("out.obj")).expect("the result").matches("v ").count();
     assert_eq!(vertices, 108, "the result has the vertices of the garment");
 }

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::process::{root, scratch, succeed};
 use crate::programs::{hash, run_host};
-use crate::shipped::{done, libraries, root, scratch};
+use crate::shipped::libraries;
 
 /// A TBB that a host may bring along.
 struct Tbb {
@@ -17,7 +18,7 @@ struct Tbb {
 }
 
 fn below(folder: &Path, name: &str) -> Option<PathBuf> {
-    let found = done(Command::new("find").arg(folder).args(["-name", name, "-print", "-quit"]));
+    let found = succeed(Command::new("find").arg(folder).args(["-name", name, "-print", "-quit"]));
     found.lines().next().map(PathBuf::from)
 }
 
@@ -40,14 +41,14 @@ fn tbbs() -> Vec<Tbb> {
 
 /// work.cpp, for this TBB.
 fn work(tbb: &Tbb) -> PathBuf {
-    let module = scratch(&format!("work-{}", tbb.version)).join("work.so");
+    let module = scratch(&format!("dist-work-{}", tbb.version)).join("work.so");
     let mut command = Command::new("c++");
     if let Some(headers) = &tbb.headers {
         command.arg("-isystem").arg(headers);
     }
     // The old headers use what C++17 has removed.
     command.args(["-std=c++14", "-O1", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]);
-    done(command.arg(root().join("tests/dist/work.cpp")).arg("-o").arg(&module));
+    succeed(command.arg(root().join("tests/dist/work.cpp")).arg("-o").arg(&module));
     module
 }
 
@@ -111,7 +112,7 @@ fn it_is_closed_and_opened_again() {
 /// The library and a copy of its file.
 fn copies(test: &str) -> Vec<(&'static str, PathBuf, PathBuf)> {
     let with_copy = |(name, library): (&'static str, PathBuf)| {
-        let copy = scratch(&format!("{test}-{name}")).join("libbespoke.so");
+        let copy = scratch(&format!("dist-{test}-{name}")).join("libbespoke.so");
         fs::copy(&library, &copy).expect("a copy of the library");
         // As it is called in the list of what is in memory.
         (name, library.canonicalize().expect("the library is there"), copy)

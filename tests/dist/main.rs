@@ -13,3 +13,5 @@ mod symbols;
 
 #[path = "../support/library.rs"]
 mod library;
+#[path = "../support/process.rs"]
+mod process;

@@ -4,14 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shipped::{done, folder, root};
+use crate::process::{root, succeed};
+use crate::shipped::folder;
 
 const SYSTEM: [&str; 6] =
     ["libc.so.6", "libm.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libdl.so.2", "libpthread.so.0"];
 
 /// The values of one entry of the dynamic section.
 fn dynamic(file: &Path, entry: &str) -> Vec<String> {
-    let text = done(Command::new("objdump").arg("-p").arg(file));
+    let text = succeed(Command::new("objdump").arg("-p").arg(file));
     let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(entry));
     lines.filter(|rest| rest.starts_with(' ')).map(|rest| rest.trim().to_owned()).collect()
 }
@@ -74,7 +75,7 @@ fn glibc_is_as_old_as_documented() {
     let (_, rest) = text.split_once("**glibc ").expect("docs/dist.md says which glibc");
     let documented = version(rest.split_once("**").expect("the version ends").0);
     for file in binaries() {
-        let symbols = done(Command::new("objdump").arg("-T").arg(&file));
+        let symbols = succeed(Command::new("objdump").arg("-T").arg(&file));
         let versions = symbols
             .split("GLIBC_")
             .skip(1)

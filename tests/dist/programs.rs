@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use crate::shipped::{done, root, scratch};
+use crate::process::{root, scratch, succeed};
 
 /// host.c: a process that loads the library as a plugin.
 pub fn host() -> &'static Path {
     static HOST: OnceLock<PathBuf> = OnceLock::new();
     HOST.get_or_init(|| {
-        let program = scratch("host").join("host");
+        let program = scratch("dist-host").join("host");
         let sources = ["tests/dist/host.c", "tests/dist/tube.c"].map(|source| root().join(source));
-        done(
+        succeed(
             Command::new("cc")
                 .args(["-std=gnu11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"])
                 .arg(root().join("include"))

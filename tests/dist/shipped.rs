@@ -6,18 +6,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use crate::library;
-
-pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// An empty folder for one test.
-pub fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("dist-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder for the test");
-    folder
-}
+use crate::process::{scratch, succeed};
 
 /// The folder to ship. An archive is unpacked elsewhere than where it was made.
 pub fn folder() -> Option<&'static Path> {
@@ -27,8 +16,8 @@ pub fn folder() -> Option<&'static Path> {
         if given.is_dir() {
             return Some(given);
         }
-        let place = scratch("unpacked");
-        done(Command::new("tar").arg("-xzf").arg(&given).arg("-C").arg(&place));
+        let place = scratch("dist-unpacked");
+        succeed(Command::new("tar").arg("-xzf").arg(&given).arg("-C").arg(&place));
         let mut entries = fs::read_dir(&place).expect("the unpacked archive");
         let only = entries.next().expect("the archive holds something").expect("an entry").path();
         assert!(entries.next().is_none(), "{} holds more than one folder", given.display());
@@ -45,22 +34,4 @@ pub fn libraries() -> Vec<(&'static str, PathBuf)> {
     let mut libraries = vec![("built", library::folder().join("libbespoke.so"))];
     libraries.extend(folder().map(|folder| ("shipped", folder.join("lib/libbespoke.so"))));
     libraries
-}
-
-/// What a program printed that has to end well.
-#[track_caller]
-pub fn done(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|reason| panic!("{command:?} cannot be run: {reason}"));
-    let (text, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{command:?}: {}\n{text}{errors}", output.status);
-    text.into_owned()
-}
-
-/// Whether there is such a program; says what is skipped where there is none.
-pub fn there_is(program: &str, what: &str) -> bool {
-    let there = Command::new(program).arg("--version").output().is_ok();
-    if !there {
-        println!("SKIPPED: {what}, for there is no {program}");
-    }
-    there
 }

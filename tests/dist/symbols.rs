@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use crate::shipped::{done, folder, libraries, root};
+use crate::process::{root, succeed};
+use crate::shipped::{folder, libraries};
 
 /// The pinned list: tests/dist/symbols.txt, one name a line.
 fn pinned() -> BTreeSet<String> {
@@ -30,7 +31,7 @@ fn the_list_is_what_the_header_declares() {
 #[test]
 fn nothing_else_is_exported() {
     for (name, library) in libraries() {
-        let listed = done(Command::new("nm").args(["--dynamic", "--defined-only", "--format=posix"]).arg(&library));
+        let listed = succeed(Command::new("nm").args(["--dynamic", "--defined-only", "--format=posix"]).arg(&library));
         let mut exported = BTreeSet::new();
         for line in listed.lines() {
             let mut words = line.split(' ');
@@ -49,7 +50,7 @@ fn nothing_else_is_exported() {
 fn nothing_of_the_host_is_asked_for() {
     let Some(folder) = folder() else { return };
     let library = folder.join("lib/libbespoke.so");
-    let listed = done(Command::new("nm").args(["--dynamic", "--undefined-only", "--format=posix"]).arg(&library));
+    let listed = succeed(Command::new("nm").args(["--dynamic", "--undefined-only", "--format=posix"]).arg(&library));
     // What every compiler asks for in case that somebody profiles or has transactional memory.
     let usual = ["__gmon_start__", "_ITM_deregisterTMCloneTable", "_ITM_registerTMCloneTable"];
     for symbol in listed.lines().filter_map(|line| line.split(' ').next()) {

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::prefix::{command, folder, install, is_there, library_file, library_name, root, succeed};
+use crate::prefix::{command, folder, install, library_file, library_name};
+use crate::process::{is_there, root, succeed};
 
 /// A place with the sources of the foreign project, and a prefix that lies elsewhere than where it was installed.
 struct Place {

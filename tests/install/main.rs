@@ -10,3 +10,5 @@ mod versions;
 
 #[path = "../support/library.rs"]
 mod library;
+#[path = "../support/process.rs"]
+mod process;

@@ -7,35 +7,11 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 use crate::library;
-
-pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+use crate::process::{root, scratch, succeed};
 
 /// An empty folder for one test, with a blank in its name.
 pub fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("install of {test}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder for the test");
-    folder
-}
-
-/// What this program said, where it ended well.
-#[track_caller]
-pub fn succeed(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|reason| panic!("{command:?}: {reason}"));
-    let (said, complained) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{command:?} ended with {}\n{said}\n{complained}", output.status);
-    said.into_owned()
-}
-
-/// Whether the program is on this machine; `make test` installs those that the tests need.
-pub fn is_there(program: &str) -> bool {
-    let is_there = Command::new(program).arg("--version").output().is_ok();
-    if !is_there {
-        println!("SKIPPED: there is no {program}");
-    }
-    is_there
+    scratch(&format!("install of {test}"))
 }
 
 /// A command that knows of no library, prefix or package but those it is told about.
