@@ -19,5 +19,9 @@ mod threads;
 
 #[path = "../support/library.rs"]
 mod library;
+#[path = "../support/obj_text.rs"]
+mod obj_text;
+#[path = "../support/process.rs"]
+mod process;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,7 +1,8 @@
 //! The committed header as a manual: nothing in it is without a comment, and no function without what its callers ask.
 
 use std::fs;
-use std::path::Path;
+
+use crate::process::root;
 
 /// One documented thing of the header: the comment above it, without its marks, and its text up to `;`, `,` or the end of
 /// the line.
@@ -11,7 +12,7 @@ struct Entry {
 }
 
 fn header() -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/bespoke.h");
+    let path = root().join("include/bespoke.h");
     fs::read_to_string(path).expect("include/bespoke.h is committed")
 }
 
@@ -59,8 +60,7 @@ fn every_function_field_and_constant_has_a_comment() {
     // Nothing was overlooked: as many entries as other ways of counting find.
     let count = |found: fn(&str) -> bool| header.lines().filter(|line| found(line.trim())).count();
     let functions = entries.iter().filter(|entry| entry.text.contains('(')).count();
-    let layout = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/capi/layout.inc"))
-        .expect("the layout is committed");
+    let layout = fs::read_to_string(root().join("tests/capi/layout.inc")).expect("the layout is committed");
     let pinned = |mark: &str| layout.lines().filter(|line| line.starts_with(mark)).count();
     assert_eq!(functions, count(|line| line.contains("bespoke_") && line.contains('(') && !line.starts_with('/')));
     let enums = count(|line| line.starts_with("enum "));

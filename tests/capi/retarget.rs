@@ -11,6 +11,8 @@ use std::sync::OnceLock;
 
 use crate::caller::Sample;
 use crate::library;
+use crate::obj_text::obj;
+use crate::process::{root, scratch};
 
 fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
@@ -18,15 +20,14 @@ fn program() -> &'static Path {
         if let Some(path) = std::env::var_os("BESPOKE_RETARGET") {
             return path.into();
         }
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let library = library::folder();
         let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("retarget");
-        let sources = fs::read_dir(root.join("examples_c")).expect("examples_c exists");
+        let sources = fs::read_dir(root().join("examples_c")).expect("examples_c exists");
         let sources =
             sources.map(|entry| entry.expect("an entry").path()).filter(|p| p.extension() == Some("c".as_ref()));
         let output = Command::new("cc")
             .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"])
-            .arg(root.join("include"))
+            .arg(root().join("include"))
             .args(sources)
             .arg("-o")
             .arg(&program)
@@ -54,10 +55,7 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("retarget-{name}"));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("a folder for the test");
-        let (this, sample) = (Self(folder), Sample::new());
+        let (this, sample) = (Self(scratch(&format!("retarget-{name}"))), Sample::new());
         this.write("g.obj", &obj(&sample.garment.0, &sample.garment.1, &[]));
         this.write("a.obj", &obj(&sample.avatar.0, &sample.avatar.1, &[]));
         this.write("s.obj", &obj(&sample.source_joints, &[], &sample.bones));
@@ -116,16 +114,6 @@ impl Folder {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     }
-}
-
-fn obj(vertices: &[[f32; 3]], triangles: &[[u32; 3]], bones: &[[u32; 2]]) -> String {
-    let lines = |key: &str, rows: Vec<Vec<String>>| -> String {
-        rows.iter().map(|row| format!("{key} {}\n", row.join(" "))).collect()
-    };
-    let next = |v: &u32| (v + 1).to_string();
-    lines("v", vertices.iter().map(|p| p.iter().map(f32::to_string).collect()).collect())
-        + &lines("f", triangles.iter().map(|t| t.iter().map(next).collect()).collect())
-        + &lines("l", bones.iter().map(|b| b.iter().map(next).collect()).collect())
 }
 
 #[test]

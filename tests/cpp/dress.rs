@@ -14,7 +14,8 @@ use bespoke::verify::intersections;
 use glam::DVec3;
 
 use crate::caller::{Caller, Mesh, Sample, tube};
-use crate::{CLANG, CLANG_20, CLANG_WITHOUT, Flavour, GCC, GCC_20, GCC_WITHOUT, command, root};
+use crate::process::{root, scratch};
+use crate::{CLANG, CLANG_20, CLANG_WITHOUT, Flavour, GCC, GCC_20, GCC_WITHOUT, command};
 
 fn dress(flavour: &Flavour) -> Option<PathBuf> {
     flavour.compile("dress", &[root().join("bindings/cpp/dress.cpp")], &root().join("include"))
@@ -47,10 +48,7 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str, sample: &Sample) -> Self {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cpp-files-{name}"));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("a folder for the test");
-        let this = Self(folder);
+        let this = Self(scratch(&format!("cpp-files-{name}")));
         this.write("garment.obj", &format!("# a garment\no coat\n{}", mesh(&sample.garment)));
         this.write("avatar.obj", &mesh(&sample.avatar));
         this.write("skeleton.obj", &(vertices(&sample.source_joints) + "l 1 2\nl 2 3\n"));

@@ -8,9 +8,13 @@ mod header;
 mod caller;
 #[path = "../support/library.rs"]
 mod library;
+#[path = "../support/process.rs"]
+mod process;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+
+use process::root;
 
 /// Warnings that a program may ask for, and has to get none.
 const WARNINGS: &[&str] = &[
@@ -97,10 +101,6 @@ impl Flavour {
             assert!(said.starts_with(sentence), "{}: {mistake}: {said}", self.name);
         }
     }
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 /// Runs a program as a shell would, whatever this process was told about Ctrl-C.

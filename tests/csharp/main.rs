@@ -7,6 +7,8 @@ mod generator;
 #[path = "../support/library.rs"]
 mod library;
 mod mono;
+#[path = "../support/obj_text.rs"]
+mod obj_text;
 mod other_library;
 #[path = "../support/process.rs"]
 mod process;

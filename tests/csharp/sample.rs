@@ -13,6 +13,7 @@ use glam::DVec3;
 use crate::generator::mesh::Mesh;
 use crate::generator::skeleton::BONES;
 use crate::generator::{Kind, Sample, sample};
+use crate::obj_text::obj;
 use crate::process::scratch;
 
 static JACKET: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Jacket));
@@ -97,16 +98,9 @@ pub fn plainly_dressed() -> Vec<f32> {
 
 /// Garment, source skeleton, avatar and target skeleton as OBJ files; every 32-bit number survives.
 pub fn write_obj(folder: &Path) -> Vec<PathBuf> {
-    let line = |key: &str, elements: &[u32]| {
-        elements.iter().fold(key.to_string(), |line, v| format!("{line} {}", v + 1)) + "\n"
-    };
-    let vertices = |points: &[DVec3]| -> String {
-        points.iter().map(|p| p.as_vec3()).map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)).collect()
-    };
-    let mesh =
-        |mesh: &Mesh| vertices(&mesh.positions) + &mesh.triangles.iter().map(|t| line("f", t)).collect::<String>();
-    let bones =
-        |sample: &Sample| vertices(&sample.skeleton.joints) + &BONES.iter().map(|b| line("l", b)).collect::<String>();
+    let rounded = |points: &[DVec3]| -> Vec<_> { points.iter().map(|p| p.as_vec3().to_array()).collect() };
+    let mesh = |mesh: &Mesh| obj(&rounded(&mesh.positions), &mesh.triangles, &[]);
+    let bones = |sample: &Sample| obj(&rounded(&sample.skeleton.joints), &[], &BONES);
     let files = [
         ("garment.obj", mesh(&JACKET.mesh)),
         ("source.obj", bones(&JACKET)),

@@ -4,30 +4,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::caller::tube;
+use crate::obj_text::obj;
 use crate::process::{scratch, succeed};
 use crate::shipped::folder;
 
-/// An open tube around the y axis and its skeleton, as OBJ.
-fn tube(radius: f64, reach: f64) -> String {
-    let (around, rings) = (12, 9);
-    let mut text = String::new();
-    for k in 0..rings * around {
-        let angle = f64::from(k % around) / f64::from(around) * std::f64::consts::TAU;
-        let y = reach * (2.0 * f64::from(k / around) / f64::from(rings - 1) - 1.0);
-        text += &format!("v {} {y} {}\n", radius * angle.sin(), radius * angle.cos());
-    }
-    for k in 0..(rings - 1) * around {
-        let next = k / around * around + (k + 1) % around;
-        let [a, b, c, d] = [k + 1, next + 1, next + around + 1, k + around + 1];
-        text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
-    }
-    text
-}
-
 /// Writes what the program reads, and says its options for it.
 pub fn inputs(place: &Path) -> [&'static str; 12] {
-    fs::write(place.join("g.obj"), tube(0.3, 0.55)).expect("the garment can be written");
-    fs::write(place.join("a.obj"), tube(0.4, 0.9)).expect("the avatar can be written");
+    for (name, radius, reach) in [("g.obj", 0.3, 0.55), ("a.obj", 0.4, 0.9)] {
+        let (points, triangles) = tube(radius, -reach, reach, 12, 9);
+        fs::write(place.join(name), obj(&points, &triangles, &[])).expect("the mesh can be written");
+    }
     fs::write(place.join("s.obj"), "v 0 -1 0\nv 0 0 0\nv 0 1 0\nl 1 2\nl 2 3\n").expect("the skeleton can be written");
     let skeletons = ["--source-skeleton", "s.obj", "--target-skeleton", "s.obj"];
     let [a, b, c, d] = skeletons;

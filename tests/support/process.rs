@@ -1,4 +1,5 @@
 //! Programs that tests run, and where.
+#![allow(dead_code)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

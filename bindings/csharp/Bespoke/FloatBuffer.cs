@@ -94,9 +94,7 @@ namespace Bespoke
 
         internal unsafe NativeBuffer Pinned(byte* pinned, int width, string what)
         {
-            // A buffer that was never set is an empty one.
-            Shape known = Bytes.IsEmpty && shape.Component == 0 ? Shape.Packed(Component.F32) : shape;
-            return known.Buffer(pinned, Bytes.Length, width, what);
+            return shape.Or(Component.F32).Buffer(pinned, Bytes.Length, width, what);
         }
     }
 }

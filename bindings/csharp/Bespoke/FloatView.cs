@@ -108,9 +108,7 @@ namespace Bespoke
 
         internal unsafe NativeView Pinned(byte* pinned, int width, string what)
         {
-            // A view that was never set is an empty one.
-            Shape known = Bytes.IsEmpty && shape.Component == 0 ? Shape.Packed(Component.F32) : shape;
-            return known.View(pinned, Bytes.Length, width, what);
+            return shape.Or(Component.F32).View(pinned, Bytes.Length, width, what);
         }
 
         // Whether number `place` of element `index` is there and 0.

@@ -151,7 +151,7 @@ namespace Bespoke
 
         internal unsafe NativeView Pinned(byte* pinned, int width, string what)
         {
-            return Known.View(pinned, Bytes.Length, width, what);
+            return shape.Or(Component.U32).View(pinned, Bytes.Length, width, what);
         }
 
         // For a view that Pinned has passed. The library would take a negative index for a very large one, and name
@@ -176,12 +176,6 @@ namespace Bespoke
                     }
                 }
             }
-        }
-
-        // A view that was never set is an empty one.
-        private Shape Known
-        {
-            get { return Bytes.IsEmpty && shape.Component == 0 ? Shape.Packed(Component.U32) : shape; }
         }
     }
 }

@@ -31,6 +31,12 @@ namespace Bespoke
             return new Shape(component, MemoryMarshal.AsBytes(new ReadOnlySpan<T>(new T[1])).Length, offset);
         }
 
+        // The same; packed numbers of this type for a view that was never set, which is an empty one.
+        internal Shape Or(Component component)
+        {
+            return Component == 0 ? Packed(component) : this;
+        }
+
         internal int NumberSize
         {
             get { return Component == Component.U16 ? 2 : Component == Component.F64 ? 8 : 4; }
