@@ -16,6 +16,7 @@ pub mod contact;
 pub mod control;
 pub mod energy;
 pub mod error;
+pub mod geometry;
 pub mod input;
 pub mod memory;
 pub mod options;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use bespoke::control::Cancel;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
@@ -14,7 +14,7 @@ use bespoke::solver::newton::{Model, Newton, State};
 use bespoke::stage::fit::Settling;
 use bespoke::stage::inflate::Inflation;
 use bespoke::stage::objective::Objective;
-use bespoke::stage::problem::{Inputs, Problem};
+use bespoke::stage::setup::problem::{Inputs, Problem};
 use glam::DVec3;
 
 use crate::generator::skeleton::BONES;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use bespoke::control::Stage;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::weld::Weld;
 use bespoke::session::{Options, Precision, Report, Session};
 use bespoke::solver::profile::Profile;

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-use bespoke::input::mesh::{Topology, TriangleMesh};
+use bespoke::geometry::mesh::{Topology, TriangleMesh};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;

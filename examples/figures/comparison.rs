@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use bespoke::energy::distortion::distortion;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::verify::intersections;
 

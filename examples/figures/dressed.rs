@@ -1,6 +1,6 @@
 //! A garment put on a body, perhaps over others.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Report};
 

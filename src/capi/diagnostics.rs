@@ -6,7 +6,7 @@ use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
 use crate::capi::text;
 use crate::capi::view::invalid;
-use crate::input::diagnosis::{Element, ElementKind, Finding, FindingKind, Severity, Subject};
+use crate::input::diagnostic::{Element, ElementKind, Finding, FindingKind, Severity, Subject};
 
 /// Bytes of the sentence in BespokeDiagnostic, its zero byte included.
 pub const BESPOKE_SENTENCE_SIZE: usize = 512;

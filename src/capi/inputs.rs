@@ -6,10 +6,10 @@ use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, BespokeView, invalid};
 use crate::error::Result;
 use crate::input::buffer;
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
-use crate::input::space::{Axis, Space, Winding};
+use crate::input::coordinate_system::{Axis, Space, Winding};
 use crate::session::Precision;
 
 /// The mesh, and the precision of its positions.

@@ -16,7 +16,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::Motion;
-use super::candidates::{CandidateSet, Class};
+use super::candidate_set::{CandidateSet, Class};
 use super::distance::Kind;
 
 /// The fraction of its gap above the floor that a pair keeps in one step.

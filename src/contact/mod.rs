@@ -5,18 +5,19 @@
 //! barrier term keeps them apart. Two primitives of the avatar never make a pair.
 
 pub mod bodies;
-pub mod bvh;
-pub mod candidates;
+pub mod broad_phase;
+pub mod candidate_set;
 pub mod ccd;
 pub mod distance;
+pub mod exempt_pairs;
 pub mod mollifier;
-pub mod neighbours;
+pub mod one_ring;
 pub mod surface;
 mod swept;
-pub mod tangle;
 
 pub use bodies::{Avatar, Bodies, Configuration, Garment, Motion, Step};
-pub use candidates::{BroadPhase, CandidateSet, Class};
+pub use broad_phase::BroadPhase;
+pub use candidate_set::{CandidateSet, Class};
 pub use distance::Kind;
+pub use exempt_pairs::Tangle;
 pub use surface::Surface;
-pub use tangle::Tangle;

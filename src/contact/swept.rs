@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::Motion;
-use super::bvh::{Aabb, Bvh};
+use crate::geometry::bvh::{Aabb, Bvh};
 use super::surface::Surface;
 use crate::memory::bytes;
 

@@ -26,12 +26,12 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::frame::{Carried, least_squares};
+use super::triangle_frame::{Carried, least_squares};
 use super::{Configuration, Energy, Sink};
-use crate::input::diagnosis::{self, Finding, FindingKind, Severity, Subject};
-use crate::input::mesh::{NO_PIECE, TriangleMesh, label_pieces};
+use crate::input::diagnostic::{self, Finding, FindingKind, Severity, Subject};
+use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces};
 use crate::memory::bytes;
-use crate::sdf::closest_point::ClosestPoint;
+use crate::geometry::closest_point::ClosestPoint;
 
 /// A loose piece has at most this fraction of its host's area.
 const SMALL: f64 = 0.25;
@@ -155,12 +155,12 @@ impl Attachment {
                  triangle {host}",
                 piece.vertices.len()
             );
-            let elements = [triangle, host].map(|t| diagnosis::Element::triangle(Subject::Garment, t));
+            let elements = [triangle, host].map(|t| diagnostic::Element::triangle(Subject::Garment, t));
             let finding = Finding::new(FindingKind::LoosePiece, Severity::Note, &elements, sentence);
             Finding { distance: piece.distance, ..finding }
         };
         let mut findings = Vec::new();
-        diagnosis::describe(&mut findings, &self.pieces, finding, "loose pieces of the garment are held");
+        diagnostic::describe(&mut findings, &self.pieces, finding, "loose pieces of the garment are held");
         findings
     }
 }

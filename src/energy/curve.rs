@@ -18,7 +18,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::{Configuration, Direction, Energy, Sink};
-use crate::input::mesh::BoundaryLoop;
+use crate::geometry::mesh::BoundaryLoop;
 use crate::memory::bytes;
 
 /// A chain of garment edges.

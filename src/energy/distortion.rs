@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::surface::l_surf;
-use crate::input::mesh::Topology;
+use crate::geometry::mesh::Topology;
 
 /// For each of `triangles`, the mean over its hinges of `|tau1 x - tau2 x|^2` of Eq. 2, in the form that is free for any
 /// similarity, over the ratio of the garment's area at `x` to that at `rest`. So it is 0 for any similarity of the garment as

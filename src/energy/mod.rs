@@ -10,12 +10,12 @@ pub mod barrier;
 pub mod curve;
 pub mod distortion;
 pub mod fit;
-mod frame;
 pub mod inflation;
 pub mod pin;
 pub mod position;
 pub mod rigid;
 pub mod surface;
+mod triangle_frame;
 
 use std::ops::Range;
 

@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::{Configuration, Direction, Energy, Sink};
-use crate::input::guide::Guide;
+use crate::stage::setup::loop_axis::Guide;
 use crate::memory::bytes;
 
 /// A guide whose squared length falls below this has no direction, and no say.

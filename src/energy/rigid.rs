@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::frame::{Carried, least_squares};
+use super::triangle_frame::{Carried, least_squares};
 use super::{Configuration, Energy, Row, Sink};
 use crate::memory::bytes;
 

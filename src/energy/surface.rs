@@ -16,20 +16,11 @@ use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-use super::frame::{Normal, coefficients, least_squares, outer, scaled_cross};
+pub use super::triangle_frame::SurfaceForm;
+use super::triangle_frame::{Normal, coefficients, least_squares, outer, scaled_cross};
 use super::{Configuration, Energy, Sink};
-use crate::input::mesh::{Hinge, has_area};
+use crate::geometry::mesh::{Hinge, has_area};
 use crate::memory::bytes;
-
-/// How the normal of a triangle's frame grows with the triangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SurfaceForm {
-    /// Like an edge: any similarity of the rest shape costs nothing, uniform scale included.
-    #[default]
-    Similarity,
-    /// Like an area, as the paper prints it: a uniform scale costs wherever the rest shape is bent.
-    Printed,
-}
 
 /// One hinge: its vertices and what is known from the rest shape.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +87,7 @@ impl Surface {
     /// The term for a garment with vertices `rest` and `hinges` between its triangles.
     ///
     /// A hinge with a rest triangle without area, or with both opposite corners in one place, gets no element. So hinges
-    /// must come from triangles without caps (see [`crate::input::cap`]), else the surface is torn there.
+    /// must come from triangles without caps (see [`crate::geometry::sliver_caps`]), else the surface is torn there.
     pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
         let elements: Vec<Element> = hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect();
         let degenerate_count = hinges.len() - elements.len();

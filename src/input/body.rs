@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::diagnosis::{Element, Subject};
-use super::mesh::TriangleMesh;
+use super::diagnostic::{Element, Subject};
+use crate::geometry::mesh::TriangleMesh;
 use crate::error::{Error, ErrorKind, Result};
 
 /// An avatar with its layers: garments that it wears already, and that count as a part of it.

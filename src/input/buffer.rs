@@ -169,7 +169,7 @@ unsafe fn read_index_tuples(view: &IndicesView, width: usize, what: &str) -> Res
 
 /// Reads positions of three coordinates each. `what` names the array in the sentence ("garment positions").
 ///
-/// Values are not judged here: NaN is for [`TriangleMesh::check`](super::mesh::TriangleMesh::check) to find.
+/// Values are not judged here: NaN is for [`TriangleMesh::check`](crate::geometry::mesh::TriangleMesh::check) to find.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidArgument`]: a null pointer with a count, a count above `u32::MAX`, a stride smaller than an

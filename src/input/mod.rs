@@ -2,13 +2,12 @@
 
 pub mod body;
 pub mod buffer;
-pub mod cap;
-pub mod diagnosis;
-pub mod guide;
-pub mod mesh;
+pub mod coordinate_system;
+pub mod diagnostic;
+mod mesh;
+pub mod precision;
 pub mod skeleton;
 pub mod skin;
-pub mod space;
 pub mod weld;
 
 use glam::DVec3;

@@ -1,7 +1,7 @@
 //! Split vertices and welded ones: a garment as a modelling tool stores it, and as the one surface that it is.
 
-use super::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
-use super::mesh::{TriangleMesh, has_area};
+use super::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::geometry::mesh::{TriangleMesh, has_area};
 
 /// A garment whose vertices in one place are one vertex, and the way back to the caller's indices.
 ///

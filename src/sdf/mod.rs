@@ -16,7 +16,6 @@
 //! that are its own to the last digits.
 
 mod block;
-pub mod closest_point;
 mod spline;
 pub mod volume;
 
@@ -26,10 +25,10 @@ use std::sync::atomic::AtomicBool;
 use glam::{DMat3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::mesh::TriangleMesh;
-use crate::simd::{Four, Kernel, dispatch};
+use crate::geometry::mesh::TriangleMesh;
+use crate::simd::four::{Four, Kernel, dispatch};
 use block::{Block, Known, SIDE};
-use closest_point::ClosestPoint;
+use crate::geometry::closest_point::ClosestPoint;
 use volume::{BLOCK, Volume};
 
 /// Blocks that have a place to be stored, at most: 32 MB for the places themselves.

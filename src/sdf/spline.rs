@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::simd::Four;
+use crate::simd::four::Four;
 
 /// The four basis functions, or one of their derivatives, at a place in a cell.
 type Weights = [f64; 4];

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Instant;
 
+use super::context::Context;
 use super::fault::Fault;
-use super::work::Context;
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::panics::recorded;
 use crate::sdf::{Field, FieldOptions};
 

@@ -5,19 +5,10 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::Session;
-use super::inputs::Inputs;
+use super::inputs::{Inputs, Pin};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::weld::Weld;
-use crate::stage::pins::AskedPin;
-
-/// A garment vertex that is held in a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
-    /// The vertex.
-    pub vertex: u32,
-    /// Its place in the target space; none: where it was designed, carried along with the bone beside it.
-    pub place: Option<DVec3>,
-}
+use crate::stage::setup::pin_targets::AskedPin;
 
 impl Session {
     /// Garment vertices to hold in places; replaces those before. Optional.

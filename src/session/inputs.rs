@@ -2,20 +2,31 @@
 
 use std::sync::Arc;
 
-use super::fit_controls::Pin;
-use super::{Precision, Session, Stage};
+use glam::DVec3;
+
+use super::{Session, Stage};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
-use crate::input::diagnosis::Finding;
-use crate::input::mesh::TriangleMesh;
+use crate::input::precision::Precision;
+use crate::input::diagnostic::Finding;
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
-use crate::input::space::Space;
+use crate::input::coordinate_system::Space;
 use crate::input::weld::Weld;
 use crate::memory::{Sizes, bytes};
 use crate::options::Options;
-use crate::stage::problem::{Inputs as Posed, Problem};
+use crate::stage::setup::problem::{Inputs as Posed, Problem};
+
+/// A garment vertex that is held in a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pin {
+    /// The vertex.
+    pub vertex: u32,
+    /// Its place in the target space; none: where it was designed, carried along with the bone beside it.
+    pub place: Option<DVec3>,
+}
 
 /// Everything that can be set, in the caller's own spaces.
 #[derive(Clone, Default)]

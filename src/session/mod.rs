@@ -3,14 +3,15 @@
 //! What takes long is done by jobs in the session's own threads, one after the other, which own what they work on. What
 //! can be read is kept apart from them: it is replaced after each iteration, and stays when a job is left.
 
+mod context;
 mod fault;
 mod field_task;
 mod fit_controls;
 mod inputs;
-mod job;
-mod judgement;
-mod view;
-mod work;
+mod worker_pool;
+mod verification;
+mod snapshot;
+mod run;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -21,59 +22,20 @@ use glam::DVec3;
 pub use crate::control::Stage;
 use crate::control::{Cancel, Control, MAX_TERMS, Progress, cancelled};
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::diagnosis::Finding;
-use crate::input::mesh::TriangleMesh;
+use crate::input::diagnostic::Finding;
+pub use crate::input::precision::Precision;
 pub use crate::options::Options;
 use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
 #[doc(hidden)]
 pub use fault::Fault;
-pub use fit_controls::Pin;
+use context::Context;
 use inputs::Inputs;
-use job::Pool;
-use judgement::Judgement;
-use view::View;
-use work::{Context, Work};
-
-/// Floating-point format of a caller's positions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Precision {
-    /// 32-bit.
-    #[default]
-    F32,
-    /// 64-bit.
-    F64,
-}
-
-impl Precision {
-    /// `p` as a caller reads it who stores this format.
-    pub fn round(self, p: DVec3) -> DVec3 {
-        match self {
-            Self::F32 => p.as_vec3().as_dvec3(),
-            Self::F64 => p,
-        }
-    }
-
-    fn other(self) -> Self {
-        match self {
-            Self::F32 => Self::F64,
-            Self::F64 => Self::F32,
-        }
-    }
-
-    /// The most that a coordinate is moved where a result on the body `avatar` is stored in this format, in its unit.
-    fn error_near(self, avatar: &TriangleMesh) -> f64 {
-        let corners = avatar.triangles.iter().flatten().map(|&v| avatar.positions[v as usize]);
-        let (low, high) = corners.fold((DVec3::MAX, DVec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
-        // A garment may reach beyond the body.
-        let largest = low.abs().max(high.abs()).max_element() + (high - low).max_element();
-        match self {
-            Self::F32 => 0.5 * largest * f64::from(f32::EPSILON),
-            // What is computed in 64 bits is rounded on its way, too.
-            Self::F64 => 4.0 * largest * f64::EPSILON,
-        }
-    }
-}
+pub use inputs::Pin;
+use worker_pool::Pool;
+use verification::Judgement;
+use snapshot::View;
+use run::Work;
 
 /// How much a call of [`Session::step`] may do; 0 is no limit. At least one iteration is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

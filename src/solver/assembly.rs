@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::Term;
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
-use super::tape::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
+use super::element_buffer::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::memory::bytes;

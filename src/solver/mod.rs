@@ -9,7 +9,7 @@ pub mod line_search;
 pub mod newton;
 pub mod pattern;
 pub mod profile;
-mod tape;
+mod element_buffer;
 
 use crate::energy::Energy;
 

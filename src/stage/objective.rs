@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use super::rounding::Gaps;
-use crate::contact::tangle::triangle_pairs_of;
+use super::contact_distances::Gaps;
+use crate::contact::exempt_pairs::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
 use crate::control::Cancel;
 use crate::energy::Energy as _;
@@ -20,7 +20,7 @@ use crate::energy::position::Position;
 use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::error::Result;
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::memory::MemoryLimit;
 use crate::options::Options;
 use crate::solver::Term;

@@ -8,7 +8,7 @@ use bespoke::capi::running::*;
 use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus::{InvalidArgument, InvalidMesh, InvalidState};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent, BespokeView};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 

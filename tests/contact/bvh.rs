@@ -1,4 +1,4 @@
-use bespoke::contact::bvh::{Aabb, Bvh};
+use bespoke::geometry::bvh::{Aabb, Bvh};
 use glam::DVec3;
 
 use crate::support::Random;

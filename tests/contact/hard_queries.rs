@@ -3,7 +3,7 @@
 
 use bespoke::contact::Kind;
 use bespoke::contact::ccd::pair_step;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::{DMat3, DVec3};
 

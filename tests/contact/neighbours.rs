@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use bespoke::contact::Surface;
-use bespoke::contact::neighbours::Neighbours;
+use bespoke::contact::one_ring::Neighbours;
 
 use crate::scene::{grid, soup, sphere};
 use crate::support::Random;

@@ -1,11 +1,11 @@
 //! What may be let off the barrier, against its definition; and that nothing outside a tangle ever gets into one.
 
 use bespoke::contact::ccd::max_step;
-use bespoke::contact::tangle::triangle_pairs_of;
+use bespoke::contact::exempt_pairs::triangle_pairs_of;
 use bespoke::contact::{
     Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface, Tangle,
 };
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::{intersecting, intersections};
 use glam::DVec3;
 

@@ -9,7 +9,7 @@ use std::ptr::null_mut;
 use bespoke::capi::results::bespoke_session_read_garment_vertices;
 use bespoke::capi::running::bespoke_session_run;
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bespoke::energy::attachment::Attachment;
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::diagnosis::{Element, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};

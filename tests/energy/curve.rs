@@ -2,7 +2,7 @@
 
 use bespoke::energy::curve::{Curvature, Polyline, Torsion};
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::mesh::BoundaryLoop;
+use bespoke::geometry::mesh::BoundaryLoop;
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};

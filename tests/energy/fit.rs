@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use bespoke::energy::fit::{Clearance, Fit};
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 

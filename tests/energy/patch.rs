@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use bespoke::input::mesh::Hinge;
+use bespoke::geometry::mesh::Hinge;
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::support::Random;

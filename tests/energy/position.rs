@@ -2,7 +2,7 @@
 
 use bespoke::energy::position::Position;
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::guide::Guide;
+use bespoke::stage::setup::loop_axis::Guide;
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};

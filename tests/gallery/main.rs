@@ -30,7 +30,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::verify::intersections;
 use closet::Closet;

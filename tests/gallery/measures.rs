@@ -1,6 +1,6 @@
 //! What the figures measure, and the transfer that they compare with, where the answer is known.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 use crate::generator::avatars::{Avatar, avatar};

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use bespoke::input::body::Body;
-use bespoke::input::diagnosis::{Element, Subject};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{Element, Subject};
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 /// A strip of so many triangles, at this height.

@@ -1,7 +1,7 @@
 //! The bones that boundary loops follow.
 
-use bespoke::input::guide::{Guide, LoopGuide, choose_guides};
-use bespoke::input::mesh::{BoundaryLoop, Topology};
+use bespoke::stage::setup::loop_axis::{Guide, LoopGuide, choose_guides};
+use bespoke::geometry::mesh::{BoundaryLoop, Topology};
 use bespoke::input::skeleton::Skeleton;
 use glam::DVec3;
 

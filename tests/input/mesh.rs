@@ -1,7 +1,7 @@
 //! Checks of meshes, and their connectivity.
 
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::{Hinge, Topology, TriangleMesh};
+use bespoke::geometry::mesh::{Hinge, Topology, TriangleMesh};
 use glam::DVec3;
 
 use crate::obj::{assets, read_mesh};

@@ -1,7 +1,7 @@
 //! Axes, units and winding.
 
 use bespoke::error::ErrorKind;
-use bespoke::input::space::{Axis, Space, Winding};
+use bespoke::input::coordinate_system::{Axis, Space, Winding};
 use glam::DVec3;
 
 use crate::support::Random;

@@ -1,7 +1,7 @@
 //! Meshes and skeletons that are none: a status and a sentence, never a panic.
 
 use bespoke::error::{ErrorKind, Result};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::session::Precision;

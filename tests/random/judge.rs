@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use bespoke::contact::Kind;
 use bespoke::control::Stage;
 use bespoke::error::Result;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::session::Session;
-use bespoke::stage::problem::Problem;
+use bespoke::stage::setup::problem::Problem;
 use bespoke::verify::intersections;
 
 use crate::scene::Scene;

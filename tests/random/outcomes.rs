@@ -2,7 +2,7 @@
 
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Session};
 use glam::DVec3;

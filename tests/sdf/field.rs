@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Meshes whose distance is known.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 /// A sphere of `rings` x `2 rings` quads, without what lies above the height `top` (in radii).

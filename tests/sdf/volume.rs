@@ -10,7 +10,7 @@ use crate::shapes::{cuboid, cuboid_distance, sphere};
 
 static GO_ON: AtomicBool = AtomicBool::new(false);
 
-fn points(mesh: &bespoke::input::mesh::TriangleMesh) -> Vec<[f32; 3]> {
+fn points(mesh: &bespoke::geometry::mesh::TriangleMesh) -> Vec<[f32; 3]> {
     mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
 }
 

@@ -1,7 +1,7 @@
 //! The real meshes, where they are at hand: ten pairs, the same defaults for all.
 
 use bespoke::control::Stage;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::session::{Options, Session};
 
 use super::assets::load;

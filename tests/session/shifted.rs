@@ -1,10 +1,10 @@
 //! Real garments moved and turned against their skeletons: the bones poke through, and the result is clean all the same.
 
 use bespoke::control::Stage;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
-use bespoke::stage::frame::{Frame, SIDE};
+use bespoke::stage::setup::normalization::{Frame, SIDE};
 use glam::{DQuat, DVec3};
 
 use super::obj::{assets, read_mesh, read_skeleton};

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use bespoke::control::{Cancel, Stage};
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Precision, Session};
 use bespoke::solver::newton::{Model, Newton, State};
 use bespoke::stage::inflate::Inflation;
-use bespoke::stage::problem::{Inputs, Problem};
+use bespoke::stage::setup::problem::{Inputs, Problem};
 use bespoke::verify::intersections;
 use glam::DVec3;
 
@@ -304,11 +304,11 @@ fn the_source_body_keeps_the_designed_clearance() {
             session.set_source_avatar(body.clone()).unwrap();
         }
         assert_eq!(session.run().unwrap(), Stage::Done);
-        let tree = bespoke::sdf::closest_point::ClosestPoint::new(&body);
+        let tree = bespoke::geometry::closest_point::ClosestPoint::new(&body);
         let positions = session.garment_positions().unwrap();
         positions.iter().map(|&p| tree.distance(p)).sum::<f64>() / positions.len() as f64
     };
-    let tree = bespoke::sdf::closest_point::ClosestPoint::new(&body);
+    let tree = bespoke::geometry::closest_point::ClosestPoint::new(&body);
     let designed = sleeve().positions.iter().map(|&p| tree.distance(p)).sum::<f64>() / sleeve().positions.len() as f64;
     assert!((mean_clearance(true) - designed).abs() < 0.02 * designed);
     assert!(mean_clearance(false) < 0.7 * designed);

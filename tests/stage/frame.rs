@@ -2,7 +2,7 @@
 
 use bespoke::error::ErrorKind;
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::frame::{Frame, SIDE};
+use bespoke::stage::setup::normalization::{Frame, SIDE};
 use glam::DVec3;
 
 use super::support::Random;

@@ -1,9 +1,9 @@
 //! The projection of an avatar onto its skeleton.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::{BoneGraph, Skeleton};
 use bespoke::input::skin::SkinWeights;
-use bespoke::stage::initialize::{ProjectedAvatar, project};
+use bespoke::stage::start::projection::{ProjectedAvatar, project};
 use glam::DVec3;
 
 use super::support::Random;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use bespoke::input::body::Body;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
-use bespoke::stage::layers::skin_with_layers;
+use bespoke::stage::setup::layer_skin::skin_with_layers;
 use glam::DVec3;
 
 /// A unit square from x = 0 to 1, its left side moved by joint 0, its right side by joint 1 with weights of another sum.

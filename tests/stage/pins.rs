@@ -1,7 +1,7 @@
 //! Where pins go.
 
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::pins::resolve;
+use bespoke::stage::setup::pin_targets::resolve;
 use glam::{DMat3, DVec3};
 
 fn skeleton(joints: &[DVec3]) -> Skeleton {

@@ -1,8 +1,8 @@
 //! The fit region that the designed distance decides.
 
-use bespoke::input::mesh::TriangleMesh;
-use bespoke::sdf::closest_point::ClosestPoint;
-use bespoke::stage::region::fit_region;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::geometry::closest_point::ClosestPoint;
+use bespoke::stage::setup::fit_region::fit_region;
 use glam::DVec3;
 
 #[test]

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use bespoke::control::{Cancel, Stage};
 use bespoke::error::{Error, ErrorKind};
-use bespoke::input::diagnosis::{ElementKind, Finding, FindingKind, Severity, Subject};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
-use bespoke::stage::initialize::project;
-use bespoke::stage::problem::{Inputs, Problem};
+use bespoke::stage::start::projection::project;
+use bespoke::stage::setup::problem::{Inputs, Problem};
 use bespoke::verify::intersections;
 use glam::DVec3;
 

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! Small cases with a known answer, and what cannot be judged.
 
 use bespoke::error::ErrorKind;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 

@@ -1,6 +1,6 @@
 //! Random triangles on a coarse grid, full of degeneracies, against the integer twin.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 

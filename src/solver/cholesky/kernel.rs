@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::lanes::{Lanes, for_this_processor};
+use crate::simd::lanes::{Lanes, for_this_processor};
 
 /// Rows and columns of a tile, and what leading dimensions are multiples of.
 pub(super) const TILE: usize = 8;

@@ -6,14 +6,13 @@
 //! the tree at the same time. The result has the same bits with any number of threads.
 
 mod buffer;
-mod graph;
+mod ordering;
 mod kernel;
-mod lanes;
 mod numeric;
-mod plan;
+mod symbolic;
 mod solve;
 mod substitution;
-mod tree;
+mod supernodes;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -22,11 +21,11 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::{MemoryLimit, Part, bytes};
 use buffer::Buffer;
-use graph::{Graph, minimum_degree};
+use ordering::{Graph, minimum_degree};
 use numeric::Factorisation;
-use plan::Plan;
+use symbolic::Plan;
 use solve::Solve;
-use tree::Supernodes;
+use supernodes::Supernodes;
 
 /// Right-hand sides that go through a factor together.
 const TOGETHER: usize = 2;

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::kernel::{GROUP, Panel, STEP, negative_product, padded, update_diagonal, update_len, update_start};
-use super::plan::{Node, Plan, Task};
+use super::symbolic::{Node, Plan, Task};
 use crate::control::Cancel;
 use crate::solver::pattern::Pattern;
 

@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::numeric::{divided, parts};
-use super::plan::Plan;
+use super::symbolic::Plan;
 use super::substitution;
 
 /// One or two right-hand sides on their way.

@@ -3,7 +3,7 @@
 //! A front's vector has its columns, then its rows, then anything finite up to the panel's leading dimension.
 
 use super::kernel::TILE;
-use super::lanes::{Lanes, for_this_processor};
+use crate::simd::lanes::{Lanes, for_this_processor};
 
 /// Solves with the triangle of a panel of `columns` columns, and subtracts their product from the rest of `vector`.
 pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {

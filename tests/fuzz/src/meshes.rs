@@ -4,7 +4,7 @@ use bespoke::capi::inputs::*;
 use bespoke::capi::running::*;
 use bespoke::capi::status::BespokeStatus;
 use bespoke::capi::view::{BespokeComponent, BespokeView};
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 

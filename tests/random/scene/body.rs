@@ -1,7 +1,7 @@
 //! A body about a skeleton: a capsule around each bone, that passes through its neighbours at the joints, with bumps, open
 //! ends, loose pieces, turned triangles, and triangles without area or given twice.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use glam::DVec3;
 

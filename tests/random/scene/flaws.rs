@@ -1,6 +1,6 @@
 //! What is wrong with inputs as they come: one flaw each.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 use super::{below, between, direction};

@@ -1,7 +1,7 @@
 //! A sound garment about parts of a skeleton: a sleeve along one bone or over a bent joint, a skirt about several bones, a
 //! tunic with openings for the bones that branch off; 60 to 600 vertices.
 
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::verify::intersections;
 use glam::DVec3;

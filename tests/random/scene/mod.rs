@@ -14,14 +14,14 @@ use std::sync::Arc;
 
 use bespoke::control::Cancel;
 use bespoke::error::Result;
-use bespoke::input::mesh::TriangleMesh;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
-use bespoke::input::space::Space;
+use bespoke::input::coordinate_system::Space;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
-use bespoke::stage::problem::{Inputs, Problem};
+use bespoke::stage::setup::problem::{Inputs, Problem};
 use glam::DVec3;
 
 pub use flaws::Flaw;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::initialize::{ProjectedAvatar, subdivide};
-use crate::input::mesh::TriangleMesh;
+use super::projection::{ProjectedAvatar, subdivide};
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 
 /// A place on a bone, as in [`Skeleton::point_at`], that the wire holds at a point of its own.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::memory::bytes;
 
 /// Triangles in one leaf.
@@ -89,13 +89,13 @@ impl ClosestPoint {
 
     /// The place, in the tree's own order, of a triangle closest to `p`: a hint for
     /// [`Self::distance_hinted`] nearby.
-    pub(super) fn hint(&self, p: DVec3) -> u32 {
+    pub(crate) fn hint(&self, p: DVec3) -> u32 {
         self.search(p, None).map_or(0, |(_, slot)| slot as u32)
     }
 
     /// The same as [`Self::distance`] to the last bit, sooner where the triangle at `hint` is close; and the hint
     /// for the next query nearby.
-    pub(super) fn distance_hinted(&self, p: DVec3, hint: u32) -> (f64, u32) {
+    pub(crate) fn distance_hinted(&self, p: DVec3, hint: u32) -> (f64, u32) {
         self.search(p, Some(hint as usize)).map_or((f64::INFINITY, 0), |(squared, slot)| (squared.sqrt(), slot as u32))
     }
 

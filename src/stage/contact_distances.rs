@@ -5,7 +5,7 @@
 //! shifts at most. So a separation floor above two shifts makes the promise survive.
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::options::Options;
 
 /// The floor in shifts: the two that are needed, and half as much again.

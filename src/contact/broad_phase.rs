@@ -1,18 +1,18 @@
 //! Broad phase: all the pairs of primitives that may come within a margin of each other during a step.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::{Bodies, Motion};
-use super::bvh::{Aabb, NodePair};
+use super::candidate_set::{CandidateSet, Class, ROUNDING};
+use crate::geometry::bvh::{Aabb, NodePair};
 use super::distance::Kind;
-use super::neighbours::Neighbours;
+use super::one_ring::Neighbours;
 use super::surface::Surface;
 use super::swept::{Plane, SweptSurface, shadow};
-use super::tangle::Tangle;
+use super::exempt_pairs::Tangle;
 use crate::memory::bytes;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
@@ -20,149 +20,6 @@ const PIECES: usize = 128;
 
 /// Neighbouring pairs a thread looks at at once.
 const CHUNK: usize = 2048;
-
-/// Pairs that a thread filters at once.
-const FILTER_CHUNK: usize = 1024;
-
-/// More than rounding can add to the gap between two projections.
-const ROUNDING: f64 = 1e-12;
-
-/// Whom the garment meets in a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// Itself.
-    Garment,
-    /// The avatar.
-    Avatar,
-    /// Itself, at triangles that pass through each other from the start (see [`Tangle`]).
-    Tangled,
-}
-
-/// What the runs of a [`CandidateSet`] hold, in order.
-const RUNS: [(Kind, Class); 6] = [
-    (Kind::PointTriangle, Class::Garment),
-    (Kind::EdgeEdge, Class::Garment),
-    (Kind::PointTriangle, Class::Avatar),
-    (Kind::EdgeEdge, Class::Avatar),
-    (Kind::PointTriangle, Class::Tangled),
-    (Kind::EdgeEdge, Class::Tangled),
-];
-
-/// Pairs of primitives in the combined numbering of [`Bodies`], sorted into runs by kind and class.
-///
-/// The four vertices of a pair differ. Of an edge-edge pair with the avatar, the first edge is the garment's.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct CandidateSet {
-    pairs: Vec<[u32; 4]>,
-    /// Where each run ends in `pairs`.
-    ends: [usize; RUNS.len()],
-}
-
-/// Pairs of one kind and class.
-#[derive(Clone, Debug)]
-pub struct Run<'a> {
-    /// The kind of all of them.
-    pub kind: Kind,
-    /// The class of all of them.
-    pub class: Class,
-    /// Number of the first in the whole set.
-    pub first: usize,
-    /// The pairs.
-    pub pairs: &'a [[u32; 4]],
-}
-
-impl CandidateSet {
-    /// The set of the given pairs, nothing being tangled.
-    pub fn new(
-        garment_point_triangle: &[[u32; 4]],
-        garment_edge_edge: &[[u32; 4]],
-        avatar_point_triangle: &[[u32; 4]],
-        avatar_edge_edge: &[[u32; 4]],
-    ) -> Self {
-        let mut set = Self::default();
-        let runs = [garment_point_triangle, garment_edge_edge, avatar_point_triangle, avatar_edge_edge];
-        for (run, pairs) in runs.into_iter().enumerate() {
-            set.pairs.extend_from_slice(pairs);
-            set.ends[run..].fill(set.pairs.len());
-        }
-        set
-    }
-
-    /// Number of pairs.
-    #[inline]
-    pub fn len(&self) -> usize {
-        self.pairs.len()
-    }
-
-    /// True without any pair.
-    #[inline]
-    pub fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
-    }
-
-    /// Bytes that it holds.
-    pub fn memory(&self) -> u64 {
-        bytes(&self.pairs)
-    }
-
-    /// All pairs, run by run.
-    #[inline]
-    pub fn pairs(&self) -> &[[u32; 4]] {
-        &self.pairs
-    }
-
-    /// The pairs of one kind and class.
-    pub fn of(&self, kind: Kind, class: Class) -> &[[u32; 4]] {
-        self.runs(0..self.len()).find(|r| r.kind == kind && r.class == class).map_or(&[], |r| r.pairs)
-    }
-
-    /// Keeps, in order, the pairs that may come within the `margin` of their class during the first `part` of `motion`.
-    pub fn retain_near(&mut self, motion: &Motion, part: f64, margin: impl Fn(Class) -> f64 + Sync) {
-        let mut kept = Vec::new();
-        let mut ends = [0; RUNS.len()];
-        for (run, (kind, class)) in RUNS.into_iter().enumerate() {
-            let margin = margin(class) + ROUNDING;
-            let near = |pair: &&[u32; 4]| !stays_apart(kind, **pair, motion, part, margin);
-            let chunks = self.of(kind, class).par_chunks(FILTER_CHUNK);
-            let parts: Vec<Vec<[u32; 4]>> = chunks.map(|c| c.iter().filter(near).copied().collect()).collect();
-            parts.iter().for_each(|part| kept.extend_from_slice(part));
-            ends[run] = kept.len();
-        }
-        // Copied, so that the next search has the room of this one.
-        self.pairs.clear();
-        self.pairs.extend_from_slice(&kept);
-        self.ends = ends;
-    }
-
-    /// The part of each run that lies in `range`, without empty ones.
-    pub fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Run<'_>> {
-        (0..RUNS.len()).filter_map(move |run| {
-            let start = if run == 0 { 0 } else { self.ends[run - 1] };
-            let (first, end) = (start.max(range.start), self.ends[run].min(range.end));
-            let (kind, class) = RUNS[run];
-            (first < end).then(|| Run { kind, class, first, pairs: &self.pairs[first..end] })
-        })
-    }
-}
-
-/// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
-#[inline]
-fn stays_apart(kind: Kind, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
-    let (x, v) = (motion.positions(pair), motion.displacements(pair));
-    let separation = kind.separation(&x);
-    if separation.squared <= gap * gap {
-        return false;
-    }
-    // Between the planes at the beginning there is all of the distance. The gap between the shadows on n is the smallest
-    // of several differences, each linear in time: where it is wide enough at the end, too, it always is.
-    let n = separation.vector / separation.squared.sqrt();
-    let shadow = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
-    let shadows = [shadow(0), shadow(1), shadow(2), shadow(3)];
-    let (first, second) = shadows.split_at(kind.first_count());
-    let lowest = first.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = second.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    lowest - highest > gap
-}
 
 /// What one piece of a traversal finds, with its scratch.
 #[derive(Default)]
@@ -248,16 +105,28 @@ impl BroadPhase {
         margin_avatar: f64,
         out: &mut CandidateSet,
     ) {
-        // Margins are added where the boxes are made, half of it on either side.
-        let (own, n) = (0.5 * margin_self, bodies.garment_count() as u32);
+        self.refit(bodies, motion, part, margin_self, margin_avatar);
+        self.divide();
+        let found = self.search(bodies, margin_self, margin_avatar);
+        self.merge(found, out);
+        self.is_incomplete = out.len() >= self.most;
+    }
+
+    /// The boxes of the motion. Margins are added where the boxes are made, half of it on either side.
+    fn refit(&mut self, bodies: &Bodies, motion: &Motion, part: f64, margin_self: f64, margin_avatar: f64) {
+        let own = 0.5 * margin_self;
         self.garment.follow(&bodies.garment.surface, motion, 0, part, own);
         let [t, dt] = motion.inflation();
         let avatar_at = Some([t, part * dt, margin_avatar - own]);
         if self.avatar_at != avatar_at {
-            self.avatar.follow(&bodies.avatar.surface, motion, n, part, margin_avatar - own);
+            let first = bodies.garment_count() as u32;
+            self.avatar.follow(&bodies.avatar.surface, motion, first, part, margin_avatar - own);
             self.avatar_at = avatar_at;
         }
+    }
 
+    /// Divides both traversals into subtrees.
+    fn divide(&mut self) {
         let (garment, avatar) = (&self.garment, &self.avatar);
         self.garment_work.clear();
         self.garment_work.extend(garment.tree.roots(&garment.tree));
@@ -265,7 +134,10 @@ impl BroadPhase {
         self.avatar_work.clear();
         self.avatar_work.extend(garment.tree.roots(&avatar.tree));
         garment.tree.spread(Some(&avatar.tree), PIECES, &mut self.avatar_work);
+    }
 
+    /// Fills the pieces. Returns how many of them, from the first on, are of the garment with itself.
+    fn search(&mut self, bodies: &Bodies, margin_self: f64, margin_avatar: f64) -> usize {
         let near = &self.neighbours;
         let near_count = near.point_triangle.len().max(near.edge_edge.len()).div_ceil(CHUNK);
         let self_count = near_count + self.garment_work.len();
@@ -274,8 +146,9 @@ impl BroadPhase {
         let (near_pieces, tree_pieces) = self_pieces.split_at_mut(near_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
         let room = &Room { found: AtomicUsize::new(0), most: self.most };
-        let own = Side { surface: &bodies.garment.surface, swept: garment, offset: 0 };
-        let theirs = Side { surface: &bodies.avatar.surface, swept: avatar, offset: n };
+        let own = Side { surface: &bodies.garment.surface, swept: &self.garment, offset: 0 };
+        let offset = bodies.garment_count() as u32;
+        let theirs = Side { surface: &bodies.avatar.surface, swept: &self.avatar, offset };
         let search = Collector { a: own, b: own, neighbours: near, margin: margin_self, room };
         let avatar_search = Collector { b: theirs, margin: margin_avatar, ..search };
         rayon::join(
@@ -292,25 +165,26 @@ impl BroadPhase {
                 work.for_each(|(piece, &start)| avatar_search.run::<false>(start, piece));
             },
         );
+        self_count
+    }
 
-        out.pairs.clear();
+    /// Puts what the pieces found together, in their order; the first `self_count` are of the garment with itself.
+    fn merge(&self, self_count: usize, out: &mut CandidateSet) {
+        let (self_pieces, avatar_pieces) = self.pieces.split_at(self_count);
         let tangle = &self.tangle;
-        for (run, (kind, class)) in RUNS.into_iter().enumerate() {
-            let pieces = if class == Class::Avatar { &*avatar_pieces } else { &*self_pieces };
-            for piece in pieces {
+        out.refill(|kind, class, pairs| {
+            for piece in if class == Class::Avatar { avatar_pieces } else { self_pieces } {
                 let found = match kind {
                     Kind::PointTriangle => &piece.point_triangle,
                     Kind::EdgeEdge => &piece.edge_edge,
                 };
                 if class == Class::Avatar || (class == Class::Garment && tangle.is_empty()) {
-                    out.pairs.extend_from_slice(found);
+                    pairs.extend_from_slice(found);
                 } else if !tangle.is_empty() {
-                    out.pairs.extend(found.iter().filter(|&&pair| tangle.class(kind, pair) == Some(class)));
+                    pairs.extend(found.iter().filter(|&&pair| tangle.class(kind, pair) == Some(class)));
                 }
             }
-            out.ends[run] = out.pairs.len();
-        }
-        self.is_incomplete = out.len() >= self.most;
+        });
     }
 }
 

@@ -3,38 +3,27 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
 use super::inputs::Inputs;
-use crate::control::{Cancel, Stage};
+use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
-use crate::input::diagnosis::Finding;
+use crate::input::diagnostic::Finding;
 use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
-use crate::panics::PanicLog;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
-use crate::stage::closing;
+use crate::stage::finish;
 use crate::stage::fit::Settling;
 use crate::stage::inflate::Inflation;
 use crate::stage::objective::Objective;
-use crate::stage::problem::Problem;
+use crate::stage::setup::problem::Problem;
 
 /// How often the fit goes on with wider gaps where rounding has broken its result.
 const MOST_WIDENINGS: u32 = 2;
-
-/// What all work of a session has with it.
-#[derive(Clone, Default)]
-pub(super) struct Context {
-    /// Stops it.
-    pub(super) stop: Cancel,
-    /// Hears of its panics.
-    pub(super) panics: Arc<PanicLog>,
-    /// Where it is to panic.
-    pub(super) fault: Option<Fault>,
-}
 
 /// What exists between `prepare` and `reset`.
 pub(super) struct Work {
@@ -173,7 +162,7 @@ impl Work {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = closing::close(&self.problem, &mut self.objective, &mut self.state);
+            self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state);
             self.newton.forget_values();
             self.context.stop.check()?;
         }

@@ -2,7 +2,7 @@
 //!
 //! Everything is counted in vertices, which stand for three columns each.
 
-use super::graph::Graph;
+use super::ordering::Graph;
 
 /// No parent, no sibling.
 pub(super) const NONE: u32 = u32::MAX;

@@ -10,7 +10,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::sdf::closest_point::ClosestPoint;
+use crate::geometry::closest_point::ClosestPoint;
 
 /// The fit weight of each of the vertices `rest` around `body`. `reach` is D, above 0; all weights are 1 where it is
 /// infinite.

@@ -10,7 +10,7 @@
 
 use std::collections::HashMap;
 
-use super::candidates::Class;
+use super::candidate_set::Class;
 use super::distance::Kind;
 use super::surface::Surface;
 

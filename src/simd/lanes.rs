@@ -1,7 +1,7 @@
 //! Vectors of the processor: what the dense kernels are written in, and which of them there are.
 
 /// Some scalars that the processor treats at once.
-pub(super) trait Lanes: Copy {
+pub(crate) trait Lanes: Copy {
     /// How many; divides 8.
     const COUNT: usize;
     /// How many vectors of rows a tile of eight columns may hold in registers.
@@ -37,7 +37,7 @@ pub(super) trait Lanes: Copy {
 
 /// Four scalars on any processor. They are rounded once where the target always has a fused operation.
 #[derive(Clone, Copy)]
-pub(super) struct Plain([f64; 4]);
+pub(crate) struct Plain([f64; 4]);
 
 impl Lanes for Plain {
     const COUNT: usize = 4;
@@ -77,7 +77,7 @@ impl Lanes for Plain {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(super) mod x86 {
+pub(crate) mod x86 {
     //! Vectors with a fused multiplication: four scalars with AVX2, eight with AVX-512.
 
     use std::arch::x86_64::*;
@@ -88,7 +88,7 @@ pub(super) mod x86 {
         ($name:ident, $vector:ty, $count:literal, $strips:literal, $load:ident, $store:ident, $splat:ident, $times:ident,
          $minus_product:ident) => {
             #[derive(Clone, Copy)]
-            pub(in crate::solver::cholesky) struct $name($vector);
+            pub(crate) struct $name($vector);
 
             impl Lanes for $name {
                 const COUNT: usize = $count;
@@ -142,7 +142,7 @@ macro_rules! for_this_processor {
     ($kernel:ident($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)?) => {{
         #[cfg(target_arch = "x86_64")]
         {
-            use $crate::solver::cholesky::lanes::x86;
+            use $crate::simd::lanes::x86;
 
             #[target_feature(enable = "avx512f")]
             unsafe fn eight($($argument: $type),*) $(-> $result)? {
@@ -159,14 +159,14 @@ macro_rules! for_this_processor {
             } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
                 four($($argument),*)
             } else {
-                $kernel::<$crate::solver::cholesky::lanes::Plain>($($argument),*)
+                $kernel::<$crate::simd::lanes::Plain>($($argument),*)
             }
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            $kernel::<$crate::solver::cholesky::lanes::Plain>($($argument),*)
+            $kernel::<$crate::simd::lanes::Plain>($($argument),*)
         }
     }};
 }
 
-pub(super) use for_this_processor;
+pub(crate) use for_this_processor;

@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Precision;
-use super::judgement::Judgement;
-use super::work::Work;
+use super::verification::Judgement;
+use super::run::Work;
 use crate::control::Cancel;
 use crate::energy::distortion::distortion;
 use crate::error::Result;
 use crate::input::body::Body;
-use crate::input::mesh::TriangleMesh;
-use crate::input::space::Space;
-use crate::stage::problem::Problem;
+use crate::input::precision::Precision;
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::coordinate_system::Space;
+use crate::stage::setup::problem::Problem;
 
 /// The last accepted iterate, with all that it takes to hand it out in the caller's space.
 #[derive(Clone)]

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 use crate::input::skin::SkinWeights;
 

@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::pattern::{PairCollector, Pattern};
 use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
-use crate::simd::{Four, Kernel, dispatch};
+use crate::simd::four::{Four, Kernel, dispatch};
 
 /// Vertices of an element, at most.
 const CORNERS: usize = 4;

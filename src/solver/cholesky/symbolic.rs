@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 
-use super::graph::Graph;
+use super::ordering::Graph;
 use super::kernel::{padded, update_len};
-use super::tree::Supernodes;
+use super::supernodes::Supernodes;
 use crate::memory::bytes;
 
 /// One supernode. Counts are of scalars.

@@ -3,12 +3,21 @@
 
 use glam::{DMat3, DVec3};
 
-use super::surface::SurfaceForm;
 use super::{Row, Sink};
 
 /// Below this squared length (of the normalised space, to the fourth) a normal counts as none: the square
 /// root has no derivative there.
 const NO_NORMAL: f64 = 1e-60;
+
+/// How the normal of a triangle's frame grows with the triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SurfaceForm {
+    /// Like an edge: any similarity of the rest shape costs nothing, uniform scale included.
+    #[default]
+    Similarity,
+    /// Like an area, as the paper prints it: a uniform scale costs wherever the rest shape is bent.
+    Printed,
+}
 
 /// The normal of a triangle in the chosen form, with what its differential
 /// `dN = scale dn - pull n (n . dn)` needs.

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::enclosure;
-use super::frame::Frame;
-use super::initialize::{ProjectedAvatar, project};
-use super::layers::skin_with_layers;
-use super::objective::{NO_DISTANCE, Objective, Shape};
-use super::pins::{self, AskedPin};
-use super::region::fit_region;
-use super::retreat;
-use super::rounding::Gaps;
+use crate::stage::start::enclosure;
+use super::normalization::Frame;
+use crate::stage::start::projection::{ProjectedAvatar, project};
+use super::layer_skin::skin_with_layers;
+use crate::stage::objective::{NO_DISTANCE, Objective, Shape};
+use super::pin_targets::{self, AskedPin};
+use super::fit_region::fit_region;
+use crate::stage::start::repair;
+use crate::stage::contact_distances::Gaps;
 use crate::contact::{Avatar, Bodies, Configuration, Garment, Surface as ContactSurface};
 use crate::control::Cancel;
 use crate::energy::attachment::Attachment;
@@ -25,17 +25,17 @@ use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
-use crate::input::cap::without_caps;
-use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
-use crate::input::guide::choose_guides;
-use crate::input::mesh::{Topology, TriangleMesh};
+use crate::geometry::sliver_caps::without_caps;
+use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::stage::setup::loop_axis::choose_guides;
+use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
-use crate::sdf::closest_point::ClosestPoint;
+use crate::geometry::closest_point::ClosestPoint;
 use crate::verify::intersections_unless;
 
 /// The largest offset that can be meant, in the normalised space. A larger one is one in another unit.
@@ -146,7 +146,7 @@ impl Problem {
         let tangled = intersections_unless(cancel, &garment, None, usize::MAX)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
-        let wire = retreat::resolve(&garment, &avatar, &mut projected, &source, callers, cancel, findings)?;
+        let wire = repair::resolve(&garment, &avatar, &mut projected, &source, callers, cancel, findings)?;
         cancel.check()?;
         enclosure::check(&garment, &wire)?;
         cancel.check()?;
@@ -184,7 +184,7 @@ impl Problem {
             curvature: Curvature::new(&garment.positions, &topology.loops),
             torsion: Torsion::new(&garment.positions, &topology.loops),
             position: Position::new(&garment.positions, &constraints, guides, &lengths),
-            pins: Pins::new(pins::resolve(&garment.positions, &garment.triangles, &asked, &source, &target)),
+            pins: Pins::new(pin_targets::resolve(&garment.positions, &garment.triangles, &asked, &source, &target)),
             rigid: Rigid::new(&garment.positions, inputs.rigid_groups),
         };
         let source_body = inputs.source_avatar.map(|mesh| {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 use boxes::{Aabb, Tree};
 
 /// The intersecting pairs of triangles of one mesh, or of two.

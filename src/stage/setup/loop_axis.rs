@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 
-use super::mesh::BoundaryLoop;
-use super::skeleton::Skeleton;
+use crate::geometry::mesh::BoundaryLoop;
+use crate::input::skeleton::Skeleton;
 
 /// A bone passes through a loop where the cosine of its angle to the loop's normal is above this: 60 degrees.
 const THROUGH: f64 = 0.5;

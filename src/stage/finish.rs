@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::objective::Objective;
-use super::problem::Problem;
-use crate::input::diagnosis::{Element, Finding, FindingKind, Severity, Subject, describe};
+use super::setup::problem::Problem;
+use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::solver::newton::{Model, State};
 
 /// A rigid group that ends farther than this from a rigid motion is told, as bent.

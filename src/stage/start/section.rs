@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::input::mesh::TriangleMesh;
+use crate::geometry::mesh::TriangleMesh;
 
 /// Directions around a point, one bit each.
 const DIRECTIONS: u32 = 64;

@@ -1,0 +1,8 @@
+//! From the inputs to the terms of the objective: what is derived once, before anything moves.
+
+pub mod fit_region;
+pub mod layer_skin;
+pub mod loop_axis;
+pub mod normalization;
+pub mod pin_targets;
+pub mod problem;

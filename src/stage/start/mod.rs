@@ -1,0 +1,10 @@
+//! The start (section 3.3 of the paper): the avatar projected onto the source skeleton, inside the garment. Where the
+//! skeleton itself leaves the garment, it is bent or retracted.
+
+pub mod bent_skeleton;
+pub mod enclosure;
+pub mod offset_grid;
+pub mod path_search;
+pub mod projection;
+pub mod repair;
+pub mod section;
