@@ -100,9 +100,9 @@ fn contact(criterion: &mut Criterion, moment: &mut Moment) {
     let Moment { objective, state, direction, .. } = moment;
     let mut admit = |bencher: &mut Bencher<'_>, part: fn(&Profile) -> Duration| {
         clocked(bencher, || {
-            objective.take_profile();
+            objective.contact.take_profile();
             black_box(objective.admit(state.configuration(), direction, 0.0, 1.0));
-            part(&objective.take_profile())
+            part(&objective.contact.take_profile())
         });
     };
     criterion.bench_function("broad phase", |bencher| admit(bencher, |profile| profile.broad_phase));

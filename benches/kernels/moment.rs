@@ -58,7 +58,7 @@ impl Moment {
             coordinate_error: 0.0,
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;
-        let mut objective = problem.begin(&options, &mut Vec::new())?;
+        let mut objective = problem.inflation_objective(&options, &mut Vec::new())?;
         let mut state = State { x: problem.rest.clone(), t: 0.0 };
         let mut newton = Newton::new(state.x.len(), &objective.terms())?;
         let mut inflation = Inflation::default();
@@ -70,7 +70,7 @@ impl Moment {
         let field =
             Field::build(&problem.avatar, FieldOptions { voxel: options.voxel, threads: 1 }, &AtomicBool::new(false))?;
         let mut next = problem.fit_objective(Arc::new(field), &state.x, &options)?;
-        next.take_over(&objective);
+        next.contact.take_over(&objective.contact);
         objective = next;
         newton = Newton::new(state.x.len(), &objective.terms())?;
         let mut settling = Settling::begin(&mut objective, &state, &options);

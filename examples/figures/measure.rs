@@ -1,7 +1,7 @@
 //! What is measured on dressed bodies: heights of openings, clearance at the waist, the V of a neckline.
 
-use bespoke::geometry::mesh::{Topology, TriangleMesh};
 use bespoke::geometry::closest_point::ClosestPoint;
+use bespoke::geometry::mesh::{Topology, TriangleMesh};
 use glam::DVec3;
 
 use crate::figure::Outcome;

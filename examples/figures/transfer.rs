@@ -5,8 +5,8 @@
 //! body than it lay to the old one is pushed out to that distance, along the direction from the nearest point of the surface.
 //! Nothing looks at intersections.
 
-use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::geometry::closest_point::{Closest, ClosestPoint, barycentric};
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::generator::Sample;

@@ -4,8 +4,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use bespoke::error::{Error, ErrorKind};
-use bespoke::input::diagnostic::{Finding, FindingKind};
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{Finding, FindingKind};
 use bespoke::verify::intersections;
 
 use crate::scene::{Recipe, Scene};

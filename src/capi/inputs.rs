@@ -5,11 +5,11 @@ use crate::capi::sized::{self, Sized32};
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, BespokeView, invalid};
 use crate::error::Result;
-use crate::input::buffer;
 use crate::geometry::mesh::TriangleMesh;
+use crate::input::buffer;
+use crate::input::coordinate_system::{Axis, Space, Winding};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
-use crate::input::coordinate_system::{Axis, Space, Winding};
 use crate::session::Precision;
 
 /// The mesh, and the precision of its positions.

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 
 use super::bodies::{Bodies, Motion};
 use super::candidate_set::{CandidateSet, Class, ROUNDING};
-use crate::geometry::bvh::{Aabb, NodePair};
 use super::distance::Kind;
+use super::exempt_pairs::Tangle;
 use super::one_ring::Neighbours;
 use super::surface::Surface;
 use super::swept::{Plane, SweptSurface, shadow};
-use super::exempt_pairs::Tangle;
+use crate::geometry::bvh::{Aabb, NodePair};
 use crate::memory::bytes;
 
 /// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.

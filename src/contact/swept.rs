@@ -4,8 +4,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::Motion;
-use crate::geometry::bvh::{Aabb, Bvh};
 use super::surface::Surface;
+use crate::geometry::bvh::{Aabb, Bvh};
 use crate::memory::bytes;
 
 /// Primitives a thread takes at once when it bounds them, at least.

@@ -13,303 +13,52 @@
 //! which a long lever gets soft). The residual in these units is a strain, as it is in the surface term, and one weight
 //! serves both terms. Like that term's, the value grows with s^2 where an imperfect fit grows by s.
 //!
-//! Which pieces are loose is decided by geometry. A piece is held to another one, its host, if
-//! - its area is at most a quarter of the host's, and
-//! - nine tenths of its area are as near to the host as a twentieth of the host's size, and as its own size (sizes are
-//!   diagonals of bounding boxes).
-//!
-//! With several hosts the nearest counts. Hosts are among the largest pieces only. Vertices that are farther away than
-//! that, such as the hanging end of a belt, are free.
+//! Which pieces are loose, and what holds them, is decided by `stage/setup/loose_pieces.rs`.
 
 use std::ops::Range;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::triangle_frame::{Carried, least_squares};
 use super::{Configuration, Energy, Sink};
-use crate::input::diagnostic::{self, Finding, FindingKind, Severity, Subject};
-use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces};
 use crate::memory::bytes;
-use crate::geometry::closest_point::ClosestPoint;
 
-/// A loose piece has at most this fraction of its host's area.
-const SMALL: f64 = 0.25;
+/// A vertex of a loose piece, and what holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// The vertex.
+    pub vertex: u32,
+    /// The vertices of the host's triangle.
+    pub triangle: [u32; 3],
+    /// The distance between them at rest.
+    pub distance: f64,
+    /// The area around the vertex at rest.
+    pub area: f64,
+}
 
-/// A loose piece is at most this fraction of its host's size away from it.
-const NEAR: f64 = 0.05;
-
-/// The fraction of a loose piece's area that must be near.
-const MOST: f64 = 0.9;
-
-/// Number of pieces, largest first, that can be hosts: it bounds the search in a garment of thousands of sequins.
-const HOSTS: usize = 32;
-
-/// A host triangle whose doubled area is below this share of its longest edge squared is too thin to hold anything.
-const THIN: f64 = 1e-2;
-
-/// The area around a vertex counts as at least this fraction of the mean square of the edges there: a piece of wire or
-/// of slivers is held too.
-const LEAST_AREA: f64 = 1e-2;
-
-/// A vertex of a loose piece and the triangle that holds it.
+/// A held vertex and the triangle that holds it.
 #[derive(Clone, Copy, Debug)]
 struct Element {
     carried: Carried,
     weight: f64,
 }
 
-/// A piece that is held to another.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoosePiece {
-    /// Its vertices, ascending.
-    pub vertices: Vec<u32>,
-    /// Its triangle of lowest index.
-    pub triangle: u32,
-    /// The triangle of its host that is nearest to it.
-    pub host: u32,
-    /// The distance to that, from its nearest vertex.
-    pub distance: f64,
-}
-
 /// Attachment term; an element is a vertex of a loose piece.
 #[derive(Clone, Debug, Default)]
 pub struct Attachment {
     elements: Vec<Element>,
-    pieces: Vec<LoosePiece>,
-}
-
-/// A connected part of the garment.
-#[derive(Default)]
-struct Piece {
-    vertices: Vec<u32>,
-    triangles: Vec<u32>,
-    area: f64,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Piece {
-    fn size(&self) -> f64 {
-        self.low.distance(self.high)
-    }
-
-    /// Distance between the bounding boxes.
-    fn gap(&self, other: &Self) -> f64 {
-        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
-    }
-}
-
-/// A piece that others can be held to.
-struct Host {
-    piece: u32,
-    tree: ClosestPoint,
-    /// The garment's index of each triangle in the tree.
-    triangles: Vec<u32>,
-}
-
-/// Where a vertex of a piece would be held.
-#[derive(Clone, Copy)]
-struct Hold {
-    distance: f64,
-    triangle: u32,
-}
-
-/// A host for a piece: where it holds each vertex, how far it reaches, and how far the piece is away on the whole.
-struct Match {
-    holds: Vec<Hold>,
-    reach: f64,
-    distance: f64,
 }
 
 impl Attachment {
-    /// The term for a garment with vertices `rest` and its `triangles`, whose indices are below the number of vertices.
-    pub fn new(rest: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let pieces = pieces(rest, triangles);
-        if pieces.len() < 2 {
-            return Self::default();
-        }
-        let areas = vertex_areas(rest, triangles);
-        let hosts = hosts(rest, triangles, &pieces);
-        let held: Vec<(Vec<Element>, Option<LoosePiece>)> =
-            pieces.par_iter().map(|piece| hold(piece, &pieces, &hosts, rest, triangles, &areas)).collect();
-        let mut term = Self::default();
-        for (elements, piece) in held {
-            term.elements.extend(elements);
-            term.pieces.extend(piece);
-        }
-        term
+    /// The term for a garment with vertices `rest`. What a triangle without a frame would hold is left free.
+    pub fn new(rest: &[DVec3], holds: &[Hold]) -> Self {
+        Self { elements: holds.iter().filter_map(|hold| Element::new(rest, hold)).collect() }
     }
-
-    /// The pieces that are held, in the order of their lowest vertices.
-    pub fn pieces(&self) -> &[LoosePiece] {
-        &self.pieces
-    }
-
-    /// What to tell about [`Self::pieces`]; `caller` gives the caller's index of a triangle.
-    pub fn findings(&self, caller: impl Fn(u32) -> u32) -> Vec<Finding> {
-        let finding = |piece: &LoosePiece| {
-            let [triangle, host] = [piece.triangle, piece.host].map(&caller);
-            let sentence = format!(
-                "garment: the loose piece of {} vertices with triangle {triangle} is held to the piece beside it, near \
-                 triangle {host}",
-                piece.vertices.len()
-            );
-            let elements = [triangle, host].map(|t| diagnostic::Element::triangle(Subject::Garment, t));
-            let finding = Finding::new(FindingKind::LoosePiece, Severity::Note, &elements, sentence);
-            Finding { distance: piece.distance, ..finding }
-        };
-        let mut findings = Vec::new();
-        diagnostic::describe(&mut findings, &self.pieces, finding, "loose pieces of the garment are held");
-        findings
-    }
-}
-
-/// The connected parts, wires included, in the order of their lowest vertices.
-fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
-    let links = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
-    let (labels, count) = label_pieces(rest.len(), links);
-    let empty = || Piece { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, ..Piece::default() };
-    let mut pieces: Vec<Piece> = (0..count).map(|_| empty()).collect();
-    for ((v, &label), &p) in (0u32..).zip(&labels).zip(rest) {
-        if label != NO_PIECE {
-            let piece = &mut pieces[label as usize];
-            piece.vertices.push(v);
-            (piece.low, piece.high) = (piece.low.min(p), piece.high.max(p));
-        }
-    }
-    for (k, t) in (0u32..).zip(triangles) {
-        let piece = &mut pieces[labels[t[0] as usize] as usize];
-        piece.triangles.push(k);
-        piece.area += area(rest, t);
-    }
-    pieces
-}
-
-fn area(rest: &[DVec3], t: &[u32; 3]) -> f64 {
-    let [a, b, c] = t.map(|v| rest[v as usize]);
-    0.5 * (b - a).cross(c - a).length()
-}
-
-/// The rest area around each vertex.
-fn vertex_areas(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
-    let mut areas = vec![0.0; rest.len()];
-    let mut squares = vec![(0.0, 0.0); rest.len()];
-    for t in triangles {
-        let share = area(rest, t) / 3.0;
-        for k in 0..3 {
-            let [v, w] = [t[k], t[(k + 1) % 3]].map(|v| v as usize);
-            areas[v] += share;
-            if v != w {
-                let square = rest[v].distance_squared(rest[w]);
-                for end in [v, w] {
-                    squares[end].0 += square;
-                    squares[end].1 += 1.0;
-                }
-            }
-        }
-    }
-    let around = |(area, (sum, count)): (f64, (f64, f64))| area.max(LEAST_AREA * sum / f64::max(count, 1.0));
-    areas.into_iter().zip(squares).map(around).collect()
-}
-
-/// The largest pieces, each with a tree over its triangles that are no slivers; those that hold nothing are left out.
-fn hosts(rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Vec<Host> {
-    let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
-    let area = |k: u32| pieces[k as usize].area;
-    order.sort_by(|&j, &k| area(k).total_cmp(&area(j)).then(j.cmp(&k)));
-    order.truncate(HOSTS);
-    let host = |&k: &u32| {
-        let piece = &pieces[k as usize];
-        if !pieces.iter().any(|other| may_hold(piece, other)) {
-            return None;
-        }
-        let fat = |&&t: &&u32| {
-            let [a, b, c] = triangles[t as usize].map(|v| rest[v as usize]);
-            let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-            (b - a).cross(c - a).length() > THIN * longest
-        };
-        let usable: Vec<u32> = piece.triangles.iter().filter(fat).copied().collect();
-        // The tree sees the vertices of its own triangles only.
-        let mut mesh = TriangleMesh::default();
-        for (k, &t) in (0u32..).zip(&usable) {
-            mesh.positions.extend(triangles[t as usize].map(|v| rest[v as usize]));
-            mesh.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
-        }
-        (!usable.is_empty()).then(|| Host { piece: k, tree: ClosestPoint::new(&mesh), triangles: usable })
-    };
-    order.par_iter().filter_map(host).collect()
-}
-
-/// How far `host` reaches for `piece`.
-fn reach(host: &Piece, piece: &Piece) -> f64 {
-    (NEAR * host.size()).min(piece.size())
-}
-
-/// The rule, as far as areas and bounding boxes tell. A piece is never its own host.
-fn may_hold(host: &Piece, piece: &Piece) -> bool {
-    host.area > 0.0 && piece.area <= SMALL * host.area && host.gap(piece) <= reach(host, piece)
-}
-
-/// Holds `piece` to the nearest host, if it is loose.
-fn hold(
-    piece: &Piece,
-    pieces: &[Piece],
-    hosts: &[Host],
-    rest: &[DVec3],
-    triangles: &[[u32; 3]],
-    areas: &[f64],
-) -> (Vec<Element>, Option<LoosePiece>) {
-    let mut best: Option<Match> = None;
-    for host in hosts {
-        let body = &pieces[host.piece as usize];
-        if may_hold(body, piece)
-            && let Some(found) = match_host(piece, body, host, rest, areas)
-            && best.as_ref().is_none_or(|b| found.distance < b.distance)
-        {
-            best = Some(found);
-        }
-    }
-    let Some(best) = best else { return (Vec::new(), None) };
-    let near = || piece.vertices.iter().zip(&best.holds).filter(|(_, hold)| hold.distance <= best.reach);
-    let elements = near()
-        .filter_map(|(&v, hold)| {
-            Element::new(rest, triangles[hold.triangle as usize], v, areas[v as usize], hold.distance)
-        })
-        .collect();
-    let nearest = best.holds.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-    let loose = piece.triangles.first().zip(nearest).map(|(&triangle, hold)| LoosePiece {
-        vertices: piece.vertices.clone(),
-        triangle,
-        host: hold.triangle,
-        distance: hold.distance,
-    });
-    (elements, loose)
-}
-
-/// The way `host` would hold `piece`; none where too much of the piece is out of reach.
-fn match_host(piece: &Piece, body: &Piece, host: &Host, rest: &[DVec3], areas: &[f64]) -> Option<Match> {
-    let reach = reach(body, piece);
-    let holds: Vec<Hold> = piece
-        .vertices
-        .iter()
-        .map(|&v| host.tree.closest(rest[v as usize]))
-        .map(|found| found.map(|c| Hold { distance: c.distance, triangle: host.triangles[c.triangle as usize] }))
-        .collect::<Option<_>>()?;
-    let (mut all, mut near, mut moment) = (0.0, 0.0, 0.0);
-    for (&v, hold) in piece.vertices.iter().zip(&holds) {
-        let area = areas[v as usize];
-        all += area;
-        if hold.distance <= reach {
-            near += area;
-            moment += area * hold.distance;
-        }
-    }
-    (near > 0.0 && near >= MOST * all).then(|| Match { holds, reach, distance: moment / near })
 }
 
 impl Element {
-    fn new(rest: &[DVec3], [a, b, c]: [u32; 3], v: u32, area: f64, distance: f64) -> Option<Self> {
+    fn new(rest: &[DVec3], hold: &Hold) -> Option<Self> {
+        let &Hold { vertex: v, triangle: [a, b, c], distance, area } = hold;
         let [pa, pb, pc] = [a, b, c].map(|i| rest[i as usize]);
         let (e1, e2) = (pb - pa, pc - pa);
         let carried = Carried::new(rest, [a, b, c, v])?;
@@ -329,7 +78,7 @@ impl Energy for Attachment {
     }
 
     fn memory(&self) -> u64 {
-        bytes(&self.elements) + self.pieces.iter().map(|piece| bytes(&piece.vertices)).sum::<u64>()
+        bytes(&self.elements)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

@@ -12,8 +12,16 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::{Configuration, Direction, Energy, Sink};
-use crate::stage::setup::loop_axis::Guide;
 use crate::memory::bytes;
+
+/// An axis between two points that move with the inflation parameter t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guide {
+    /// Both ends at t = 0, from the source skeleton.
+    pub start: [DVec3; 2],
+    /// Both ends at t = 1, from the target skeleton.
+    pub end: [DVec3; 2],
+}
 
 /// A guide whose squared length falls below this has no direction, and no say.
 const NO_AXIS: f64 = 1e-24;

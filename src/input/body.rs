@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::diagnostic::{Element, Subject};
-use crate::geometry::mesh::TriangleMesh;
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::mesh::TriangleMesh;
 
 /// An avatar with its layers: garments that it wears already, and that count as a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -25,10 +25,10 @@ use std::sync::atomic::AtomicBool;
 use glam::{DMat3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::simd::four::{Four, Kernel, dispatch};
 use block::{Block, Known, SIDE};
-use crate::geometry::closest_point::ClosestPoint;
 use volume::{BLOCK, Volume};
 
 /// Blocks that have a place to be stored, at most: 32 MB for the places themselves.

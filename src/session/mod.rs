@@ -8,10 +8,10 @@ mod fault;
 mod field_task;
 mod fit_controls;
 mod inputs;
-mod worker_pool;
-mod verification;
-mod snapshot;
 mod run;
+mod snapshot;
+mod verification;
+mod worker_pool;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,15 +27,15 @@ pub use crate::input::precision::Precision;
 pub use crate::options::Options;
 use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
+use context::Context;
 #[doc(hidden)]
 pub use fault::Fault;
-use context::Context;
 use inputs::Inputs;
 pub use inputs::Pin;
-use worker_pool::Pool;
-use verification::Judgement;
-use snapshot::View;
 use run::Work;
+use snapshot::View;
+use verification::Judgement;
+use worker_pool::Pool;
 
 /// How much a call of [`Session::step`] may do; 0 is no limit. At least one iteration is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -86,24 +86,24 @@ impl Work {
         limit.beside(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut objective = problem.begin(&inputs.options, findings)?;
+        let mut objective = problem.inflation_objective(&inputs.options, findings)?;
         stop.check()?;
         let held = held + problem.memory();
         let room = limit.beside(held + expected + objective.memory());
         let mut newton = Newton::within(room, state.x.len(), &objective.terms())?.watching(stop.clone());
-        objective.watch(stop.clone());
+        objective.contact.watch(stop.clone());
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: body.avatar_size(),
             projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
-            separation_floor: objective.floor(),
-            tangled_at_start: objective.tangle().triangle_pairs().len(),
+            separation_floor: objective.contact.floor(),
+            tangled_at_start: objective.contact.tangle().triangle_pairs().len(),
             threads,
             ..Report::default()
         };
         report.prepare.collect(&mut newton, &mut objective, clock);
         let (problem, step) = (Arc::new(problem), Step::Inflate(Inflation::default()));
-        let tangled = objective.tangle().triangle_pairs().into();
+        let tangled = objective.contact.tangle().triangle_pairs().into();
         let options = inputs.options.clone();
         let (widened, is_narrow) = (0, false);
         let mut work = Self {
@@ -144,7 +144,7 @@ impl Work {
         Fault::Worker.at(self.context.fault);
         let clock = Instant::now();
         if std::mem::take(&mut self.is_narrow) {
-            self.objective.widen();
+            self.objective.contact.widen();
             self.newton.forget_values();
             self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, &self.options));
         }
@@ -166,7 +166,7 @@ impl Work {
             self.newton.forget_values();
             self.context.stop.check()?;
         }
-        if self.objective.review(self.state.configuration())? {
+        if self.objective.contact.review(self.state.configuration())? {
             self.newton.forget_values();
         }
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
@@ -201,14 +201,14 @@ impl Work {
         let field = Arc::new(field);
         self.distance = Some(field.clone());
         let mut objective = self.problem.fit_objective(field, &self.state.x, options)?;
-        objective.take_over(&self.objective);
+        objective.contact.take_over(&self.objective.contact);
         self.objective = objective;
-        self.objective.watch(self.context.stop.clone());
+        self.objective.contact.watch(self.context.stop.clone());
         self.context.stop.check()?;
         let room = self.room().beside(self.objective.memory());
         let newton = Newton::within(room, self.state.x.len(), &self.objective.terms())?;
         self.newton = newton.watching(self.context.stop.clone());
-        self.objective.limit_pairs(self.room().beside(self.newton.memory()));
+        self.objective.contact.limit_pairs(self.room().beside(self.newton.memory()));
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
@@ -234,22 +234,22 @@ impl Work {
             Part { what: "contacts of the garment", bytes: contacts },
         ];
         limit.check(&parts)?;
-        if self.objective.lacks_room() {
+        if self.objective.contact.lacks_room() {
             return Err(limit.lacking("contacts of the garment, more pairs than there is room for"));
         }
-        self.objective.limit_pairs(limit.beside(system));
+        self.objective.contact.limit_pairs(limit.beside(system));
         Ok(())
     }
 
     fn describe(&mut self) {
         let report = &mut self.report;
         let at = self.state.configuration();
-        let contact = self.objective.activity(at);
+        let contact = self.objective.contact.activity(at);
         report.active_contacts = contact.count;
         report.min_distance_self = contact.min_distance_self;
         report.min_distance_avatar = contact.min_distance_avatar;
         report.gradient_norm = self.newton.gradient_norm();
-        report.separation_floor = self.objective.floor();
+        report.separation_floor = self.objective.contact.floor();
         report.t = self.state.t;
         let terms = self.objective.terms();
         let values = self.newton.values(&terms, at);
@@ -280,6 +280,6 @@ impl StageReport {
         self.factorisations += counters.factorisations;
         self.analyses += counters.analyses;
         self.profile += &counters.profile;
-        self.profile += &objective.take_profile();
+        self.profile += &objective.contact.take_profile();
     }
 }

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::verification::Judgement;
 use super::run::Work;
+use super::verification::Judgement;
 use crate::control::Cancel;
 use crate::energy::distortion::distortion;
 use crate::error::Result;
-use crate::input::body::Body;
-use crate::input::precision::Precision;
 use crate::geometry::mesh::TriangleMesh;
+use crate::input::body::Body;
 use crate::input::coordinate_system::Space;
+use crate::input::precision::Precision;
 use crate::stage::setup::problem::Problem;
 
 /// The last accepted iterate, with all that it takes to hand it out in the caller's space.

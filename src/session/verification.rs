@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crate::control::Cancel;
 use crate::error::Result;
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
-use crate::geometry::mesh::TriangleMesh;
 use crate::input::weld::Weld;
 use crate::report::Verification;
 use crate::verify::intersections_unless;

@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::Term;
+use super::element_buffer::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
-use super::element_buffer::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use crate::control::Cancel;
 use crate::energy::Configuration;
 use crate::memory::bytes;

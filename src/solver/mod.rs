@@ -5,11 +5,11 @@
 
 pub mod assembly;
 pub mod cholesky;
+mod element_buffer;
 pub mod line_search;
 pub mod newton;
 pub mod pattern;
 pub mod profile;
-mod element_buffer;
 
 use crate::energy::Energy;
 

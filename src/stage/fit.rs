@@ -57,7 +57,7 @@ struct Path {
 
 impl Path {
     fn new(objective: &Objective, options: &Options) -> Self {
-        let gaps = objective.gaps();
+        let gaps = objective.contact.gaps();
         Self {
             dhat: [gaps.inflation_dhat, gaps.dhat],
             weight: [SOFTNESS * options.inflation_barrier_weight, options.barrier_weight],
@@ -68,7 +68,7 @@ impl Path {
     fn set(&self, s: f64, objective: &mut Objective, state: &State) {
         let between = |[from, to]: [f64; 2]| if s == 1.0 { to } else { from * (to / from).powf(s) };
         objective.set_contact(between(self.dhat), between(self.weight));
-        objective.settle(state.configuration());
+        objective.contact.settle(state.configuration());
     }
 
     fn rates(&self) -> Narrowing {
@@ -107,10 +107,10 @@ impl Settling {
             }
             Phase::Narrow { s, advance } => {
                 let path = Path::new(objective, options);
-                objective.set_narrowing(Some(path.rates()));
+                objective.contact.set_narrowing(Some(path.rates()));
                 let ds = advance.min(1.0 - *s);
                 let taken = newton.accompany(objective, state, ds);
-                objective.set_narrowing(None);
+                objective.contact.set_narrowing(None);
                 let taken = taken?;
                 *s += taken * ds;
                 if taken >= 0.99 {

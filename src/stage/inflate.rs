@@ -137,7 +137,7 @@ fn snap(objective: &mut Objective, state: &mut State) -> bool {
     if free {
         state.t = 1.0;
     } else {
-        objective.settle(state.configuration());
+        objective.contact.settle(state.configuration());
     }
     free
 }

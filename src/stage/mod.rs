@@ -1,9 +1,11 @@
 //! The three steps of the paper: which energies, which weights, when it is done.
 
-pub mod contact_distances;
+pub mod contact_guard;
 pub mod finish;
 pub mod fit;
+mod fit_start;
 pub mod inflate;
+mod inflation_start;
 pub mod objective;
 pub mod setup;
 pub mod start;

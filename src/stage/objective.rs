@@ -1,273 +1,61 @@
-//! The objective of Steps 2 and 3 (Eqs. 6 and 7) and the contact that bounds every step on it.
+//! The objective of inflation and fit (Eqs. 6 and 7): the terms with their weights. Contact, which bounds every step on it,
+//! is beside it in [`ContactGuard`].
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::DVec3;
 
-use super::contact_distances::Gaps;
-use crate::contact::exempt_pairs::triangle_pairs_of;
-use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
-use crate::control::Cancel;
+use super::contact_guard::ContactGuard;
+use super::setup::contact_distances::Gaps;
+use super::setup::shape::Shape;
+use crate::contact::{Bodies, Configuration};
 use crate::energy::Energy as _;
-use crate::energy::attachment::Attachment;
-use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
-use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::fit::Fit;
 use crate::energy::inflation::Inflation;
 use crate::energy::pin::Pins;
-use crate::energy::position::Position;
 use crate::energy::rigid::Rigid;
-use crate::energy::surface::Surface;
-use crate::error::Result;
-use crate::geometry::mesh::TriangleMesh;
 use crate::memory::MemoryLimit;
 use crate::options::Options;
 use crate::solver::Term;
 use crate::solver::newton::Model;
-use crate::solver::profile::Profile;
-use crate::verify::intersecting;
-
-/// Where something is nearer than the separation floor, the floor becomes this fraction of its distance.
-const FLOOR_SHARE: f64 = 0.25;
-
-/// What is searched at first is as long as this multiple of what was free of the last step, and at least
-/// [`SHORTEST_LOOK`] of it.
-const LOOK_AHEAD: f64 = 2.5;
-const SHORTEST_LOOK: f64 = 0.05;
 
 /// Weight of the rigid groups' term: stiff beside the surface term's 1, and yet loose enough to turn in steps of some degrees.
 const RIGIDITY: f64 = 10.0;
-
-/// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
-pub const NO_DISTANCE: f64 = 1e-12;
-
-/// The shape terms, which both steps share.
-pub struct Shape {
-    /// Surface shape (Eq. 2).
-    pub surface: Surface,
-    /// Loose pieces on the piece beside them.
-    pub attachment: Attachment,
-    /// Curvature of the boundary curves (Eq. 5).
-    pub curvature: Curvature,
-    /// Torsion of the boundary curves.
-    pub torsion: Torsion,
-    /// Position of the boundary curves along their bones (Eq. 3).
-    pub position: Position,
-    /// Vertices that a caller wants in given places.
-    pub pins: Pins,
-    /// Groups that keep shape and size.
-    pub rigid: Rigid,
-}
 
 /// Energies with their weights, and contact.
 pub struct Objective {
     shape: Arc<Shape>,
     fit: Option<Fit>,
     inflation: Option<Inflation>,
-    barrier: Barrier,
-    bodies: Arc<Bodies>,
-    broad_phase: BroadPhase,
-    /// The motion of the last search for pairs.
-    motion: Motion,
-    /// The part of the next step that is searched at first.
-    look_ahead: f64,
+    /// The barrier, and what keeps it valid.
+    pub contact: ContactGuard,
     weights: Options,
     barrier_weight: f64,
-    gaps: Gaps,
-    cancel: Cancel,
-    /// Time in contact since it was last taken.
-    profile: Profile,
 }
 
 impl Objective {
-    /// The objective without (Step 2) or with (Step 3) the fit term; the barrier is that of Step 2.
+    /// The objective without (inflation) or with the fit term; the barrier is that of the inflation.
     pub fn new(shape: Arc<Shape>, fit: Option<Fit>, bodies: Arc<Bodies>, gaps: Gaps, weights: &Options) -> Self {
-        let settings = BarrierSettings {
-            dhat_self: gaps.own_dhat,
-            dhat_avatar: gaps.inflation_dhat,
-            floor: gaps.floor,
-            ..BarrierSettings::default()
-        };
-        let barrier = Barrier::new(bodies.clone(), settings);
-        let mut objective = Self {
+        Self {
             shape,
             fit,
             inflation: None,
-            broad_phase: BroadPhase::new(&bodies),
-            motion: Motion::default(),
-            look_ahead: 1.0,
-            barrier,
-            bodies,
+            contact: ContactGuard::new(bodies, gaps, MemoryLimit::new(weights.memory_limit)),
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
-            gaps,
-            cancel: Cancel::new(),
-            profile: Profile::default(),
-        };
-        objective.limit_pairs(MemoryLimit::new(weights.memory_limit));
-        objective
-    }
-
-    /// From now on looks at `cancel`; once that is set, [`Model::admit`] admits nothing.
-    pub fn watch(&mut self, cancel: Cancel) {
-        self.cancel = cancel;
-    }
-
-    /// From now on keeps to `most` bytes of pairs.
-    pub fn limit_pairs(&mut self, most: MemoryLimit) {
-        // A pair is in the piece that found it and in the whole set; vectors grow by doubling.
-        self.broad_phase.set_most(most.room_for(4 * size_of::<[u32; 4]>()));
-    }
-
-    /// Whether the last search for pairs ended for want of room. What was computed since is worth nothing.
-    pub fn lacks_room(&self) -> bool {
-        self.broad_phase.is_incomplete()
+        }
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        self.terms().iter().map(|term| term.energy.memory()).sum::<u64>()
-            + self.bodies.memory()
-            + self.broad_phase.memory()
-            + self.motion.memory()
-    }
-
-    /// The time that broad phase and continuous collision detection took since this was last called.
-    pub fn take_profile(&mut self) -> Profile {
-        std::mem::take(&mut self.profile)
-    }
-
-    /// Finds the pairs that are near at `at`, where nothing moves.
-    pub fn settle(&mut self, at: Configuration<'_>) {
-        self.motion.set(&self.bodies, at, None);
-        self.find_pairs(1.0);
-        self.narrow_pairs(1.0);
-    }
-
-    /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
-    /// together with what touches within rounding. Lowers the floor below all that is guarded.
-    pub fn begin(&mut self, at: Configuration<'_>, tangled: &[[u32; 2]]) {
-        self.entangle(at, tangled.to_vec(), |_, _| true);
-        self.fit_floors(at, [0.0; 2]);
-    }
-
-    /// Goes on from `previous`, an objective of the same garment: with its tangle and its floor.
-    pub fn take_over(&mut self, previous: &Objective) {
-        self.broad_phase.set_tangle(previous.broad_phase.tangle().clone());
-        self.set_floors(previous.floors());
-    }
-
-    /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
-    fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
-        let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
-        let own = near.filter(|&(_, class, _)| class != Class::Avatar).map(|(kind, _, pair)| (kind, pair));
-        triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
-    }
-
-    /// What has come apart is guarded from now on, and the floors follow the smallest distances, up to that of the gaps. To be
-    /// called after each accepted step. True where the barrier has changed.
-    ///
-    /// # Errors
-    /// `InvalidMesh` where a vertex is not finite.
-    pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
-        let before = self.floors();
-        let released = self.release(at)?;
-        if released || before[0] < self.gaps.floor || !self.tangle().is_empty() {
-            self.fit_floors(at, before);
-        }
-        Ok(released || self.floors() != before)
-    }
-
-    fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
-        let before = self.broad_phase.tangle();
-        if before.is_empty() {
-            return Ok(false);
-        }
-        let triangles = self.bodies.garment.surface.triangles.clone();
-        let mesh = TriangleMesh { positions: at.x.to_vec(), triangles };
-        let pairs = intersecting(&mesh, before.triangle_pairs())?;
-        if pairs.len() == before.triangle_pairs().len() {
-            return Ok(false);
-        }
-        let before = before.clone();
-        // What is apart by no more than rounding stays let off, and nothing is let off anew.
-        self.entangle(at, pairs, |s, t| before.contains(s, t));
-        Ok(self.tangle().triangle_pairs().len() < before.triangle_pairs().len())
-    }
-
-    /// Makes a tangle of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
-    fn entangle(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
-        loop {
-            self.broad_phase.set_tangle(Tangle::new(&self.bodies.garment.surface, &pairs));
-            self.settle(at);
-            let tangle = self.tangle();
-            let joins = |&[s, t]: &[u32; 2]| may(s, t) && !tangle.contains(s, t);
-            let joining: Vec<[u32; 2]> = self.touching(at).into_iter().filter(joins).collect();
-            if joining.is_empty() {
-                return;
-            }
-            pairs.extend(joining);
-        }
-    }
-
-    /// Sets the floors as high as the gaps ask for and what is guarded at `at` allows; but not below `before`, which was
-    /// below all distances, unless something newly guarded is nearer than that.
-    fn fit_floors(&mut self, at: Configuration<'_>, before: [f64; 2]) {
-        let near = self.barrier.activity(at);
-        let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_tangled];
-        let wanted = [self.gaps.floor, self.gaps.floor.min(FLOOR_SHARE * self.barrier.settings().dhat(Class::Tangled))];
-        let [floor, tangled_floor] = std::array::from_fn(|k| {
-            let fitting = (FLOOR_SHARE * nearest[k]).min(wanted[k]);
-            if nearest[k] > before[k] { fitting.max(before[k].min(wanted[k])) } else { fitting }
-        });
-        self.set_floors([floor, tangled_floor]);
-    }
-
-    /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
-    pub fn widen(&mut self) {
-        self.gaps = self.gaps.doubled();
-        self.barrier.set_settings(BarrierSettings { dhat_self: self.gaps.own_dhat, ..*self.barrier.settings() });
-    }
-
-    /// The gaps that contact keeps.
-    pub fn gaps(&self) -> Gaps {
-        self.gaps
-    }
-
-    /// The distance that no pair falls below, but for the tangled ones.
-    pub fn floor(&self) -> f64 {
-        self.barrier.settings().floor
-    }
-
-    /// That, and the same for the tangled pairs.
-    fn floors(&self) -> [f64; 2] {
-        let settings = self.barrier.settings();
-        [settings.floor, settings.tangled_floor]
-    }
-
-    fn set_floors(&mut self, [floor, tangled_floor]: [f64; 2]) {
-        let settings = BarrierSettings { floor, tangled_floor, ..*self.barrier.settings() };
-        if settings != *self.barrier.settings() {
-            self.barrier.set_settings(settings);
-        }
-    }
-
-    /// The garment triangles that still pass through each other.
-    pub fn tangle(&self) -> &Tangle {
-        self.broad_phase.tangle()
+        self.terms().iter().map(|term| term.energy.memory()).sum::<u64>() + self.contact.memory()
     }
 
     /// Sets where the barrier towards the avatar begins, and the weight of the barrier as a whole. The pairs must be found
-    /// again by [`Self::settle`].
+    /// again by [`ContactGuard::settle`].
     pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
-        self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
+        self.contact.set_dhat_avatar(dhat_avatar);
         self.barrier_weight = weight;
-    }
-
-    /// Makes the border of the linear system that of a narrowing barrier (see [`Barrier::set_narrowing`]), or that of t.
-    pub fn set_narrowing(&mut self, narrowing: Option<Narrowing>) {
-        self.barrier.set_narrowing(narrowing);
     }
 
     /// The rigid groups.
@@ -295,40 +83,6 @@ impl Objective {
         let still = vec![DVec3::ZERO; at.x.len()];
         self.admit(at, &still, dt, 1.0)
     }
-
-    /// What is in contact at `at`, which must lie within the last step that was admitted.
-    pub fn activity(&self, at: Configuration<'_>) -> Activity {
-        self.barrier.activity(at)
-    }
-
-    /// The nearest pair of primitives at `at` among those below d-hat.
-    pub fn nearest(&self, at: Configuration<'_>) -> Option<[u32; 4]> {
-        let near = self.activity(at);
-        let distance = near.min_distance_self.min(near.min_distance_avatar);
-        // What is found is below the bound, not at it.
-        self.barrier.nearer_than(distance * (1.0 + 1e-9), at).first().map(|&(_, _, pair)| pair)
-    }
-
-    /// The garment's vertices among those of a pair.
-    pub fn garment_vertices(&self, pair: [u32; 4]) -> impl Iterator<Item = u32> {
-        let count = self.bodies.garment_count() as u32;
-        pair.into_iter().filter(move |&v| v < count)
-    }
-
-    /// Finds the pairs that come within their d-hat during the first `part` of the motion.
-    fn find_pairs(&mut self, part: f64) {
-        let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();
-        let clock = Instant::now();
-        let pairs = self.barrier.candidates_mut();
-        self.broad_phase.candidates(&self.bodies, &self.motion, part, dhat_self, dhat_avatar, pairs);
-        self.profile.broad_phase += clock.elapsed();
-    }
-
-    /// Leaves of the pairs those that come within their d-hat during the first `part` of the motion.
-    fn narrow_pairs(&mut self, part: f64) {
-        let settings = *self.barrier.settings();
-        self.barrier.candidates_mut().retain_near(&self.motion, part, |class| settings.dhat(class));
-    }
 }
 
 impl Model for Objective {
@@ -341,7 +95,7 @@ impl Model for Objective {
             Term { energy: &shape.curvature, weight: w.curvature_weight },
             Term { energy: &shape.torsion, weight: w.torsion_weight },
             Term { energy: &shape.position, weight: w.position_weight },
-            Term { energy: &self.barrier, weight: self.barrier_weight },
+            Term { energy: self.contact.barrier(), weight: self.barrier_weight },
         ];
         // Terms that a garment does not have are not asked for their derivatives in every iteration.
         if !shape.pins.is_empty() {
@@ -360,24 +114,6 @@ impl Model for Objective {
     }
 
     fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
-        self.motion.set(&self.bodies, at, Some(&Step { dx, dt }));
-        // The pairs that only the far part of a long step meets are many, and mostly the step ends before.
-        let mut part = longest.min(self.look_ahead);
-        loop {
-            self.find_pairs(part);
-            if self.cancel.is_requested() || self.lacks_room() {
-                return 0.0;
-            }
-            let settings = self.barrier.settings();
-            let clock = Instant::now();
-            let free = ccd::max_step(&self.motion, self.barrier.candidates(), |class| settings.floor(class), part);
-            self.profile.ccd += clock.elapsed();
-            if free < part || part >= longest {
-                self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
-                self.narrow_pairs(free);
-                return free;
-            }
-            part = longest;
-        }
+        self.contact.admit(at, dx, dt, longest)
     }
 }

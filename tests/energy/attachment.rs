@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use bespoke::energy::attachment::Attachment;
 use bespoke::energy::{Configuration, Energy};
 use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
+use bespoke::stage::setup::loose_pieces::LoosePieces;
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
@@ -42,8 +43,12 @@ impl Garment {
         self.add([centre].into_iter().chain(rim), &fan);
     }
 
+    fn loose(&self) -> LoosePieces {
+        LoosePieces::find(&self.rest, &self.triangles)
+    }
+
     fn term(&self) -> Attachment {
-        Attachment::new(&self.rest, &self.triangles)
+        Attachment::new(&self.rest, &self.loose().holds)
     }
 
     fn value(&self, x: &[DVec3]) -> f64 {
@@ -72,21 +77,21 @@ fn buttons_are_held_to_the_coat() {
     for k in 0..10 {
         garment.disc(DVec3::new(1.02, 0.0, 0.25 * f64::from(k) - 1.2), 0.03 * DVec3::Y, 0.03 * DVec3::Z);
     }
-    let term = garment.term();
-    assert_eq!((term.pieces().len(), term.len()), (10, 70));
-    for (k, piece) in (0u32..).zip(term.pieces()) {
+    let (loose, term) = (garment.loose(), garment.term());
+    assert_eq!((loose.pieces.len(), term.len()), (10, 70));
+    for (k, piece) in (0u32..).zip(&loose.pieces) {
         assert_eq!(piece.triangle, coat + 6 * k);
         assert_eq!(piece.vertices, (24 * 16 + 7 * k..24 * 16 + 7 * k + 7).collect::<Vec<_>>());
         assert!(piece.host < coat);
         assert!((0.019..0.03).contains(&piece.distance), "{}", piece.distance);
     }
-    let findings = term.findings(|t| t + 1000);
+    let findings = loose.findings(|t| t + 1000);
     assert_eq!(findings.len(), 10);
     assert_eq!((findings[1].kind, findings[1].severity), (FindingKind::LoosePiece, Severity::Note));
-    let host = term.pieces()[1].host;
+    let host = loose.pieces[1].host;
     assert_eq!(findings[1].elements, [coat + 1006, host + 1000].map(|t| Element::triangle(Subject::Garment, t)));
     assert!(findings[1].sentence.contains(&format!("7 vertices with triangle {}", coat + 1006)));
-    assert_eq!(findings[1].distance, term.pieces()[1].distance);
+    assert_eq!(findings[1].distance, loose.pieces[1].distance);
 }
 
 #[test]
@@ -97,7 +102,7 @@ fn a_belt_is_held_and_so_is_its_buckle_to_the_belt() {
     garment.tube(DVec3::ZERO, 1.06, 0.3, 24, 3);
     let belt = garment.triangles.len() as u32;
     garment.disc(DVec3::new(1.09, 0.0, 0.0), 0.1 * DVec3::Y, 0.1 * DVec3::Z);
-    let hosts: Vec<u32> = garment.term().pieces().iter().map(|p| p.host).collect();
+    let hosts: Vec<u32> = garment.loose().pieces.iter().map(|p| p.host).collect();
     assert_eq!(hosts.len(), 2);
     assert!(hosts[0] < suit && (suit..belt).contains(&hosts[1]), "{hosts:?}");
 }
@@ -120,9 +125,9 @@ fn what_is_large_or_far_is_not_loose() {
     let mut one = Garment::default();
     one.tube(DVec3::ZERO, 1.0, 3.0, 24, 16);
     for (name, garment) in [("socks", socks), ("scarf", scarf), ("leg", leg), ("space", space), ("one", one)] {
-        assert_eq!((garment.term().pieces(), garment.term().len()), (&[][..], 0), "{name}");
+        assert_eq!((garment.loose().pieces.len(), garment.term().len()), (0, 0), "{name}");
     }
-    assert!(Attachment::new(&[], &[]).is_empty());
+    assert!(LoosePieces::find(&[], &[]).holds.is_empty());
 }
 
 /// The rule does not depend on place, size and direction.
@@ -132,8 +137,8 @@ fn the_rule_follows_similarities() {
     let (garment, _) = button();
     for scale in [1e-3, 1.0, 1e3] {
         let moved = similar(&garment.rest, scale, &mut random);
-        let term = Attachment::new(&moved, &garment.triangles);
-        assert_eq!((term.pieces().len(), term.len()), (1, 7));
+        let loose = LoosePieces::find(&moved, &garment.triangles);
+        assert_eq!((loose.pieces.len(), Attachment::new(&moved, &loose.holds).len()), (1, 7));
     }
 }
 
@@ -147,7 +152,7 @@ fn the_hanging_end_of_a_belt_is_free() {
     garment.rest.push(DVec3::new(1.8, 0.0, 0.0));
     garment.triangles.push([end - 1, end - 2, end]);
     let term = garment.term();
-    assert_eq!((term.pieces()[0].vertices.len(), term.len()), (73, 72));
+    assert_eq!((garment.loose().pieces[0].vertices.len(), term.len()), (73, 72));
     term.stencils(&mut |v| assert!(!v.contains(&end)));
 }
 
@@ -239,10 +244,10 @@ fn sequins_are_held() {
         let (out, along) = (DVec3::new(angle.cos(), angle.sin(), 0.0), DVec3::new(-angle.sin(), angle.cos(), 0.0));
         garment.disc(1.01 * out + DVec3::Z * z, 0.01 * along, 0.01 * DVec3::Z);
     }
-    let term = garment.term();
-    assert_eq!(term.pieces().len(), 3000);
-    assert!(term.pieces().iter().all(|p| p.host < 2 * 40 * 39));
-    let findings = term.findings(|t| t);
+    let loose = garment.loose();
+    assert_eq!(loose.pieces.len(), 3000);
+    assert!(loose.pieces.iter().all(|p| p.host < 2 * 40 * 39));
+    let findings = loose.findings(|t| t);
     assert_eq!(findings.len(), 1001);
     assert_eq!(findings[1000].sentence, "2000 more loose pieces of the garment are held");
 }

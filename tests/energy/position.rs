@@ -1,8 +1,7 @@
 //! Position term.
 
-use bespoke::energy::position::Position;
+use bespoke::energy::position::{Guide, Position};
 use bespoke::energy::{Configuration, Energy};
-use bespoke::stage::setup::loop_axis::Guide;
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};

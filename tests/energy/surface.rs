@@ -2,8 +2,8 @@
 
 use bespoke::energy::surface::{Surface, SurfaceForm};
 use bespoke::energy::{Configuration, Energy};
-use bespoke::geometry::sliver_caps::without_caps;
 use bespoke::geometry::mesh::{Hinge, Topology};
+use bespoke::geometry::sliver_caps::without_caps;
 use glam::{DMat3, DVec3};
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};

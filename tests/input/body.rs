@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::body::Body;
 use bespoke::input::diagnostic::{Element, Subject};
-use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 /// A strip of so many triangles, at this height.

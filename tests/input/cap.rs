@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use bespoke::geometry::sliver_caps::without_caps;
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::geometry::sliver_caps::without_caps;
 use glam::DVec3;
 
 use crate::obj::{assets, read_mesh};

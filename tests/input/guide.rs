@@ -1,8 +1,9 @@
 //! The bones that boundary loops follow.
 
-use bespoke::stage::setup::loop_axis::{Guide, LoopGuide, choose_guides};
+use bespoke::energy::position::Guide;
 use bespoke::geometry::mesh::{BoundaryLoop, Topology};
 use bespoke::input::skeleton::Skeleton;
+use bespoke::stage::setup::loop_axis::{LoopGuide, choose_guides};
 use glam::DVec3;
 
 use super::obj::{assets, read_mesh, read_skeleton};

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use bespoke::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
 use bespoke::geometry::mesh::{Topology, TriangleMesh};
+use bespoke::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
 use bespoke::input::weld::Weld;
 use glam::DVec3;
 

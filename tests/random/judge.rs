@@ -47,8 +47,8 @@ impl<'a> Judge<'a> {
         let problem = scene.problem()?;
         let mut judge = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
         let start = judge.source_positions();
-        let objective = judge.problem.begin(&scene.options, &mut Vec::new())?;
-        for &pair in objective.tangle().triangle_pairs() {
+        let objective = judge.problem.inflation_objective(&scene.options, &mut Vec::new())?;
+        for &pair in objective.contact.tangle().triangle_pairs() {
             let pair = pair.map(|t| judge.problem.weld.triangle_of[t as usize]);
             let touches = distance(&start, pair) < 2e-12;
             assert!(judge.garment.contains(&pair) || touches, "triangles {pair:?} are let off, but are apart");

@@ -1,7 +1,7 @@
 //! The search tree against brute force and against known answers.
 
-use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::geometry::closest_point::{ClosestPoint, barycentric, closest_on_triangle};
+use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
 use crate::support::Random;

@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::geometry::closest_point::closest_on_triangle;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::sdf::volume::Volume;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;

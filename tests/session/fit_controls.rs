@@ -2,11 +2,11 @@
 
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
-use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
+use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::Space;
+use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
 use bespoke::options::Options;
-use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::session::{Pin, Precision, Session};
 use glam::DVec3;
 

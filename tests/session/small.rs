@@ -136,8 +136,8 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
 fn no_iterate_of_the_inflation_intersects() {
     let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
     let problem = problem(&garment);
-    let mut objective = problem.begin(&options, &mut findings).unwrap();
-    assert!(findings.is_empty() && objective.floor() == options.separation_floor, "{findings:?}");
+    let mut objective = problem.inflation_objective(&options, &mut findings).unwrap();
+    assert!(findings.is_empty() && objective.contact.floor() == options.separation_floor, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms()).unwrap();
     let mut inflation = Inflation::default();

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use bespoke::contact::Configuration;
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
-use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Precision};
@@ -116,8 +116,12 @@ fn what_has_come_apart_stays_apart() {
 
     let problem = problem(&garment);
     let options = Options::default();
-    let mut objective = problem.begin(&options, &mut Vec::new()).unwrap();
-    assert_eq!(objective.tangle().triangle_pairs().len(), count as usize, "all triangles at the tip pass through one");
+    let mut objective = problem.inflation_objective(&options, &mut Vec::new()).unwrap();
+    assert_eq!(
+        objective.contact.tangle().triangle_pairs().len(),
+        count as usize,
+        "all triangles at the tip pass through one"
+    );
     let inward = |x: &[DVec3], depth: f64| {
         let mut dx = vec![DVec3::ZERO; x.len()];
         dx[tip] = -depth * out;
@@ -128,11 +132,11 @@ fn what_has_come_apart_stays_apart() {
     assert_eq!(objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.001), 0.0, 1.0), 1.0);
     assert_eq!(objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, -0.003), 0.0, 1.0), 1.0);
     x[tip] += 0.003 * out;
-    assert!(objective.review(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
-    assert!(objective.tangle().is_empty());
+    assert!(objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
+    assert!(objective.contact.tangle().is_empty());
     let kept = objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.003), 0.0, 1.0);
     assert!(kept > 0.1 && kept < 1.0 / 3.0, "the tip stops before the wall, a thousandth away: {kept}");
-    assert!(!objective.review(Configuration { x: &x, t: 0.0 }).unwrap(), "nothing is new");
+    assert!(!objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "nothing is new");
 }
 
 #[test]

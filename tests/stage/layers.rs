@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use bespoke::input::body::Body;
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::body::Body;
 use bespoke::input::skin::SkinWeights;
 use bespoke::stage::setup::layer_skin::skin_with_layers;
 use glam::DVec3;

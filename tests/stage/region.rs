@@ -1,7 +1,7 @@
 //! The fit region that the designed distance decides.
 
-use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::geometry::closest_point::ClosestPoint;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::stage::setup::fit_region::fit_region;
 use glam::DVec3;
 

@@ -5,14 +5,14 @@ use std::sync::Arc;
 
 use bespoke::control::{Cancel, Stage};
 use bespoke::error::{Error, ErrorKind};
-use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
-use bespoke::stage::start::projection::project;
 use bespoke::stage::setup::problem::{Inputs, Problem};
+use bespoke::stage::start::projection::project;
 use bespoke::verify::intersections;
 use glam::DVec3;
 
@@ -112,8 +112,8 @@ impl Case {
         let crossings =
             edge_crossings(&problem.rest, &problem.triangles, &problem.projected.start, &problem.projected.triangles);
         assert_eq!(crossings, 0);
-        let objective = problem.begin(&Options::default(), &mut Vec::new()).unwrap();
-        assert_eq!(objective.floor(), Options::default().separation_floor);
+        let objective = problem.inflation_objective(&Options::default(), &mut Vec::new()).unwrap();
+        assert_eq!(objective.contact.floor(), Options::default().separation_floor);
         // The pieces still tile the avatar at the end, and know what they are pieces of.
         let area = |p: &[DVec3], t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| p[v as usize]);

@@ -6,13 +6,13 @@
 //! the tree at the same time. The result has the same bits with any number of threads.
 
 mod buffer;
-mod ordering;
 mod kernel;
 mod numeric;
-mod symbolic;
+mod ordering;
 mod solve;
 mod substitution;
 mod supernodes;
+mod symbolic;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -21,11 +21,11 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::{MemoryLimit, Part, bytes};
 use buffer::Buffer;
-use ordering::{Graph, minimum_degree};
 use numeric::Factorisation;
-use symbolic::Plan;
+use ordering::{Graph, minimum_degree};
 use solve::Solve;
 use supernodes::Supernodes;
+use symbolic::Plan;
 
 /// Right-hand sides that go through a factor together.
 const TOGETHER: usize = 2;

@@ -6,8 +6,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::numeric::{divided, parts};
-use super::symbolic::Plan;
 use super::substitution;
+use super::symbolic::Plan;
 
 /// One or two right-hand sides on their way.
 pub(super) struct Solve<'a> {

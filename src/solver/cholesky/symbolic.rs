@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use super::ordering::Graph;
 use super::kernel::{padded, update_len};
+use super::ordering::Graph;
 use super::supernodes::Supernodes;
 use crate::memory::bytes;
 

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use crate::input::body::Body;
-use crate::geometry::mesh::TriangleMesh;
-use crate::input::skin::SkinWeights;
 use crate::geometry::closest_point::{ClosestPoint, barycentric};
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::body::Body;
+use crate::input::skin::SkinWeights;
 
 /// `skin`, that of the avatar of `body`, with weights for the vertices of all layers as well: each has those of the nearest
 /// point of the avatar.

@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use crate::energy::position::Guide;
 use crate::geometry::mesh::BoundaryLoop;
 use crate::input::skeleton::Skeleton;
 
@@ -20,15 +21,6 @@ const STUB: f64 = 0.1;
 
 /// A loop whose area is below this share of its squared length is a slit, without a normal.
 const SLIT: f64 = 1e-6;
-
-/// An axis between two points that move with the inflation parameter t.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guide {
-    /// Both ends at t = 0, from the source skeleton.
-    pub start: [DVec3; 2],
-    /// Both ends at t = 1, from the target skeleton.
-    pub end: [DVec3; 2],
-}
 
 /// The bones that a loop follows, and their mean.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,11 @@
 //! From the inputs to the terms of the objective: what is derived once, before anything moves.
 
+pub mod contact_distances;
 pub mod fit_region;
 pub mod layer_skin;
 pub mod loop_axis;
+pub mod loose_pieces;
 pub mod normalization;
 pub mod pin_targets;
 pub mod problem;
+pub mod shape;

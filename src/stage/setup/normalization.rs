@@ -33,6 +33,11 @@ impl Frame {
         (p - self.origin) * self.scale
     }
 
+    /// All of a caller's points in the normalised space.
+    pub fn normalise_all(&self, points: &[DVec3]) -> Vec<DVec3> {
+        points.iter().map(|&p| self.normalise(p)).collect()
+    }
+
     /// A normalised point in the caller's space.
     pub fn restore(&self, p: DVec3) -> DVec3 {
         p / self.scale + self.origin

@@ -12,9 +12,9 @@
 use glam::{DQuat, DVec3};
 
 use crate::energy::pin::Pin;
+use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, label_pieces};
 use crate::input::skeleton::Skeleton;
-use crate::geometry::closest_point::closest_on_segment;
 
 /// A vertex to pin, and its place in the normalised space where the caller has named one.
 pub type AskedPin = (u32, Option<DVec3>);

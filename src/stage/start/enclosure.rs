@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::section::Section;
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::closest_point::closest_on_segment;
+use crate::geometry::mesh::TriangleMesh;
 
 /// Garment vertices whose nearest places on the skeleton are looked at.
 const PLACES: usize = 64;

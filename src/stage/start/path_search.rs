@@ -9,13 +9,13 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::bent_skeleton::{Knot, Wire};
 use super::offset_grid::{Cells, ball, disc};
 use super::section::Section;
-use super::bent_skeleton::{Knot, Wire};
 use crate::control::Cancel;
+use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
-use crate::geometry::closest_point::ClosestPoint;
 
 /// How widely and finely to look. Lengths are in the normalised space.
 #[derive(Clone, Copy)]

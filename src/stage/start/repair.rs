@@ -7,15 +7,15 @@
 use glam::DVec3;
 
 use super::enclosure;
-use super::projection::ProjectedAvatar;
 use super::path_search::{Route, Scene, Search, around};
+use super::projection::ProjectedAvatar;
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::closest_point::ClosestPoint;
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
-use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{Location, Skeleton};
-use crate::geometry::closest_point::ClosestPoint;
 use crate::verify::intersections_unless;
 
 /// What is tried, one after the other, until nothing between joints has to be pulled back: finely and near, then far, and

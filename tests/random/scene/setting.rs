@@ -1,9 +1,9 @@
 //! All around the meshes: axes, unit, winding, place and precision of both sides, optional inputs, options.
 
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::coordinate_system::{Axis, Space, Winding};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
-use bespoke::input::coordinate_system::{Axis, Space, Winding};
 use bespoke::options::{Options, SurfaceForm};
 use bespoke::session::Precision;
 use glam::DVec3;

@@ -17,6 +17,9 @@ const OWN_DHAT_IN_EDGES: f64 = 0.25;
 /// A shift above this, in a space in which the skeleton is 2 long, leaves no room for a fit.
 const LARGEST_SHIFT: f64 = 0.01;
 
+/// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
+pub const NO_DISTANCE: f64 = 1e-12;
+
 /// The distances that contact keeps, in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaps {

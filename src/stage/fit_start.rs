@@ -1,0 +1,48 @@
+//! The objective with which the fit begins (Eq. 7): the avatar at its full size, and the clearances to aim at.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::objective::Objective;
+use super::setup::problem::Problem;
+use crate::contact::{Avatar, Surface};
+use crate::energy::fit::{Clearance, Fit};
+use crate::error::Result;
+use crate::geometry::mesh::TriangleMesh;
+use crate::options::Options;
+use crate::sdf::Field;
+
+impl Problem {
+    /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
+    /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the step, `x`, and
+    /// then kept, for a measure that follows the garment would pay for shrinking it. Where the source body is known, each
+    /// point aims at the clearance that it had there, without regard to the side; both bodies are measured in units of
+    /// their skeletons.
+    ///
+    /// # Errors
+    /// `InvalidArgument` for a clearance that is not finite.
+    pub fn fit_objective(&self, field: Arc<Field>, x: &[DVec3], options: &Options) -> Result<Objective> {
+        let areas = TriangleMesh { positions: x.to_vec(), triangles: self.triangles.clone() }.areas();
+        let positions = &self.avatar.positions;
+        let avatar = Avatar {
+            surface: Surface::new(positions.len(), self.avatar.triangles.clone()),
+            start: positions.clone(),
+            motion: vec![DVec3::ZERO; positions.len()],
+        };
+        let mut fit = Fit::new(field, &self.triangles, &areas, &self.fit_weights);
+        let wanted = |designed: f64| {
+            let least = if designed + self.offset > 0.0 { designed + self.offset } else { f64::NEG_INFINITY };
+            Clearance { most: designed + self.offset, least }
+        };
+        if let Some(body) = &self.source_body {
+            let designed = fit.sample_points(&self.rest);
+            let designed = designed.par_iter().map(|&p| wanted(options.designed_clearance * body.distance(p)));
+            fit.set_clearances(&designed.collect::<Vec<_>>())?;
+        } else if self.offset > 0.0 {
+            fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;
+        }
+        Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), self.gaps, options))
+    }
+}

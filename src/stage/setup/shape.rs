@@ -1,0 +1,87 @@
+//! The shape terms: what holds the garment to its design.
+
+use super::loop_axis::choose_guides;
+use super::loose_pieces::LoosePieces;
+use super::pin_targets::{self, AskedPin};
+use crate::energy::attachment::Attachment;
+use crate::energy::curve::{Curvature, Torsion};
+use crate::energy::pin::Pins;
+use crate::energy::position::{Guide, Position};
+use crate::energy::rigid::Rigid;
+use crate::energy::surface::Surface;
+use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::sliver_caps::without_caps;
+use crate::input::skeleton::Skeleton;
+use crate::options::Options;
+
+/// The shape terms, which inflation and fit share.
+pub struct Shape {
+    /// Surface shape (Eq. 2).
+    pub surface: Surface,
+    /// Loose pieces on the piece beside them.
+    pub attachment: Attachment,
+    /// Curvature of the boundary curves (Eq. 5).
+    pub curvature: Curvature,
+    /// Torsion of the boundary curves.
+    pub torsion: Torsion,
+    /// Position of the boundary curves along their bones (Eq. 3).
+    pub position: Position,
+    /// Vertices that a caller wants in given places.
+    pub pins: Pins,
+    /// Groups that keep shape and size.
+    pub rigid: Rigid,
+}
+
+impl Shape {
+    /// The terms of `garment` as designed, between the skeletons `source` and `target`; and the pieces that are held to
+    /// others. `pins` has at most one entry a vertex, `rigid_groups` each vertex in one group at most.
+    pub fn new(
+        garment: &TriangleMesh,
+        source: &Skeleton,
+        target: &Skeleton,
+        pins: &[AskedPin],
+        rigid_groups: &[Vec<u32>],
+        options: &Options,
+    ) -> (Self, LoosePieces) {
+        let (rest, triangles) = (&garment.positions, &garment.triangles);
+        let topology = Topology::new(rest.len(), triangles);
+        let loose = LoosePieces::find(rest, triangles);
+        let whole = without_caps(rest, triangles);
+        let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
+        let shape = Self {
+            surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
+            attachment: Attachment::new(rest, &loose.holds),
+            curvature: Curvature::new(rest, &topology.loops),
+            torsion: Torsion::new(rest, &topology.loops),
+            position: position(garment, &topology, &loose, source, target),
+            pins: Pins::new(pin_targets::resolve(rest, triangles, pins, source, target)),
+            rigid: Rigid::new(rest, rigid_groups),
+        };
+        (shape, loose)
+    }
+}
+
+/// The position term of the boundary loops that follow bones.
+fn position(
+    garment: &TriangleMesh,
+    topology: &Topology,
+    loose: &LoosePieces,
+    source: &Skeleton,
+    target: &Skeleton,
+) -> Position {
+    let rest = &garment.positions;
+    let mut held = vec![false; rest.len()];
+    loose.pieces.iter().flat_map(|piece| &piece.vertices).for_each(|&v| held[v as usize] = true);
+    let mut guides: Vec<Guide> = Vec::new();
+    let mut constraints = Vec::new();
+    for (curve, guide) in topology.loops.iter().zip(choose_guides(rest, &topology.loops, source, target)) {
+        // A piece that is held to another one, such as a button, has no place of its own along a bone.
+        if let Some(guide) = guide
+            && !held[curve.vertices[0] as usize]
+        {
+            constraints.extend(curve.vertices.iter().map(|&v| (v, guides.len() as u32)));
+            guides.push(guide.guide);
+        }
+    }
+    Position::new(rest, &constraints, guides, &topology.mean_edge_lengths(rest))
+}
