@@ -98,23 +98,23 @@ dependencies:
 .PHONY: demo
 demo: dependencies
 	$(MAKE) build/retarget
-	cargo run --release --example closet -- $(SAMPLE)
+	cargo run --release -p closet -- $(SAMPLE)
 	sh examples_c/demo.sh build/retarget $(SAMPLE)
 
 # GALLERY: options of the program, such as '--avatars child,giant --keep'. Pictures are made of what there is, also where
 # a pair has failed or a figure does not show what it claims.
-WEB = examples/gallery/web
+WEB = tools/gallery/web
 RENDER = node $(WEB)/render.mjs
 .PHONY: gallery
 gallery: painter
-	cargo run --release --example gallery -- --out build/gallery $(GALLERY); ended=$$?; \
+	cargo run --release -p gallery -- --out build/gallery $(GALLERY); ended=$$?; \
 	[ $$ended -le 1 ] || exit $$ended; \
 	$(RENDER) build/gallery/sheet.json build/gallery/sheet.png --page build/gallery/index.html || exit 2; \
 	$(MAKE) figures && exit $$ended
 
 .PHONY: figures
 figures: painter
-	cargo run --release --example figures -- --out build/gallery/figures $(FIGURES); ended=$$?; \
+	cargo run --release -p figures -- --out build/gallery/figures $(FIGURES); ended=$$?; \
 	[ $$ended -le 1 ] || exit $$ended; \
 	for sheet in build/gallery/figures/*.json; do $(RENDER) $$sheet $${sheet%.json}.png || exit 2; done; \
 	exit $$ended
@@ -134,10 +134,10 @@ $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.
 test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
 	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
-	$(MAKE) build/retarget && cargo test --release --no-run; built=$$?; \
+	$(MAKE) build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	wait $$shipped && exit $$built
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
-		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release
+		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]
@@ -147,7 +147,7 @@ test: dependencies
 sanitize: dependencies
 	sh .ci/dependencies valgrind
 	$(MAKE) build/libbespoke.$(SHARED)
-	[ -d $(SAMPLE) ] || cargo run --release --example closet -- $(SAMPLE)
+	[ -d $(SAMPLE) ] || cargo run --release -p closet -- $(SAMPLE)
 	CC=$(CC) sh tests/c/sanitize.sh build $(SAMPLE)
 
 # What is found new goes to build/fuzz, and what fails to tests/fuzz/artifacts. A nightly build of its own, so the first
@@ -169,13 +169,13 @@ pairs: build/retarget
 # COUNT and FIRST: how many, from which seed on.
 .PHONY: soak
 soak:
-	cargo run --release --example soak -- $(if $(SEED),--seed $(SEED),--count $(or $(COUNT),300) --first $(or $(FIRST),1))
+	cargo run --release -p soak -- $(if $(SEED),--seed $(SEED),--count $(or $(COUNT),300) --first $(or $(FIRST),1))
 
 # BENCH: pipeline or kernels, and its options (pipeline --help lists them); both without.
 .PHONY: bench
 bench: dependencies
-	$(if $(BENCH),,cargo bench --bench kernels)
-	cargo bench --bench $(or $(firstword $(BENCH)),pipeline) -- $(wordlist 2,$(words $(BENCH)),$(BENCH))
+	$(if $(BENCH),,cargo bench -p bench --bench kernels)
+	cargo bench -p bench --bench $(or $(firstword $(BENCH)),pipeline) -- $(wordlist 2,$(words $(BENCH)),$(BENCH))
 
 .PHONY: header
 header:

@@ -14,13 +14,13 @@ use bespoke::capi::status::*;
 use bespoke::capi::version::*;
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent, BespokeView};
 
-use crate::caller::{Caller, bones, no_options, points, triangles};
+use testing::caller::{Caller, bones, no_options, points, triangles};
 
 use BespokeStatus::{InvalidArgument, InvalidWeights, MemoryLimit, Ok};
 
 #[test]
 fn null_sessions_are_refused() {
-    let sample = crate::caller::Sample::new();
+    let sample = testing::caller::Sample::new();
     let (p, t) = (points(&sample.garment.0), triangles(&sample.garment.1));
     let (j, b) = (points(&sample.source_joints), bones(&sample.bones));
     let session = null_mut();
@@ -255,7 +255,7 @@ fn skin_weights_are_checked() {
     let (caller, sample) = Caller::with_sample();
     let count = sample.avatar.0.len();
     let dense = |weights: &[f32], joints: usize, vertices: usize| {
-        let rows = BespokeView { count: joints, ..crate::caller::view(weights, BespokeComponent::F32) };
+        let rows = BespokeView { count: joints, ..testing::caller::view(weights, BespokeComponent::F32) };
         // SAFETY: the slice holds joints * vertices numbers.
         unsafe { bespoke_session_set_target_skin_weights(caller.session, &rows, vertices) }
     };
@@ -280,8 +280,8 @@ fn sparse_skin_weights_are_checked() {
     let (caller, sample) = Caller::with_sample();
     let count = sample.avatar.0.len();
     let set = |joints: &[[u16; 4]], weights: &[[f32; 4]]| {
-        let joints = crate::caller::view(joints, BespokeComponent::U16);
-        let weights = crate::caller::view(weights, BespokeComponent::F32);
+        let joints = testing::caller::view(joints, BespokeComponent::U16);
+        let weights = testing::caller::view(weights, BespokeComponent::F32);
         // SAFETY: the views tell the truth.
         unsafe { bespoke_session_set_target_skin_influences(caller.session, &joints, &weights, 4, 3) }
     };
@@ -298,7 +298,7 @@ fn fit_weights_are_checked() {
     let (caller, sample) = Caller::with_sample();
     let count = sample.garment.0.len();
     let set = |weights: &[f64]| {
-        let view = crate::caller::view(weights, BespokeComponent::F64);
+        let view = testing::caller::view(weights, BespokeComponent::F64);
         // SAFETY: the view tells the truth.
         unsafe { bespoke_session_set_fit_weights(caller.session, &view) }
     };
@@ -316,7 +316,7 @@ fn fit_weights_are_checked() {
 #[test]
 fn no_fit_vertices_are_checked() {
     let set = |caller: &Caller, vertices: &[u32]| {
-        let view = crate::caller::view(vertices, BespokeComponent::U32);
+        let view = testing::caller::view(vertices, BespokeComponent::U32);
         // SAFETY: the view tells the truth.
         unsafe { bespoke_session_set_no_fit_vertices(caller.session, &view) }
     };

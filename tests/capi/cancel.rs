@@ -11,8 +11,8 @@ use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus::{self, Cancelled, InvalidState, Ok};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::Caller;
-use crate::support::Random;
+use testing::Random;
+use testing::caller::Caller;
 
 /// A control's address, to hand to another thread.
 struct Shared(*mut BespokeControl);

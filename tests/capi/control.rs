@@ -11,7 +11,7 @@ use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus::{Cancelled, InvalidArgument, InvalidState, Ok};
 use bespoke::control::{Control, MAX_TERMS, Progress, Stage};
 
-use crate::caller::Caller;
+use testing::caller::Caller;
 
 fn no_progress() -> BespokeProgress {
     // SAFETY: all fields are numbers, for which zero is a value.

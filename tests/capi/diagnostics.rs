@@ -10,7 +10,7 @@ use bespoke::capi::running::*;
 use bespoke::capi::session::bespoke_session_reset;
 use bespoke::capi::status::BespokeStatus::{InvalidArgument, SelfIntersection};
 
-use crate::caller::{Caller, no_options, points, triangles};
+use testing::caller::{Caller, no_options, points, triangles};
 
 fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
     let mut list = vec![0u64; room * size_of::<BespokeDiagnostic>() / 8];

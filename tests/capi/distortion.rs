@@ -7,7 +7,7 @@ use bespoke::capi::running::*;
 use bespoke::capi::status::BespokeStatus::{InvalidArgument, InvalidState};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::Caller;
+use testing::caller::Caller;
 
 fn buffer<T>(room: &mut [T], component: BespokeComponent) -> BespokeBuffer {
     BespokeBuffer { data: room.as_mut_ptr().cast(), capacity: room.len(), stride: 0, component: component as u32 }

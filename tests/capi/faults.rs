@@ -11,7 +11,7 @@ use bespoke::capi::status::BespokeStatus::{self, Internal, Ok};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 use bespoke::session::Fault;
 
-use crate::caller::{Caller, points, triangles};
+use testing::caller::{Caller, points, triangles};
 
 const FAULTS: [Fault; 5] = [Fault::Prepare, Fault::Iteration, Fault::Worker, Fault::Field, Fault::Verify];
 

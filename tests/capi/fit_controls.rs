@@ -9,7 +9,7 @@ use bespoke::capi::session::bespoke_session_reset;
 use bespoke::capi::status::BespokeStatus::{self, InvalidArgument};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::{Caller, points, view};
+use testing::caller::{Caller, points, view};
 
 fn pin(caller: &Caller, vertices: &[u16], places: &[[f32; 3]]) -> BespokeStatus {
     let (vertices, places) = (view(vertices, BespokeComponent::U16), points(places));

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::process::root;
+use testing::process::root;
 
 /// The header that the sources give now.
 fn generated() -> String {

@@ -12,7 +12,7 @@ use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus;
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::{Caller, no_options};
+use testing::caller::{Caller, no_options};
 
 use BespokeStatus::Ok;
 

@@ -12,7 +12,7 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 
-use crate::caller::{Caller, Mesh, Sample, points, triangles, view};
+use testing::caller::{Caller, Mesh, Sample, points, triangles, view};
 
 /// The garment on the avatar and these layers.
 fn dressed(sample: &Sample, layers: &[Mesh]) -> Mesh {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::process::root;
+use testing::process::root;
 
 /// One documented thing of the header: the comment above it, without its marks, and its text up to `;`, `,` or the end of
 /// the line.

@@ -4,7 +4,7 @@ use bespoke::capi::running::bespoke_session_prepare;
 use bespoke::capi::status::BespokeStatus::{InvalidMesh, InvalidSkeleton};
 use bespoke::capi::view::{BespokeComponent, BespokeView};
 
-use crate::caller::{Caller, Sample, bones, points, triangles, view};
+use testing::caller::{Caller, Sample, bones, points, triangles, view};
 
 #[test]
 fn meshes_without_vertices_or_triangles_are_refused() {

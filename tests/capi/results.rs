@@ -8,7 +8,7 @@ use bespoke::capi::running::*;
 use bespoke::capi::status::BespokeStatus::{InvalidArgument, Ok};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::Caller;
+use testing::caller::Caller;
 
 fn read(caller: &Caller, count: usize) -> Vec<[f32; 3]> {
     let mut room = vec![[0.0f32; 3]; count];

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 
-use crate::caller::Sample;
-use crate::library;
-use crate::obj_text::obj;
-use crate::process::{root, scratch};
+use testing::caller::Sample;
+use testing::library;
+use testing::obj_text::obj;
+use testing::process::{root, scratch};
 
 fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();

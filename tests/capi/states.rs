@@ -10,7 +10,7 @@ use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus::{InvalidState, Ok};
 use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
-use crate::caller::{Caller, Sample, bones, points, triangles};
+use testing::caller::{Caller, Sample, bones, points, triangles};
 
 #[test]
 fn missing_inputs_are_named() {
@@ -58,17 +58,17 @@ fn inputs_are_fixed_from_prepare_to_reset() {
     unsafe {
         let session = caller.session;
         caller.accepted(bespoke_session_prepare(session));
-        let options = crate::caller::no_options();
+        let options = testing::caller::no_options();
         for status in [
             caller.set_garment(&p, &t),
             caller.set_avatar(&p, &t),
             bespoke_session_set_source_avatar(session, &p, &t),
             caller.set_source_skeleton(&j, &b),
             caller.set_target_skeleton(&j, &b),
-            bespoke_session_set_no_fit_vertices(session, &crate::caller::view(&[0u32], BespokeComponent::U32)),
+            bespoke_session_set_no_fit_vertices(session, &testing::caller::view(&[0u32], BespokeComponent::U32)),
             bespoke_session_set_pinned_vertices(
                 session,
-                &crate::caller::view(&[0u32], BespokeComponent::U32),
+                &testing::caller::view(&[0u32], BespokeComponent::U32),
                 std::ptr::null(),
             ),
             bespoke_session_clear_rigid_groups(session),

@@ -10,7 +10,7 @@ use bespoke::capi::running::*;
 use bespoke::capi::session::*;
 use bespoke::capi::status::BespokeStatus;
 
-use crate::caller::{Caller, points, triangles};
+use testing::caller::{Caller, points, triangles};
 
 use BespokeStatus::{Busy, Internal, Ok};
 

@@ -1,7 +1,7 @@
 use bespoke::geometry::bvh::{Aabb, Bvh};
 use glam::DVec3;
 
-use crate::support::Random;
+use testing::Random;
 
 fn boxes(count: usize, size: f64, margin: f64, random: &mut Random) -> Vec<Aabb> {
     (0..count)

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
 use crate::scene::{Scene, sphere};
-use crate::support::Random;
+use testing::Random;
 
 const FLOOR: f64 = 1e-5;
 

@@ -3,7 +3,7 @@ use bespoke::contact::distance::Separation;
 use glam::DVec3;
 
 use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
-use crate::support::Random;
+use testing::Random;
 
 /// Squared distance of `p` from the segment.
 fn point_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {

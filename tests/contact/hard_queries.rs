@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 
 use crate::distance::searched;
 use crate::pairs::{KINDS, SIZE, interior};
-use crate::support::Random;
+use testing::Random;
 
 const FLOOR: f64 = 1e-5;
 

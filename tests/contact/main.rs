@@ -9,7 +9,5 @@ mod mollifier;
 mod neighbours;
 mod pairs;
 mod scene;
-#[path = "../support/mod.rs"]
-mod support;
 mod surface;
 mod tangle;

@@ -2,7 +2,7 @@ use bespoke::contact::mollifier;
 use glam::DVec3;
 
 use crate::pairs::{SIZE, generic, nasty};
-use crate::support::Random;
+use testing::Random;
 
 #[test]
 fn is_one_beyond_the_threshold_and_zero_at_parallel() {

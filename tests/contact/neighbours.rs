@@ -4,7 +4,7 @@ use bespoke::contact::Surface;
 use bespoke::contact::one_ring::Neighbours;
 
 use crate::scene::{grid, soup, sphere};
-use crate::support::Random;
+use testing::Random;
 
 /// One form for two edges, whichever comes first.
 fn ordered([a, b, c, d]: [u32; 4]) -> [u32; 4] {

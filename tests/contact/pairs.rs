@@ -3,7 +3,7 @@
 use bespoke::contact::Kind;
 use glam::DVec3;
 
-use crate::support::Random;
+use testing::Random;
 
 pub const KINDS: [Kind; 2] = [Kind::PointTriangle, Kind::EdgeEdge];
 

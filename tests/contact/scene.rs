@@ -3,7 +3,7 @@
 use bespoke::contact::{Avatar, Bodies, Garment, Surface};
 use glam::DVec3;
 
-use crate::support::Random;
+use testing::Random;
 
 /// A grid of `m` by `m` quads over the unit square, and its triangles.
 pub fn grid(m: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {

@@ -1,7 +1,7 @@
 use bespoke::contact::Surface;
 
 use crate::scene::{grid, soup, sphere};
-use crate::support::Random;
+use testing::Random;
 
 /// Every vertex of a triangle and every edge is owned once, by a triangle that has it.
 fn check_ownership(surface: &Surface) {

@@ -10,7 +10,7 @@ use bespoke::verify::{intersecting, intersections};
 use glam::DVec3;
 
 use crate::scene::{Scene, grid, soup};
-use crate::support::Random;
+use testing::Random;
 
 /// All the pairs of triangles that hold a pair of primitives, by looking at every triangle.
 fn holders(surface: &Surface, kind: Kind, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {

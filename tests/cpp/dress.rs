@@ -13,9 +13,9 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 
-use crate::caller::{Caller, Mesh, Sample, tube};
-use crate::process::{root, scratch};
 use crate::{CLANG, CLANG_20, CLANG_WITHOUT, Flavour, GCC, GCC_20, GCC_WITHOUT, command};
+use testing::caller::{Caller, Mesh, Sample, tube};
+use testing::process::{root, scratch};
 
 fn dress(flavour: &Flavour) -> Option<PathBuf> {
     flavour.compile("dress", &[root().join("bindings/cpp/dress.cpp")], &root().join("include"))

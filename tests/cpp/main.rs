@@ -3,18 +3,11 @@
 mod dress;
 mod header;
 
-#[allow(dead_code, reason = "written for the tests of the C API")]
-#[path = "../capi/caller.rs"]
-mod caller;
-#[path = "../support/library.rs"]
-mod library;
-#[path = "../support/process.rs"]
-mod process;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use process::root;
+use testing::library;
+use testing::process::root;
 
 /// Warnings that a program may ask for, and has to get none.
 const WARNINGS: &[&str] = &[

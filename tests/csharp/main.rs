@@ -1,17 +1,8 @@
 //! The C# binding, compiled and run by Debian's mono: its documentation is whole, its structs are those of C, and what
 //! Cases.cs says of it holds; the sample comes out with the bits that it has here.
 
-#[allow(dead_code)]
-#[path = "../../examples/closet/generator/mod.rs"]
-mod generator;
-#[path = "../support/library.rs"]
-mod library;
 mod mono;
-#[path = "../support/obj_text.rs"]
-mod obj_text;
 mod other_library;
-#[path = "../support/process.rs"]
-mod process;
 mod sample;
 
 use std::fs;
@@ -19,7 +10,8 @@ use std::path::Path;
 use std::process::Command;
 
 use mono::{binding, program};
-use process::{root, scratch, succeed};
+use testing::library;
+use testing::process::{root, scratch, succeed};
 
 /// Runs one case of Cases.cs with the library in this folder.
 fn case(name: &str, library: &Path) {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use crate::process::{is_there, root, scratch, succeed};
+use testing::process::{is_there, root, scratch, succeed};
 
 /// A folder with Bespoke.dll and all programs that use it, compiled without a warning. None, and a line that says so,
 /// where there is no mono.

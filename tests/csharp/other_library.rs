@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::process::scratch;
+use testing::process::scratch;
 
 /// The folder with it.
 pub fn folder() -> PathBuf {

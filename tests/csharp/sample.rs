@@ -10,11 +10,11 @@ use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
 use glam::DVec3;
 
-use crate::generator::mesh::Mesh;
-use crate::generator::skeleton::BONES;
-use crate::generator::{Kind, Sample, sample};
-use crate::obj_text::obj;
-use crate::process::scratch;
+use closet::mesh::Mesh;
+use closet::skeleton::BONES;
+use closet::{Kind, Sample, sample};
+use testing::obj_text::obj;
+use testing::process::scratch;
 
 static JACKET: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Jacket));
 static HEAVY: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Heavy));

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::bare::{inputs, program};
-use crate::process::{is_there, root, scratch, succeed};
 use crate::shipped::folder;
+use testing::process::{is_there, root, scratch, succeed};
 
 #[test]
 fn every_part_comes_with_its_licence() {

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::caller::tube;
-use crate::obj_text::obj;
-use crate::process::{scratch, succeed};
 use crate::shipped::folder;
+use testing::caller::tube;
+use testing::obj_text::obj;
+use testing::process::{scratch, succeed};
 
 /// Writes what the program reads, and says its options for it.
 pub fn inputs(place: &Path) -> [&'static str; 12] {

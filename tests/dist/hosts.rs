@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::process::{root, scratch, succeed};
 use crate::programs::{hash, run_host};
 use crate::shipped::libraries;
+use testing::process::{root, scratch, succeed};
 
 /// A TBB that a host may bring along.
 struct Tbb {

@@ -10,13 +10,3 @@ mod needs;
 mod programs;
 mod shipped;
 mod symbols;
-
-#[allow(dead_code, reason = "written for the tests of the C API")]
-#[path = "../capi/caller.rs"]
-mod caller;
-#[path = "../support/library.rs"]
-mod library;
-#[path = "../support/obj_text.rs"]
-mod obj_text;
-#[path = "../support/process.rs"]
-mod process;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use crate::process::{root, scratch, succeed};
+use testing::process::{root, scratch, succeed};
 
 /// host.c: a process that loads the library as a plugin.
 pub fn host() -> &'static Path {

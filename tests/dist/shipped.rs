@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use crate::library;
-use crate::process::{scratch, succeed};
+use testing::library;
+use testing::process::{scratch, succeed};
 
 /// The folder to ship. An archive is unpacked elsewhere than where it was made.
 pub fn folder() -> Option<&'static Path> {

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use crate::process::{root, succeed};
 use crate::shipped::{folder, libraries};
+use testing::process::{root, succeed};
 
 /// The pinned list: tests/dist/symbols.txt, one name a line.
 fn pinned() -> BTreeSet<String> {

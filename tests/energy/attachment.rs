@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
 use crate::patch::{rotation, shaken, similar, triangles};
-use crate::support::Random;
+use testing::Random;
 
 /// A garment in the making: pieces that share no vertex.
 #[derive(Clone, Default)]

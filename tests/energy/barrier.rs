@@ -8,7 +8,7 @@ use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
-use crate::support::Random;
+use testing::Random;
 
 const SIZE: f64 = 0.03;
 const T: f64 = 0.6;

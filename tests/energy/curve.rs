@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
 use crate::patch::{shaken, similar};
-use crate::support::Random;
+use testing::Random;
 
 fn value(energy: &dyn Energy, x: &[DVec3]) -> f64 {
     energy.value(Configuration { x, t: 0.0 }, 0..energy.len())

@@ -4,7 +4,7 @@ use bespoke::energy::distortion::distortion;
 use glam::{DMat3, DVec3};
 
 use crate::patch::{rotation, shaken, sheet, similar, triangles, tube};
-use crate::support::Random;
+use testing::Random;
 
 fn area(x: &[DVec3], [a, b, c]: [u32; 3]) -> f64 {
     let [a, b, c] = [a, b, c].map(|v| x[v as usize]);

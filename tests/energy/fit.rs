@@ -10,7 +10,7 @@ use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
-use crate::support::Random;
+use testing::Random;
 
 /// A tetrahedron with one face in the plane z = 0 and the rest below.
 fn field(voxel: f64) -> Arc<Field> {

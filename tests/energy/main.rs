@@ -1,8 +1,5 @@
 //! Every derivative against finite differences.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod attachment;
 mod barrier;
 mod curve;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bespoke::geometry::mesh::Hinge;
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::support::Random;
+use testing::Random;
 
 /// A triangle mesh with its connectivity.
 pub struct Patch {

@@ -5,7 +5,7 @@ use bespoke::energy::{Configuration, Energy};
 use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite};
-use crate::support::Random;
+use testing::Random;
 
 fn sample(random: &mut Random) -> (Vec<DVec3>, Pins) {
     let rest: Vec<DVec3> = (0..5).map(|_| 2.0 * random.vector()).collect();

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
 use crate::patch::{rotation, shaken};
-use crate::support::Random;
+use testing::Random;
 
 fn value(energy: &Position, x: &[DVec3], t: f64) -> f64 {
     energy.value(Configuration { x, t }, 0..energy.len())

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite};
 use crate::patch::{rotation, shaken};
-use crate::support::Random;
+use testing::Random;
 
 fn value(energy: &Rigid, x: &[DVec3]) -> f64 {
     energy.value(Configuration { x, t: 0.5 }, 0..energy.len())

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
 use crate::patch::{Patch, rotation, shaken, sheet, similar, triangles, tube};
-use crate::support::Random;
+use testing::Random;
 
 const FORMS: [SurfaceForm; 2] = [SurfaceForm::Similarity, SurfaceForm::Printed];
 

@@ -4,15 +4,10 @@
 //! `CARGO_TARGET_TMPDIR`, where it is found after a crash. `FUZZ_INPUTS` sets the number of mutations; `make fuzz` goes
 //! on from here with a fuzzer that looks at the code it reaches.
 
-#[path = "../fuzz/src/lib.rs"]
-mod fuzz;
-#[path = "../support/mod.rs"]
-mod support;
-
 use std::fs;
 use std::path::Path;
 
-use support::Random;
+use testing::Random;
 
 /// Longest input.
 const LONGEST: usize = 600;
@@ -70,18 +65,18 @@ fn replay(target: &str, mut run: impl FnMut(&[u8]), mutations: usize) {
 
 #[test]
 fn any_sequence_of_calls_is_answered() {
-    replay("calls", fuzz::calls, 1000);
+    replay("calls", testing::fuzz::calls, 1000);
 }
 
 #[test]
 fn any_memory_is_read_as_it_is_described_or_refused() {
-    replay("buffers", fuzz::buffers, 2500);
+    replay("buffers", testing::fuzz::buffers, 2500);
 }
 
 #[test]
 fn any_garment_comes_out_without_an_intersection_or_is_refused() {
     let mut judged = 0;
-    replay("meshes", |bytes| judged += u32::from(fuzz::meshes(bytes)), 1000);
+    replay("meshes", |bytes| judged += u32::from(testing::fuzz::meshes(bytes)), 1000);
     assert!(judged > 0, "no input led to a result");
     println!("{judged} results were judged");
 }

@@ -6,8 +6,8 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::geometry::sliver_caps::without_caps;
 use glam::DVec3;
 
-use crate::obj::{assets, read_mesh};
-use crate::support::Random;
+use testing::Random;
+use testing::obj::{assets, read_mesh};
 
 fn p(x: f64, y: f64) -> DVec3 {
     DVec3::new(x, y, 0.0)

@@ -6,7 +6,7 @@ use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::setup::loop_axis::{LoopGuide, choose_guides};
 use glam::DVec3;
 
-use super::obj::{assets, read_mesh, read_skeleton};
+use testing::obj::{assets, read_mesh, read_skeleton};
 
 /// A person of height 1.7, z up, arms hanging down beside the body.
 fn person() -> Skeleton {

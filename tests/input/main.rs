@@ -9,8 +9,3 @@ mod skeleton;
 mod skin;
 mod space;
 mod weld;
-
-#[path = "../support/obj.rs"]
-mod obj;
-#[path = "../support/mod.rs"]
-mod support;

@@ -4,8 +4,8 @@ use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::{Hinge, Topology, TriangleMesh};
 use glam::DVec3;
 
-use crate::obj::{assets, read_mesh};
-use crate::support::Random;
+use testing::Random;
+use testing::obj::{assets, read_mesh};
 
 fn message(mesh: &TriangleMesh) -> String {
     let error = mesh.check("garment").unwrap_err();

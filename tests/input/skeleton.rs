@@ -4,8 +4,8 @@ use bespoke::error::ErrorKind;
 use bespoke::input::skeleton::{BoneGraph, Location, Skeleton};
 use glam::DVec3;
 
-use crate::obj::{assets, read_skeleton};
-use crate::support::Random;
+use testing::Random;
+use testing::obj::{assets, read_skeleton};
 
 /// Joints 0 - 1 - 2 in a column, 3 - 4 to the right of 1, 5 - 6 to the left of it; bones in that order.
 fn tee() -> Skeleton {

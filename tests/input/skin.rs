@@ -63,7 +63,7 @@ fn sparse_influences() {
 
 #[test]
 fn dense_and_sparse_agree() {
-    let mut random = crate::support::Random::new(3);
+    let mut random = testing::Random::new(3);
     let (joint_count, vertex_count) = (6u32, 50usize);
     // Few distinct values, so that ties and zeros are frequent.
     let by_vertex: Vec<f64> = (0..vertex_count * 6).map(|_| (random.unit() * 4.0).floor() / 4.0).collect();

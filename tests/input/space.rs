@@ -4,7 +4,7 @@ use bespoke::error::ErrorKind;
 use bespoke::input::coordinate_system::{Axis, Space, Winding};
 use glam::DVec3;
 
-use crate::support::Random;
+use testing::Random;
 
 const AXES: [(Axis, DVec3); 6] = [
     (Axis::PositiveX, DVec3::X),

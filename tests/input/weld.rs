@@ -7,8 +7,8 @@ use bespoke::input::diagnostic::{Element, Finding, FindingKind, Severity, Subjec
 use bespoke::input::weld::Weld;
 use glam::DVec3;
 
-use crate::obj::{assets, read_mesh};
-use crate::support::Random;
+use testing::Random;
+use testing::obj::{assets, read_mesh};
 
 fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> TriangleMesh {
     TriangleMesh { positions: positions.iter().map(|&p| DVec3::from_array(p)).collect(), triangles: triangles.to_vec() }

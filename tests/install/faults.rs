@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 use crate::prefix::{command, folder, install, installer, refused, tree};
-use crate::process::root;
+use testing::process::root;
 
 /// All files and what is in them.
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {

@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 use crate::prefix::{command, folder, install, installer, library_file, library_name, tree};
-use crate::process::{root, succeed};
+use testing::process::{root, succeed};
 
 /// All files of an installation with the folders for programs, libraries and headers.
 fn expected(bin: &str, lib: &str, include: &str) -> BTreeSet<String> {

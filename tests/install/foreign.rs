@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::prefix::{command, folder, install, library_file, library_name};
-use crate::process::{is_there, root, succeed};
+use testing::process::{is_there, root, succeed};
 
 /// A place with the sources of the foreign project, and a prefix that lies elsewhere than where it was installed.
 struct Place {

@@ -7,8 +7,3 @@ mod foreign;
 mod prefix;
 mod uninstall;
 mod versions;
-
-#[path = "../support/library.rs"]
-mod library;
-#[path = "../support/process.rs"]
-mod process;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use crate::library;
-use crate::process::{root, scratch, succeed};
+use testing::library;
+use testing::process::{root, scratch, succeed};
 
 /// An empty folder for one test, with a blank in its name.
 pub fn folder(test: &str) -> PathBuf {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::prefix::{command, folder};
-use crate::process::{is_there, root, succeed};
+use testing::process::{is_there, root, succeed};
 
 /// What CMake has to be told of a request: `find_package(Bespoke 0.3...<0.5)` as "0.3...<0.5".
 fn request(asked: &str) -> String {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::config;
-use crate::scene::{Recipe, Scene};
+use testing::scene::{Recipe, Scene};
 
 /// A coordinate of any size, some of them no numbers.
 fn coordinate() -> BoxedStrategy<f64> {

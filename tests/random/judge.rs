@@ -10,7 +10,7 @@ use bespoke::session::Session;
 use bespoke::stage::setup::problem::Problem;
 use bespoke::verify::intersections;
 
-use crate::scene::Scene;
+use testing::scene::Scene;
 
 type Pairs = BTreeSet<[u32; 2]>;
 

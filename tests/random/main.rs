@@ -3,15 +3,12 @@
 mod bad_meshes;
 mod judge;
 mod outcomes;
-mod scene;
 mod steps;
-#[path = "../support/mod.rs"]
-mod support;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, RngSeed};
 
-use scene::{Flaw, Recipe};
+use testing::scene::{Flaw, Recipe};
 
 /// `cases` new cases after those that failed before. From a fixed seed, so that a run says something about the code and
 /// not about luck; `PROPTEST_RNG_SEED` takes another.

@@ -9,8 +9,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{config, flawed, sound};
-use crate::scene::{Recipe, Scene};
-use crate::support::Random;
+use testing::Random;
+use testing::scene::{Recipe, Scene};
 
 fn bits(session: &Session) -> Vec<[u64; 3]> {
     session.garment_positions().unwrap().into_iter().map(|p| p.to_array().map(f64::to_bits)).collect()

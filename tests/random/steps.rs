@@ -11,8 +11,8 @@ use proptest::prelude::*;
 
 use super::{config, flawed, sound};
 use crate::judge::Judge;
-use crate::scene::{Recipe, Scene};
-use crate::support::Random;
+use testing::Random;
+use testing::scene::{Recipe, Scene};
 
 /// Steps of a scene of any kind that are looked at: most scenes need fewer.
 const MOST: u32 = 150;

@@ -4,7 +4,7 @@ use bespoke::geometry::closest_point::{ClosestPoint, barycentric, closest_on_tri
 use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
-use crate::support::Random;
+use testing::Random;
 
 /// The smallest distance over a fine grid of points of the triangle: an upper bound that is close.
 fn sampled_distance(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::shapes::{cuboid, cuboid_distance, sphere, union};
-use crate::support::Random;
+use testing::Random;
 
 /// Relative error of a number in single precision.
 const PRECISION: f64 = 6e-8;

@@ -9,8 +9,8 @@ use bespoke::sdf::volume::Volume;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 
-use crate::obj::{assets, read_mesh, read_skeleton};
-use crate::support::Random;
+use testing::Random;
+use testing::obj::{assets, read_mesh, read_skeleton};
 
 /// The Goblin, scaled so that the longest side of its skeleton's box is 2; none without the assets.
 fn goblin() -> Option<TriangleMesh> {

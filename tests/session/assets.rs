@@ -5,7 +5,7 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 
-use super::obj::{assets, read_mesh, read_skeleton};
+use testing::obj::{assets, read_mesh, read_skeleton};
 
 /// A session with a real garment, changed by `change` first, on a real avatar; none where they are not at hand.
 pub fn load(garment: &str, avatar: &str, options: Options, change: fn(&mut TriangleMesh)) -> Option<Session> {

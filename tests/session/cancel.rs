@@ -10,7 +10,7 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::session::{Options, Session};
 
 use super::assets::load;
-use super::support::Random;
+use testing::Random;
 
 /// Splits the triangles with an edge that `split` wants halved, so that neighbours fit.
 fn refine(mesh: &mut TriangleMesh, split: impl Fn(u32, u32) -> bool) {

@@ -17,10 +17,10 @@ use bespoke::session::{Precision, Session};
 use bespoke::verify::intersections;
 use glam::DVec3;
 
-use crate::closet::skeleton::BONES;
-use crate::closet::{Kind, Sample, jacket, sample};
 use crate::small::{arm, session, sleeve, thick_arm, tube};
-use crate::support::Random;
+use closet::skeleton::BONES;
+use closet::{Kind, Sample, jacket, sample};
+use testing::Random;
 
 /// The result as a caller reads it in 32 bits.
 fn read(session: &Session, garment: &TriangleMesh) -> TriangleMesh {

@@ -11,11 +11,3 @@ mod profile;
 mod shifted;
 mod small;
 mod tangled;
-
-#[allow(dead_code)]
-#[path = "../../examples/closet/generator/mod.rs"]
-mod closet;
-#[path = "../support/obj.rs"]
-mod obj;
-#[path = "../support/mod.rs"]
-mod support;

@@ -7,7 +7,7 @@ use bespoke::session::{Precision, Session};
 use bespoke::stage::setup::normalization::{Frame, SIDE};
 use glam::{DQuat, DVec3};
 
-use super::obj::{assets, read_mesh, read_skeleton};
+use testing::obj::{assets, read_mesh, read_skeleton};
 
 /// How the garment is moved: by a share of the skeleton's size, then turned about its middle, in degrees about an axis.
 fn dress(garment: &str, avatar: &str, shift: DVec3, axis: DVec3, degrees: f64) {

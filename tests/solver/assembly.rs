@@ -9,7 +9,7 @@ use bespoke::solver::cholesky::Factor;
 use bespoke::solver::pattern::{PairCollector, Pattern};
 use glam::DVec3;
 
-use super::support::Random;
+use testing::Random;
 
 /// Vertices, their components, the component along t, g and h.
 type Piece = (Vec<u32>, Vec<DVec3>, f64, f64, f64);

@@ -11,7 +11,7 @@ use faer::prelude::Solve;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{MatMut, Side};
 
-use super::support::Random;
+use testing::Random;
 
 fn pattern(vertex_count: usize, pairs: impl IntoIterator<Item = (u32, u32)>) -> Pattern {
     let mut collected = PairCollector::default();

@@ -5,7 +5,7 @@ use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::setup::normalization::{Frame, SIDE};
 use glam::DVec3;
 
-use super::support::Random;
+use testing::Random;
 
 #[test]
 fn a_skeleton_is_centred_and_its_longest_side_is_two() {

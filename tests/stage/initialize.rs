@@ -6,7 +6,7 @@ use bespoke::input::skin::SkinWeights;
 use bespoke::stage::start::projection::{ProjectedAvatar, project};
 use glam::DVec3;
 
-use super::support::Random;
+use testing::Random;
 
 /// A body with arms, legs and a spine: 7 joints.
 fn skeleton(random: &mut Random) -> Skeleton {

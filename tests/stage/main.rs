@@ -1,8 +1,5 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod frame;
 mod initialize;
 mod layers;

@@ -4,8 +4,3 @@ mod cases;
 mod real_meshes;
 mod soups;
 mod twin;
-
-#[path = "../support/obj.rs"]
-mod obj;
-#[path = "../support/mod.rs"]
-mod support;

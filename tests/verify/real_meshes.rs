@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use bespoke::verify::intersections;
 
-use crate::obj::{assets, read_mesh};
+use testing::obj::{assets, read_mesh};
 
 #[test]
 fn self_intersections() {

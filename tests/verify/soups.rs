@@ -4,8 +4,8 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
 use glam::DVec3;
 
-use crate::support::Random;
 use crate::twin;
+use testing::Random;
 
 struct Soup {
     points: Vec<twin::Point>,

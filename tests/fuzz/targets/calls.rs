@@ -1,4 +1,4 @@
 //! Arbitrary sequences of calls.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bespoke_fuzz::calls(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| testing::fuzz::calls(bytes));

@@ -2,5 +2,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    bespoke_fuzz::meshes(bytes);
+    testing::fuzz::meshes(bytes);
 });

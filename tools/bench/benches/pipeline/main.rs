@@ -1,0 +1,169 @@
+//! The benchmark: whole retargets, counted in factorisations of the same garment's matrix, for machines are noisy.
+//!
+//!     cargo bench -p bench --bench pipeline -- [options]
+//!
+//! Real pairs where there are real meshes (`BESPOKE_ASSETS`, or `../shared/assets`), and always the closet's. Each case
+//! is measured in a process of its own. Prints tables; the figures go to `build/bench.json`.
+
+mod arguments;
+mod case;
+mod child;
+mod closet_cases;
+mod growth;
+mod measurement;
+mod pairs;
+mod scaling;
+mod summary;
+mod table;
+mod unit;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use arguments::{Arguments, USAGE};
+use bespoke::session::Options;
+use case::Case;
+use child::Setup;
+use growth::Growth;
+use pairs::Pair;
+use scaling::Scaling;
+use serde::Serialize;
+use summary::Goal;
+
+type Failure = Box<dyn std::error::Error>;
+
+/// Iterations of a stage, at most, where a tolerance is given.
+const PATIENCE: u32 = 5000;
+
+/// All that was measured.
+#[derive(Debug, Serialize)]
+struct Figures {
+    version: String,
+    cores: usize,
+    runs: usize,
+    threads: u32,
+    goals: Vec<Goal>,
+    pairs: Vec<Pair>,
+    growth: Option<Growth>,
+    scaling: Option<Scaling>,
+    failed: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    if std::env::args().any(|word| word == "--help") {
+        println!("{USAGE}");
+        return ExitCode::SUCCESS;
+    }
+    // Cargo starts a benchmark in the folder of its package.
+    if let Err(error) = std::env::set_current_dir(testing::process::root()) {
+        eprintln!("bench: {error}");
+        return ExitCode::FAILURE;
+    }
+    let arguments = match Arguments::read(std::env::args().skip(1)) {
+        Ok(arguments) => arguments,
+        Err(message) => {
+            eprintln!("{message}\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    let outcome = match &arguments.case {
+        Some([garment, avatar]) => one(&Case { garment: garment.clone(), avatar: avatar.clone() }, &arguments),
+        None => all(&arguments),
+    };
+    match outcome {
+        Ok(failed) if failed.is_empty() => ExitCode::SUCCESS,
+        Ok(failed) => {
+            failed.iter().for_each(|message| eprintln!("FAILED {message}"));
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("bench: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Measures one case here, for the process that asked for it.
+fn one(case: &Case, arguments: &Arguments) -> Result<Vec<String>, Failure> {
+    let mut options = Options { threads: arguments.threads, ..Options::default() };
+    if let Some(tolerance) = arguments.tolerance {
+        (options.tolerance, options.max_iterations) = (tolerance, PATIENCE);
+    }
+    let measurement = measurement::measure(case, &options, arguments.runs)?;
+    println!("{}", serde_json::to_string(&measurement)?);
+    Ok(Vec::new())
+}
+
+/// All tables that are asked for. Returns what failed.
+fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
+    let folder = std::path::absolute(arguments.out.with_extension("")).map(|out| out.with_extension("files"))?;
+    let closet = closet_cases::write(&folder)?;
+    let real = testing::obj::assets().map(|assets| Case::pairs(&assets)).unwrap_or_default();
+    let setup = Setup { runs: arguments.runs, threads: arguments.threads, tolerance: None };
+    let mut failed = Vec::new();
+
+    let mut pairs = Vec::new();
+    if arguments.has("pairs") {
+        let cases = real.iter().map(|case| (case, true)).chain(closet.iter().map(|case| (case, false)));
+        for (case, is_real) in cases.filter(|(case, _)| case.name().contains(&arguments.only)) {
+            match Pair::measure(case, is_real, setup, arguments.tight) {
+                Ok(pair) => pairs.push(pair),
+                Err(message) => failed.push(message),
+            }
+        }
+    }
+    let growth = match arguments.has("growth") {
+        true => Some(Growth::measure(&densities(&folder, &closet)?, setup, &mut failed)),
+        false => None,
+    };
+    // The pair that takes longest.
+    let widest = real.iter().find(|case| case.name() == "jumpsuit_dense Goblin").or(closet.last());
+    let scaling = arguments.has("threads").then_some(widest).flatten();
+    let scaling = scaling.map(|case| Scaling::measure(case, setup, &mut failed));
+
+    pairs::print(&pairs);
+    growth.iter().for_each(Growth::print);
+    scaling.iter().for_each(Scaling::print);
+    let goals = summary::goals(&pairs, growth.as_ref(), scaling.as_ref());
+    summary::print(&goals);
+    for pair in pairs.iter().filter(|pair| pair.measured.intersections != [0; 2]) {
+        failed.push(format!("{}: the result intersects", pair.measured.case));
+    }
+    write(
+        &arguments.out,
+        &Figures {
+            version: env!("CARGO_PKG_VERSION").into(),
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            runs: arguments.runs,
+            threads: arguments.threads,
+            goals,
+            pairs,
+            growth,
+            scaling,
+            failed: failed.clone(),
+        },
+    )?;
+    Ok(failed)
+}
+
+/// Jackets of several densities on the closet's heavy body.
+fn densities(folder: &Path, closet: &[Case]) -> Result<Vec<Case>, Failure> {
+    let avatar = &closet.first().ok_or("the closet is empty")?.avatar;
+    let garments: Vec<PathBuf> = closet_cases::write_densities(folder)?;
+    Ok(garments.into_iter().map(|garment| Case { garment, avatar: avatar.clone() }).collect())
+}
+
+fn write(path: &Path, figures: &Figures) -> Result<(), Failure> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    std::fs::write(path, serde_json::to_string_pretty(figures)? + "\n")?;
+    println!("\n{}", path.display());
+    Ok(())
+}
+
+/// The middle one in order.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

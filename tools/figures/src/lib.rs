@@ -1,0 +1,12 @@
+//! The figures of the paper's evaluation: what is dressed for each, what is measured, and the claims it has to keep.
+
+pub mod comparison;
+pub mod curve_term;
+pub mod dressed;
+pub mod figure;
+pub mod fit_weight;
+pub mod layers;
+pub mod measure;
+pub mod skeleton_edits;
+pub mod stress;
+pub mod transfer;

@@ -1,0 +1,73 @@
+//! The figures of the paper's evaluation, each from the closet, with pictures, numbers and claims that are checked.
+//!
+//!     cargo run --release -p figures -- [--out DIR] [NAME...]
+//!
+//! Writes for each figure `NAME.json` with `NAME.bin`, a sheet of pictures for `tools/gallery/web/render.mjs`, and `NAME.md`, its
+//! numbers. Exits with 0 where all claims hold, 1 where one does not, 2 where nothing could be written.
+
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use figures::figure::{Figure, Outcome};
+use figures::{comparison, curve_term, fit_weight, layers, skeleton_edits, stress};
+
+/// The name of a figure, and what makes it.
+type Maker = (&'static str, fn() -> Outcome<Figure>);
+
+/// All of them.
+const FIGURES: [Maker; 6] = [
+    ("layers", layers::figure),
+    ("stress", stress::figure),
+    ("fit-weight", fit_weight::figure),
+    ("skeleton-edits", skeleton_edits::figure),
+    ("curve-term", curve_term::figure),
+    ("comparison", comparison::figure),
+];
+
+const USAGE: &str =
+    "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [comparison]";
+
+fn main() -> ExitCode {
+    let mut out = PathBuf::from("build/gallery/figures");
+    let mut names = Vec::new();
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        match (word.as_str(), words.len()) {
+            ("--out", 1..) => out = words.next().unwrap_or_default().into(),
+            (name, _) if FIGURES.iter().any(|(known, _)| *known == name) => names.push(word),
+            _ => {
+                eprintln!("figures: there is no figure or option '{word}'\n{USAGE}");
+                return ExitCode::from(2);
+            }
+        }
+    }
+    let wanted = FIGURES.iter().filter(|(name, _)| names.is_empty() || names.iter().any(|n| n == name));
+    let mut failed = 0;
+    for (name, make) in wanted {
+        let clock = Instant::now();
+        let figure = match make() {
+            Ok(figure) => figure,
+            Err(message) => {
+                eprintln!("{name}: {message}");
+                failed += 1;
+                continue;
+            }
+        };
+        if let Err(error) = write(&out, name, &figure) {
+            eprintln!("figures: {}: {error}", out.display());
+            return ExitCode::from(2);
+        }
+        failed += figure.failed();
+        println!("{}\n({name}: {:.1} s)\n", figure.markdown(), clock.elapsed().as_secs_f64());
+    }
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn write(folder: &std::path::Path, name: &str, figure: &Figure) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    figure.sheet.write(&folder.join(format!("{name}.json")))?;
+    fs::write(folder.join(format!("{name}.md")), figure.markdown())
+}

@@ -1,0 +1,9 @@
+//! The gallery: pairs of a garment and an avatar of the closet, dressed, judged, and shown in a table and on a sheet of
+//! pictures.
+
+pub mod look;
+pub mod models;
+pub mod overview;
+pub mod pair;
+pub mod sheet;
+pub mod table;

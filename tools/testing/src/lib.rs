@@ -1,0 +1,13 @@
+//! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files, callers
+//! of the C API, programs to run, the library as others link it.
+
+pub mod caller;
+pub mod fuzz;
+pub mod library;
+pub mod obj;
+pub mod obj_text;
+pub mod process;
+mod random;
+pub mod scene;
+
+pub use random::Random;
