@@ -11,6 +11,7 @@
 //! The product is the C ABI (`include/bespoke.h`); the Rust modules are public for our own tests and
 //! examples and may change at any time.
 
+#[cfg(feature = "capi")]
 pub mod capi;
 pub mod contact;
 pub mod control;

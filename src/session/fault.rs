@@ -1,4 +1,8 @@
 //! Panics on purpose, for tests. The C API has no way to ask for one.
+//!
+//! Not behind a feature: `make` without it and the tests with it would build two libraries under one name, for the file of
+//! a cdylib has no hash in its name. Cargo takes either for fresh, so that `make` could ship the tests' library. A folder
+//! of its own for the tests' library would cost building it and everything below it once more.
 
 use rayon::prelude::*;
 

@@ -276,6 +276,7 @@ impl Session {
     }
 
     /// Hears of the panics of the session's threads.
+    #[cfg(feature = "capi")]
     pub(crate) fn panics(&self) -> Arc<PanicLog> {
         self.panics.clone()
     }

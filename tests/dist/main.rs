@@ -7,6 +7,7 @@ mod archive;
 mod bare;
 mod hosts;
 mod needs;
+mod plugin;
 mod programs;
 mod shipped;
 mod symbols;
