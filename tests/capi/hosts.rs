@@ -1,7 +1,6 @@
 //! Hosts as they are: thread pools, small stacks, other floating-point modes, processes that fork.
 
 use std::collections::VecDeque;
-use std::ffi::c_int;
 use std::sync::{Arc, Mutex};
 use std::thread;
 
@@ -183,12 +182,6 @@ fn the_mode_of_the_calling_thread_changes_no_bit_and_is_left_alone() {
     }
 }
 
-unsafe extern "C" {
-    fn fork() -> c_int;
-    fn waitpid(process: c_int, status: *mut c_int, options: c_int) -> c_int;
-    fn _exit(status: c_int) -> !;
-}
-
 #[test]
 fn a_forked_process_is_refused_and_the_parent_goes_on() {
     let mut job = Job::new();
@@ -196,7 +189,7 @@ fn a_forked_process_is_refused_and_the_parent_goes_on() {
     assert!(!job.step(), "there is something left to do");
     let session = job.caller.session;
     // SAFETY: the child makes calls that take no lock and allocate nothing, and ends.
-    let child = unsafe { fork() };
+    let child = unsafe { libc::fork() };
     assert!(child >= 0, "a process can be forked");
     if child == 0 {
         let mut sentence = [0u8; 200];
@@ -209,13 +202,14 @@ fn a_forked_process_is_refused_and_the_parent_goes_on() {
             ];
             bespoke_session_last_message(session, sentence.as_mut_ptr().cast(), 200, std::ptr::null_mut());
             let is_told = sentence.windows(6).any(|word| word == b"forked");
-            _exit(if is_told && refused == [BespokeStatus::InvalidState; 3] { 42 } else { 1 });
+            libc::_exit(if is_told && refused == [BespokeStatus::InvalidState; 3] { 42 } else { 1 });
         }
     }
     let mut status = 0;
     // SAFETY: the child is ours, and there is room for its status.
-    assert_eq!(unsafe { waitpid(child, &mut status, 0) }, child);
-    assert_eq!(status >> 8 & 0xFF, 42, "the child was refused with a sentence");
+    assert_eq!(unsafe { libc::waitpid(child, &mut status, 0) }, child);
+    assert!(libc::WIFEXITED(status));
+    assert_eq!(libc::WEXITSTATUS(status), 42, "the child was refused with a sentence");
     while !job.step() {}
     assert!(job.result() == Job::new().run());
     // SAFETY: the session is alive.

@@ -1,10 +1,15 @@
 //! Reads the OBJ files of the real meshes: vertices, faces (polygons fanned), lines.
+//!
+//! With `wavefront_obj`, for the order of the vertices has to stay: lists of vertices refer to it. `tobj` 4.0.5 numbers
+//! them anew by their first use and an object at a time (1 of 3112 vertices of a real garment keeps its number), whatever
+//! its options; `obj` and `obj-rs` hold 32-bit numbers, with which the pinned results would be others.
 
 use std::path::{Path, PathBuf};
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use glam::DVec3;
+use wavefront_obj::obj::{Primitive, VTNIndex, parse};
 
 use crate::process::root;
 
@@ -22,30 +27,20 @@ pub fn assets() -> Option<PathBuf> {
 
 fn read(path: &Path) -> (Vec<DVec3>, Vec<[u32; 3]>, Vec<[u32; 2]>) {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let file = parse(text).unwrap_or_else(|e| panic!("{}:{}: {}", path.display(), e.line_number, e.message));
     let (mut vertices, mut faces, mut lines) = (Vec::new(), Vec::new(), Vec::new());
-    for (number, line) in text.lines().enumerate() {
-        let mut words = line.split_whitespace();
-        let Some(kind) = words.next() else { continue };
-        let bad = |word: &str| -> ! { panic!("{}:{}: cannot read {word:?}", path.display(), number + 1) };
-        let index = |word: &str, count: usize| {
-            let first = word.split('/').next().unwrap_or(word);
-            let i: i64 = first.parse().unwrap_or_else(|_| bad(word));
-            u32::try_from(if i > 0 { i - 1 } else { count as i64 + i }).unwrap_or_else(|_| bad(word))
-        };
-        match kind {
-            "v" => {
-                let c: Vec<f64> = words.take(3).map(|w| w.parse().unwrap_or_else(|_| bad(w))).collect();
-                vertices.push(DVec3::from_slice(&c));
+    for object in &file.objects {
+        // The indices of an object count from its own first vertex.
+        let first = vertices.len();
+        let index = |(v, _, _): VTNIndex| u32::try_from(first + v).expect("32 bits are enough for a vertex");
+        vertices.extend(object.vertices.iter().map(|v| DVec3::new(v.x, v.y, v.z)));
+        for shape in object.geometry.iter().flat_map(|part| &part.shapes) {
+            match shape.primitive {
+                // The reader puts the last corner first.
+                Primitive::Triangle(c, a, b) => faces.push([a, b, c].map(index)),
+                Primitive::Line(a, b) => lines.push([a, b].map(index)),
+                Primitive::Point(_) => {}
             }
-            "f" => {
-                let corners: Vec<u32> = words.map(|w| index(w, vertices.len())).collect();
-                faces.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
-            }
-            "l" => {
-                let points: Vec<u32> = words.map(|w| index(w, vertices.len())).collect();
-                lines.extend(points.windows(2).map(|w| [w[0], w[1]]));
-            }
-            _ => {}
         }
     }
     (vertices, faces, lines)
