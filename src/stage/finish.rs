@@ -46,12 +46,7 @@ fn straighten(objective: &mut Objective, state: &mut State, groups: &[Group]) ->
 
 /// Moves vertices towards their places as far as that is free; with `whole`, all the way or not at all. Whether it was all
 /// the way.
-fn advance(
-    objective: &mut Objective,
-    state: &mut State,
-    groups: &[Group],
-    whole: bool,
-) -> Result<bool, Cancelled> {
+fn advance(objective: &mut Objective, state: &mut State, groups: &[Group], whole: bool) -> Result<bool, Cancelled> {
     let mut dx = vec![DVec3::ZERO; state.x.len()];
     for &(v, place) in groups.iter().flatten() {
         dx[v as usize] = place - state.x[v as usize];

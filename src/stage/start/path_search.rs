@@ -108,13 +108,7 @@ impl Scene<'_> {
     ///
     /// # Errors
     /// [`Cancelled`]; `cancel` is looked at before each bone and in the end.
-    pub fn route(
-        &self,
-        root: u32,
-        cut: &[bool],
-        search: &Search,
-        cancel: &Cancel,
-    ) -> Result<Option<Route>, Cancelled> {
+    pub fn route(&self, root: u32, cut: &[bool], search: &Search, cancel: &Cancel) -> Result<Option<Route>, Cancelled> {
         let mut chains = self.chains(root, cut, search);
         let places: usize = chains.iter().flatten().map(|c| c.parameters.len()).sum();
         let count = BUDGET / places.max(1);
