@@ -122,8 +122,7 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
     }
 }
 
-void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin[3], float* values,
-                               uint8_t* active) {
+void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin[3], float* values) {
     using Leaf = openvdb::FloatTree::LeafNodeType;
     static_assert(Leaf::DIM == BESPOKE_VOLUME_BLOCK, "a block is one leaf");
     const openvdb::Coord at(origin[0], origin[1], origin[2]);
@@ -131,24 +130,12 @@ void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin
     if (const Leaf* leaf = tree.probeConstLeaf(at)) {
         for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
             values[i] = leaf->getValue(i);
-            if (active) {
-                active[i] = leaf->isValueOn(i) ? 1 : 0;
-            }
         }
         return;
     }
     // No leaf: one tile or the background covers the whole block.
-    float value = 0.0f;
-    const bool on = tree.probeValue(at, value);
-    for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-        values[i] = value;
-        if (active) {
-            active[i] = on ? 1 : 0;
-        }
-    }
+    std::fill_n(values, Leaf::SIZE, tree.getValue(at));
 }
-
-uint64_t bespoke_volume_active_count(const BespokeVolume* volume) { return volume->grid->activeVoxelCount(); }
 
 uint64_t bespoke_volume_memory(const BespokeVolume* volume) { return volume->grid->memUsage(); }
 

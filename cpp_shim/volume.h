@@ -38,15 +38,11 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
                          BespokeVolumeCancelled cancelled, const void* context, BespokeVolume** volume,
                          char* message, size_t message_capacity);
 
-// Reads the 8 x 8 x 8 nodes from `origin` on (each coordinate a multiple of 8) into `values`, and into
-// `active` (may be null) whether each is within the band. Node (i, j, k) of the block is entry 64 i + 8 j + k.
+// Reads the 8 x 8 x 8 nodes from `origin` on (each coordinate a multiple of 8) into `values`. Node (i, j, k) of the
+// block is entry 64 i + 8 j + k.
 // A value is in voxels, negative inside; beyond the band it is the width of that band.
 // Safe from several threads at once.
-void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin[3], float* values,
-                               uint8_t* active);
-
-// Number of nodes within the band.
-uint64_t bespoke_volume_active_count(const BespokeVolume* volume);
+void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin[3], float* values);
 
 // Memory held by the volume, in bytes.
 uint64_t bespoke_volume_memory(const BespokeVolume* volume);

@@ -1,13 +1,18 @@
 //! Progress and cancel: the one part of a session that any thread may touch at any time.
 //!
+//! A request to stop travels one way. What takes long is handed a [`Cancel`]: what lives long when it is made, a function as
+//! an argument, before those that it writes to. It looks at the token and gives [`Cancelled`] back, as an error that its
+//! callers hand on with `?`.
+//!
 //! The session writes a [`Progress`] after each iteration; readers take a copy that belongs to one moment. Nobody waits
 //! for anybody: the writer fills the oldest of a few slots and then names it the latest, so a writer that loses its
 //! processor in the middle holds up no reader, and readers never hold up the writer.
 
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering, fence};
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind};
 
 /// Where a session is on its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,13 +109,26 @@ impl Progress {
     }
 }
 
-/// The answer to a request to stop.
-pub fn cancelled() -> Error {
-    Error::new(ErrorKind::Cancelled, "cancelled on request")
+/// The answer to a request to stop: work that ended before it was done. What it was to compute is worth nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cancelled;
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("cancelled on request")
+    }
 }
 
-/// A request to stop that long work looks at: between its kernels, and in the loops of those that take long. Clones share
-/// one flag, which once set stays so.
+impl std::error::Error for Cancelled {}
+
+impl From<Cancelled> for Error {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::new(ErrorKind::Cancelled, cancelled.to_string())
+    }
+}
+
+/// The cancellation token: a request to stop that long work looks at, between its kernels and in the loops of those that
+/// take long. Clones share one flag, which once set stays so.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
@@ -134,14 +152,10 @@ impl Cancel {
     /// A checkpoint.
     ///
     /// # Errors
-    /// `Cancelled` where somebody asked to stop.
-    pub fn check(&self) -> Result<()> {
-        if self.is_requested() { Err(cancelled()) } else { Ok(()) }
-    }
-
-    /// The flag itself.
-    pub fn flag(&self) -> &AtomicBool {
-        &self.0
+    /// [`Cancelled`] where somebody asked to stop.
+    #[inline]
+    pub fn check(&self) -> Result<(), Cancelled> {
+        if self.is_requested() { Err(Cancelled) } else { Ok(()) }
     }
 }
 

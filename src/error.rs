@@ -56,4 +56,4 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 /// A value, or why there is none.
-pub type Result<T> = std::result::Result<T, Error>;
+pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -6,6 +6,8 @@
 
 use glam::DVec3;
 
+use crate::geometry::closest_point::segment_parameter;
+
 /// The two kinds of pairs that can touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -69,8 +71,7 @@ const NEARLY_PARALLEL: f64 = 1e-10;
 /// there to `q`.
 #[inline]
 fn point_segment(q: DVec3, u: DVec3) -> (f64, DVec3) {
-    let length = u.length_squared();
-    let s = if length > 0.0 { (q.dot(u) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let s = segment_parameter(q, u);
     (s, q - s * u)
 }
 

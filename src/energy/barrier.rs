@@ -14,7 +14,6 @@ use rayon::prelude::*;
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
 use crate::contact::{Bodies, CandidateSet, Class, Kind, mollifier};
-use crate::memory::bytes;
 
 /// Candidates a thread takes at once.
 const CHUNK: usize = 2048;
@@ -98,22 +97,19 @@ pub struct Activity {
 
 /// The contact term: the barrier summed over a set of candidates.
 ///
-/// Its elements are the candidates. Value and derivatives see all of them, wherever they are evaluated; the sparsity
-/// pattern is that of the pairs found active by the last [`Barrier::refresh`].
+/// Its elements are the candidates. Value and derivatives see all of them, wherever they are evaluated.
 #[derive(Clone, Debug)]
 pub struct Barrier {
     bodies: Arc<Bodies>,
     candidates: CandidateSet,
     settings: BarrierSettings,
-    /// Candidates that were closer than d-hat at the last refresh, ascending.
-    active: Vec<u32>,
     narrowing: Option<Narrowing>,
 }
 
 impl Barrier {
     /// A barrier without candidates.
     pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
-        Self { bodies, candidates: CandidateSet::default(), settings, active: Vec::new(), narrowing: None }
+        Self { bodies, candidates: CandidateSet::default(), settings, narrowing: None }
     }
 
     /// The bodies in contact.
@@ -126,10 +122,8 @@ impl Barrier {
         &self.candidates
     }
 
-    /// The pairs, to be replaced: the broad phase writes here. Call [`Barrier::refresh`] afterwards; until then the
-    /// sparsity pattern is empty.
+    /// The pairs, to be replaced: the broad phase writes here.
     pub fn candidates_mut(&mut self) -> &mut CandidateSet {
-        self.active.clear();
         &mut self.candidates
     }
 
@@ -138,10 +132,8 @@ impl Barrier {
         &self.settings
     }
 
-    /// Changes the shape of the barrier. Call [`Barrier::refresh`] afterwards; until then the sparsity pattern is
-    /// empty.
+    /// Changes the shape of the barrier. The candidates must hold all pairs that are within the new d-hat.
     pub fn set_settings(&mut self, settings: BarrierSettings) {
-        self.active.clear();
         self.settings = settings;
     }
 
@@ -167,21 +159,9 @@ impl Barrier {
         (by_s + g * rates.weight) / h
     }
 
-    /// Finds the pairs that are active at `at`, for [`Energy::stencils`].
-    pub fn refresh(&mut self, at: Configuration<'_>) -> Activity {
-        let parts: Vec<(Vec<u32>, Activity)> = self.map_chunks(|range| {
-            let mut active = Vec::new();
-            let activity = self.activity_in(at, range, |i| active.push(i as u32));
-            (active, activity)
-        });
-        self.active.clear();
-        parts.iter().for_each(|(active, _)| self.active.extend_from_slice(active));
-        parts.iter().fold(Activity::NONE, |sum, (_, part)| sum.merged(part))
-    }
-
     /// What is in contact at `at`.
     pub fn activity(&self, at: Configuration<'_>) -> Activity {
-        let parts: Vec<Activity> = self.map_chunks(|range| self.activity_in(at, range, |_| {}));
+        let parts: Vec<Activity> = self.map_chunks(|range| self.activity_in(at, range));
         parts.iter().fold(Activity::NONE, Activity::merged)
     }
 
@@ -204,11 +184,10 @@ impl Barrier {
         (0..count.div_ceil(CHUNK)).into_par_iter().map(|c| of(c * CHUNK..count.min((c + 1) * CHUNK))).collect()
     }
 
-    fn activity_in(&self, at: Configuration<'_>, range: Range<usize>, mut found: impl FnMut(usize)) -> Activity {
+    fn activity_in(&self, at: Configuration<'_>, range: Range<usize>) -> Activity {
         let mut nearest = [f64::INFINITY; 3];
         let mut count = 0;
         self.each_close(at, range, |close| {
-            found(close.index);
             count += 1;
             let nearest = &mut nearest[close.class as usize];
             *nearest = nearest.min(close.separation.squared);
@@ -222,14 +201,14 @@ impl Barrier {
     fn each_close(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair)) {
         for run in self.candidates.runs(range) {
             let dhat = self.settings.dhat(run.class);
-            for (k, &pair) in run.pairs.iter().enumerate() {
+            for &pair in run.pairs {
                 let x = self.bodies.positions(pair, at);
                 if run.kind.apart(&x, dhat) {
                     continue;
                 }
                 let separation = run.kind.separation(&x);
                 if separation.squared < dhat * dhat {
-                    visit(ClosePair { index: run.first + k, kind: run.kind, class: run.class, pair, x, separation });
+                    visit(ClosePair { kind: run.kind, class: run.class, pair, x, separation });
                 }
             }
         }
@@ -261,7 +240,6 @@ impl Barrier {
 
 /// A candidate closer than its d-hat.
 struct ClosePair {
-    index: usize,
     kind: Kind,
     class: Class,
     pair: [u32; 4],
@@ -306,7 +284,7 @@ impl Energy for Barrier {
     }
 
     fn memory(&self) -> u64 {
-        self.candidates.memory() + bytes(&self.active)
+        self.candidates.memory()
     }
 
     /// Infinite if a candidate is at or below the floor.
@@ -356,19 +334,6 @@ impl Energy for Barrier {
         });
     }
 
-    /// The garment vertices of the pairs that were active at the last refresh, all of them: the closest points may
-    /// move to other features.
-    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        let n = self.bodies.garment_count();
-        for &i in &self.active {
-            let (mut vertices, mut count) = ([0; 4], 0);
-            for v in self.candidates.pairs()[i as usize] {
-                if (v as usize) < n {
-                    vertices[count] = v;
-                    count += 1;
-                }
-            }
-            visit(&vertices[..count]);
-        }
-    }
+    /// None: pairs come and go with every step. Assembly tells those that a pattern lacks, which then grows by them.
+    fn stencils(&self, _: &mut dyn FnMut(&[u32])) {}
 }

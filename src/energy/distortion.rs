@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::surface::l_surf;
-use crate::geometry::mesh::Topology;
+use crate::geometry::mesh::{Topology, triangle_area};
 
 /// For each of `triangles`, the mean over its hinges of `|tau1 x - tau2 x|^2` of Eq. 2, in the form that is free for any
 /// similarity, over the ratio of the garment's area at `x` to that at `rest`. So it is 0 for any similarity of the garment as
@@ -11,13 +11,7 @@ use crate::geometry::mesh::Topology;
 ///
 /// A triangle without a hinge that has a shape at rest has none, and gets 0, as do all of a garment without area.
 pub fn distortion(rest: &[DVec3], x: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
-    let area = |x: &[DVec3]| -> f64 {
-        let twice = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| x[v as usize]);
-            (b - a).cross(c - a).length()
-        };
-        triangles.iter().map(twice).sum()
-    };
+    let area = |x: &[DVec3]| triangles.iter().map(|t| triangle_area(t.map(|v| x[v as usize]))).sum::<f64>();
     let growth = area(x) / area(rest);
     let mut sums = vec![(0.0, 0u32); triangles.len()];
     if !(growth > 0.0 && growth.is_finite()) {

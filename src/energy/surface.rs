@@ -40,7 +40,6 @@ struct Element {
 pub struct Surface {
     elements: Vec<Element>,
     form: SurfaceForm,
-    degenerate_count: usize,
 }
 
 /// The three free edges of a hinge and its two normals.
@@ -89,14 +88,7 @@ impl Surface {
     /// A hinge with a rest triangle without area, or with both opposite corners in one place, gets no element. So hinges
     /// must come from triangles without caps (see [`crate::geometry::sliver_caps`]), else the surface is torn there.
     pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
-        let elements: Vec<Element> = hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect();
-        let degenerate_count = hinges.len() - elements.len();
-        Self { elements, form, degenerate_count }
-    }
-
-    /// Number of hinges without an element, because their rest shape is degenerate.
-    pub fn degenerate_count(&self) -> usize {
-        self.degenerate_count
+        Self { elements: hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect(), form }
     }
 }
 

@@ -240,10 +240,15 @@ pub fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     std::array::from_fn(|k| if k == nearest { 1.0 } else { 0.0 })
 }
 
+/// The parameter in [0, 1] of the point closest to `q` on the segment from the origin to `edge`; 0 where that is a point.
+#[inline]
+pub fn segment_parameter(q: DVec3, edge: DVec3) -> f64 {
+    let length = edge.length_squared();
+    if length > 0.0 { (q.dot(edge) / length).clamp(0.0, 1.0) } else { 0.0 }
+}
+
 /// The point of the segment from `a` along `edge` closest to `p`.
 #[inline]
 pub fn closest_on_segment(p: DVec3, a: DVec3, edge: DVec3) -> DVec3 {
-    let length = edge.length_squared();
-    let s = if length > 0.0 { ((p - a).dot(edge) / length).clamp(0.0, 1.0) } else { 0.0 };
-    a + s * edge
+    a + segment_parameter(p - a, edge) * edge
 }

@@ -14,9 +14,14 @@ pub struct TriangleMesh {
 impl TriangleMesh {
     /// Area of each triangle.
     pub fn areas(&self) -> Vec<f64> {
-        let p = |v: u32| self.positions[v as usize];
-        self.triangles.iter().map(|&[a, b, c]| 0.5 * (p(b) - p(a)).cross(p(c) - p(a)).length()).collect()
+        self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()
     }
+}
+
+/// Area of a triangle.
+#[inline]
+pub fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {
+    0.5 * (b - a).cross(c - a).length()
 }
 
 /// A triangle whose doubled area is below this share of its longest edge squared has no area: its normal would be the

@@ -118,15 +118,6 @@ impl Space {
         Ok(())
     }
 
-    /// True where the axes are left-handed, so that the conversion to our space is a reflection of coordinates.
-    pub fn is_left_handed(&self) -> bool {
-        let ((r, sr), (u, su), (_, sf)) = (self.right.parts(), self.up.parts(), self.forward.parts());
-        let cyclic = (u + 3 - r) % 3 == 1;
-        // The determinant of (right, up, backward); an odd permutation changes its sign, and so does "backward".
-        let determinant = if cyclic { -sr * su * sf } else { sr * su * sf };
-        determinant < 0.0
-    }
-
     /// A position of the caller's space in ours. Exact where the unit is the metre (or a power of two of it):
     /// a permutation of the coordinates and their signs.
     #[inline]

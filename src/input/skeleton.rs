@@ -241,20 +241,6 @@ impl BoneGraph {
         usize::from(self.way(a, b).hops)
     }
 
-    /// Number of joints between two bones: 0 for the same bone, 1 for bones that share a joint.
-    pub fn bone_distance(&self, a: u32, b: u32) -> usize {
-        if a == b {
-            return 0;
-        }
-        let nearest = |&j: &u32| self.bones[b as usize].iter().map(move |&k| self.joint_distance(j, k)).min();
-        1 + self.bones[a as usize].iter().filter_map(nearest).min().unwrap_or(0)
-    }
-
-    /// Number of joints that [`joints_between`](Self::joints_between) gives.
-    pub fn joint_count_between(&self, a: Location, b: Location) -> usize {
-        self.shortest(a, b).map_or(0, |way| way.count)
-    }
-
     /// The joints strictly between two places, in order from `a` to `b`: with them put in between, consecutive
     /// places share a bone. Empty where `a` and `b` share a bone. Replaces the contents of `path`.
     pub fn joints_between(&self, a: Location, b: Location, path: &mut Vec<u32>) {

@@ -20,10 +20,10 @@ mod spline;
 pub mod volume;
 
 use std::sync::OnceLock;
-use std::sync::atomic::AtomicBool;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
+use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
@@ -86,9 +86,10 @@ struct Cell {
 impl Field {
     /// The field of `mesh`, any soup of triangles with finite coordinates.
     ///
-    /// Fails with [`ErrorKind::InvalidMesh`] without triangles, [`ErrorKind::InvalidArgument`] for a voxel that is
-    /// not positive or too small for the mesh, and [`ErrorKind::Cancelled`] soon after `cancel` is set.
-    pub fn build(mesh: &TriangleMesh, options: FieldOptions, cancel: &AtomicBool) -> Result<Self> {
+    /// # Errors
+    /// [`ErrorKind::InvalidMesh`] without triangles, [`ErrorKind::InvalidArgument`] for a voxel that is not positive or too
+    /// small for the mesh, and [`ErrorKind::Cancelled`] soon after that was asked for.
+    pub fn build(mesh: &TriangleMesh, options: FieldOptions, cancel: &Cancel) -> Result<Self> {
         let voxel = options.voxel;
         if !(voxel > 0.0 && voxel.is_finite()) {
             return Err(Error::new(
@@ -150,14 +151,6 @@ impl Field {
         let mut out = [(0.0, DVec3::ZERO)];
         self.values_gradients(&[p], &mut out);
         out[0]
-    }
-
-    /// D, its gradient and its Hessian at `p`.
-    pub fn value_gradient_hessian(&self, p: DVec3) -> (f64, DVec3, DMat3) {
-        let (value, gradient) = self.value_gradient(p);
-        let mut hessian = [DMat3::ZERO];
-        dispatch(Samples::<Hessian> { field: self, points: &[p], out: &mut hessian });
-        (value, gradient, hessian[0])
     }
 
     /// D at each of `points`, written to the entries of `out`. Does as many as both have.
@@ -277,7 +270,7 @@ impl Field {
         // A block has nodes of the next ones, too.
         let volumes: [_; 8] = std::array::from_fn(|n| {
             let next = [n / 4, (n / 2) % 2, n % 2];
-            self.volume.read_block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32)).0
+            self.volume.read_block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32))
         });
         let inside = |[x, y, z]: [usize; 3]| {
             let volume = &volumes[(x / BLOCK) * 4 + (y / BLOCK) * 2 + z / BLOCK];
@@ -316,17 +309,6 @@ impl Sample for ValueGradient {
     fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> (f64, DVec3) {
         let (value, gradient) = spline::value_gradient::<V>(row, t);
         (value, gradient * per_voxel)
-    }
-}
-
-struct Hessian;
-
-impl Sample for Hessian {
-    type Output = DMat3;
-
-    #[inline(always)]
-    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> DMat3 {
-        spline::hessian::<V>(row, t) * (per_voxel * per_voxel)
     }
 }
 

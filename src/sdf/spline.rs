@@ -4,7 +4,7 @@
 //! Rows of four nodes along the last axis are contracted along the first two axes at once; the last axis comes at the
 //! end. All functions compute the value by the same operations, and so to the same bits.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::simd::four::Four;
 
@@ -25,13 +25,6 @@ fn basis(t: f64) -> Weights {
 fn slopes(t: f64) -> Weights {
     let s = 1.0 - t;
     [-0.5 * s * s, t * (1.5 * t - 2.0), -s * (1.5 * s - 2.0), 0.5 * t * t]
-}
-
-/// Their second derivatives.
-#[inline(always)]
-fn bends(t: f64) -> Weights {
-    let s = 1.0 - t;
-    [s, 3.0 * t - 2.0, 3.0 * s - 2.0, t]
 }
 
 /// The value at the point `t` of the cell; `row(i, j)` are the nodes (i, j, 0..4).
@@ -67,23 +60,4 @@ pub(super) fn value_gradient<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t:
         by_y = by_y.add_scaled(wx, plane_y);
     }
     (sum.dot(z), DVec3::new(by_x.dot(z), by_y.dot(z), sum.dot(slopes(t.z))))
-}
-
-/// The Hessian (for a cell of unit width).
-#[inline(always)]
-pub(super) fn hessian<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> DMat3 {
-    let along = |a: usize, order: usize| [basis(t[a]), slopes(t[a]), bends(t[a])][order];
-    let derivative = |[a, b, c]: [usize; 3]| {
-        let (x, y) = (along(0, a), along(1, b));
-        let mut sum = V::splat(0.0);
-        for (i, wx) in x.iter().enumerate() {
-            for (j, wy) in y.iter().enumerate() {
-                sum = sum.add_scaled(wx * wy, V::widen(row(i, j)));
-            }
-        }
-        sum.dot(along(2, c))
-    };
-    let (xy, xz, yz) = (derivative([1, 1, 0]), derivative([1, 0, 1]), derivative([0, 1, 1]));
-    let (xx, yy, zz) = (derivative([2, 0, 0]), derivative([0, 2, 0]), derivative([0, 0, 2]));
-    DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz])
 }

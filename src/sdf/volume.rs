@@ -2,8 +2,8 @@
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::{self, NonNull};
-use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Nodes along one side of a block.
@@ -36,16 +36,15 @@ unsafe extern "C" {
         message: *mut c_char,
         message_capacity: usize,
     ) -> c_int;
-    fn bespoke_volume_read_block(volume: *const Opaque, origin: *const i32, values: *mut f32, active: *mut u8);
-    fn bespoke_volume_active_count(volume: *const Opaque) -> u64;
+    fn bespoke_volume_read_block(volume: *const Opaque, origin: *const i32, values: *mut f32);
     fn bespoke_volume_memory(volume: *const Opaque) -> u64;
     fn bespoke_volume_destroy(volume: *mut Opaque);
 }
 
 extern "C" fn is_cancelled(context: *const c_void) -> c_int {
-    // SAFETY: `build` passes a flag that outlives the call, and an atomic may be read from any thread.
-    let flag = unsafe { &*context.cast::<AtomicBool>() };
-    c_int::from(flag.load(Ordering::Relaxed))
+    // SAFETY: `build` passes a token that outlives the call, and it may be read from any thread.
+    let cancel = unsafe { &*context.cast::<Cancel>() };
+    c_int::from(cancel.is_requested())
 }
 
 /// A voxelised triangle soup. Lengths are in voxels: node (i, j, k) of the lattice is the point (i, j, k).
@@ -59,14 +58,16 @@ unsafe impl Sync for Volume {}
 
 impl Volume {
     /// Voxelises `triangles` over `points` (in voxels), keeping distances up to `bands` (outside, inside; in
-    /// voxels, at least 1), with at most `threads` threads. Stops with [`ErrorKind::Cancelled`] soon after
-    /// `cancel` is set.
+    /// voxels, at least 1), with at most `threads` threads.
+    ///
+    /// # Errors
+    /// `InvalidMesh` for what cannot be voxelised, `Cancelled` soon after that was asked for, `Internal`.
     pub fn build(
         points: &[[f32; 3]],
         triangles: &[[u32; 3]],
         bands: [f32; 2],
         threads: u32,
-        cancel: &AtomicBool,
+        cancel: &Cancel,
     ) -> Result<Self> {
         let mut volume = ptr::null_mut();
         let mut message = [0 as c_char; 256];
@@ -102,22 +103,13 @@ impl Volume {
 
     /// Distances (in voxels, negative inside, cut off at the bands) at the 8^3 nodes from `origin` on, each of
     /// whose coordinates is rounded down to a multiple of 8. Node (i, j, k) of the block is entry
-    /// 64 i + 8 j + k. The flags say which nodes lie within the bands.
-    pub fn read_block(&self, origin: [i32; 3]) -> ([f32; BLOCK_NODES], [bool; BLOCK_NODES]) {
+    /// 64 i + 8 j + k.
+    pub fn read_block(&self, origin: [i32; 3]) -> [f32; BLOCK_NODES] {
         let mut values = [0.0; BLOCK_NODES];
-        let mut active = [0_u8; BLOCK_NODES];
         let origin = origin.map(|o| o & !(BLOCK as i32 - 1));
-        // SAFETY: a live volume, and arrays of the size that the shim writes.
-        unsafe {
-            bespoke_volume_read_block(self.0.as_ptr(), origin.as_ptr(), values.as_mut_ptr(), active.as_mut_ptr());
-        }
-        (values, active.map(|a| a != 0))
-    }
-
-    /// Number of nodes within the bands.
-    pub fn active_count(&self) -> u64 {
-        // SAFETY: a live volume.
-        unsafe { bespoke_volume_active_count(self.0.as_ptr()) }
+        // SAFETY: a live volume, and an array of the size that the shim writes.
+        unsafe { bespoke_volume_read_block(self.0.as_ptr(), origin.as_ptr(), values.as_mut_ptr()) };
+        values
     }
 
     /// Memory it holds, in bytes.

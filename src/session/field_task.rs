@@ -27,7 +27,7 @@ impl FieldTask {
         let build = move || {
             Fault::Field.at(fault);
             let clock = Instant::now();
-            let field = Field::build(&avatar, FieldOptions { voxel, threads: threads as u32 }, cancel.flag())?;
+            let field = Field::build(&avatar, FieldOptions { voxel, threads: threads as u32 }, &cancel)?;
             Ok((field, clock.elapsed().as_secs_f64()))
         };
         let handle = std::thread::Builder::new()

@@ -20,7 +20,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 pub use crate::control::Stage;
-use crate::control::{Cancel, Control, MAX_TERMS, Progress, cancelled};
+use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::Finding;
 pub use crate::input::precision::Precision;
@@ -85,7 +85,7 @@ impl Session {
     pub fn prepare(&mut self) -> Result<()> {
         self.setting("prepare was called already: the inputs")?;
         if self.control.is_cancelled() {
-            return Err(self.answer(cancelled()));
+            return Err(self.answer(Cancelled.into()));
         }
         let threads = match self.inputs.options.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -172,7 +172,7 @@ impl Session {
     /// One job: the work goes there and comes back.
     fn iterate_once(&mut self) -> Result<Stage> {
         if self.control.is_cancelled() {
-            return Err(cancelled());
+            return Err(Cancelled.into());
         }
         let (Some(mut work), Some(pool)) = (self.work.take(), &self.pool) else {
             return Err(Error::new(ErrorKind::Internal, "there is no work in a running session"));
@@ -341,7 +341,7 @@ impl Session {
             return Err(Error::new(ErrorKind::Internal, "there are no threads in a prepared session"));
         };
         if should_stop() {
-            return Err(cancelled());
+            return Err(Cancelled.into());
         }
         let (view, stop, fault) = (view.clone(), Cancel::new(), self.fault);
         let cancel = stop.clone();

@@ -86,12 +86,11 @@ impl Work {
         limit.beside(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut objective = problem.inflation_objective(&inputs.options, findings)?;
+        let mut objective = problem.inflation_objective(&inputs.options, stop, findings)?;
         stop.check()?;
         let held = held + problem.memory();
         let room = limit.beside(held + expected + objective.memory());
-        let mut newton = Newton::within(room, state.x.len(), &objective.terms())?.watching(stop.clone());
-        objective.contact.watch(stop.clone());
+        let mut newton = Newton::new(state.x.len(), &objective.terms(), room, stop.clone())?;
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: body.avatar_size(),
@@ -162,9 +161,8 @@ impl Work {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state);
+            self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state)?;
             self.newton.forget_values();
-            self.context.stop.check()?;
         }
         if self.objective.contact.review(self.state.configuration())? {
             self.newton.forget_values();
@@ -200,14 +198,13 @@ impl Work {
         self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
         let field = Arc::new(field);
         self.distance = Some(field.clone());
-        let mut objective = self.problem.fit_objective(field, &self.state.x, options)?;
+        let stop = &self.context.stop;
+        let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
         objective.contact.take_over(&self.objective.contact);
         self.objective = objective;
-        self.objective.contact.watch(self.context.stop.clone());
-        self.context.stop.check()?;
+        stop.check()?;
         let room = self.room().beside(self.objective.memory());
-        let newton = Newton::within(room, self.state.x.len(), &self.objective.terms())?;
-        self.newton = newton.watching(self.context.stop.clone());
+        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), room, stop.clone())?;
         self.objective.contact.limit_pairs(self.room().beside(self.newton.memory()));
         self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);

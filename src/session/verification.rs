@@ -9,7 +9,7 @@ use crate::input::body::Body;
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::input::weld::Weld;
 use crate::report::Verification;
-use crate::verify::intersections_unless;
+use crate::verify::intersections_with_cancel;
 
 /// Counts, and the pairs of triangles that must not be there, in the caller's indices.
 pub(super) struct Judgement {
@@ -34,8 +34,8 @@ impl Judgement {
         tangled: &[[u32; 2]],
         cancel: &Cancel,
     ) -> Result<Self> {
-        let own = intersections_unless(cancel, garment, None, usize::MAX)?;
-        let avatar = intersections_unless(cancel, garment, Some(&body.mesh), usize::MAX)?;
+        let own = intersections_with_cancel(garment, None, usize::MAX, cancel)?;
+        let avatar = intersections_with_cancel(garment, Some(&body.mesh), usize::MAX, cancel)?;
         let callers = |t: u32| weld.triangle_of[t as usize];
         let new = own.pairs.iter().filter(|pair| tangled.binary_search(pair).is_err());
         let new: Vec<[u32; 2]> = new.map(|pair| pair.map(callers)).collect();

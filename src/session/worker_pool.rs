@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::control::{Cancel, cancelled};
+use crate::control::{Cancel, Cancelled};
 use crate::error::{Error, ErrorKind, Result};
 use crate::panics::{PanicLog, go_on, recorded};
 
@@ -79,7 +79,7 @@ impl Pool {
                 Err(RecvTimeoutError::Timeout) if should_stop() => {
                     stop.request();
                     self.left.lock().unwrap_or_else(PoisonError::into_inner).push(end);
-                    return Err(cancelled());
+                    return Err(Cancelled.into());
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => match end.recv() {

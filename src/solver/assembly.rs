@@ -11,7 +11,7 @@ use super::Term;
 use super::element_buffer::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::energy::Configuration;
 use crate::memory::bytes;
 
@@ -43,14 +43,22 @@ pub struct System {
 }
 
 impl System {
-    /// From now on looks at `cancel`; once that is set, what is assembled is incomplete.
-    pub fn watch(&mut self, cancel: Cancel) {
-        self.cancel = cancel;
+    /// An empty system, which is assembled until somebody asks to stop.
+    pub fn new(cancel: Cancel) -> Self {
+        Self { cancel, ..Self::default() }
     }
 
     /// Evaluates all the derivatives of `terms` at `at`. Returns the pairs of vertices that the pattern lacks; where
     /// there are any, the Hessian is incomplete.
-    pub fn assemble(&mut self, pattern: &Pattern, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
+    ///
+    /// # Errors
+    /// [`Cancelled`]; the token is looked at in each chunk of elements.
+    pub fn assemble(
+        &mut self,
+        pattern: &Pattern,
+        terms: &[Term<'_>],
+        at: Configuration<'_>,
+    ) -> Result<PairCollector, Cancelled> {
         self.clear(pattern);
         self.times.clear();
         let mut missing = PairCollector::default();
@@ -59,15 +67,13 @@ impl System {
             let count = if term.weight == 0.0 { 0 } else { term.energy.len() };
             for first in (0..count).step_by(CHUNK * BATCH) {
                 let last = count.min(first + CHUNK * BATCH);
-                time += self.evaluate(term, first, last, at);
-                if self.cancel.is_requested() {
-                    return missing;
-                }
+                time += self.evaluate(term, first, last, at)?;
                 time += self.sum(pattern, &mut missing);
             }
             self.times.push(time);
         }
-        missing
+        self.cancel.check()?;
+        Ok(missing)
     }
 
     /// Adds the times that `terms` took in the last assembly, which was of them.
@@ -103,7 +109,13 @@ impl System {
     }
 
     /// Writes the derivatives of the elements from `first` to before `last` down. Returns the time, over all threads.
-    fn evaluate(&mut self, term: &Term<'_>, first: usize, last: usize, at: Configuration<'_>) -> Duration {
+    fn evaluate(
+        &mut self,
+        term: &Term<'_>,
+        first: usize,
+        last: usize,
+        at: Configuration<'_>,
+    ) -> Result<Duration, Cancelled> {
         self.tapes.resize_with((last - first).div_ceil(CHUNK), Tape::default);
         let cancel = &self.cancel;
         let work = |(k, tape): (usize, &mut Tape)| {
@@ -115,7 +127,10 @@ impl System {
             }
             clock.elapsed()
         };
-        self.tapes.par_iter_mut().enumerate().map(work).sum()
+        let time = self.tapes.par_iter_mut().enumerate().map(work).sum();
+        // Chunks may have been left out.
+        self.cancel.check()?;
+        Ok(time)
     }
 
     /// Adds what is written down to the system, and the pairs that `pattern` lacks to `missing`. Returns the time, over

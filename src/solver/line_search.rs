@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::profile::Profile;
 use super::{Term, assembly};
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::energy::Configuration;
 
 /// Sufficient decrease (Armijo): `E(a) <= E(0) + SUFFICIENT a E'(0)`.
@@ -25,7 +25,10 @@ pub struct Found {
 
 /// Finds a fraction of the step from `at` along (`dx`, `dt`), at most `longest`, that decreases the objective enough.
 /// `slope` is the directional derivative at 0. `trial` is scratch and holds the accepted vertices on success. The
-/// terms' times are added to `profile`. `None` where there is no such fraction, or once `cancel` is set.
+/// terms' times are added to `profile`. `None` where there is no such fraction.
+///
+/// # Errors
+/// [`Cancelled`]; `cancel` is looked at before each trial.
 #[allow(clippy::too_many_arguments)]
 pub fn backtrack(
     terms: &[Term<'_>],
@@ -38,23 +41,21 @@ pub fn backtrack(
     trial: &mut Vec<DVec3>,
     cancel: &Cancel,
     profile: &mut Profile,
-) -> Option<Found> {
+) -> Result<Option<Found>, Cancelled> {
     let mut fraction = longest;
     for _ in 0..CUTS {
-        if cancel.is_requested() {
-            return None;
-        }
+        cancel.check()?;
         trial.clear();
         trial.extend(at.x.iter().zip(dx).map(|(&x, &d)| x + fraction * d));
         let values = assembly::values(terms, Configuration { x: trial, t: at.t + fraction * dt }, profile);
         let there = assembly::weighted(terms, &values);
         if there <= value + SUFFICIENT * fraction * slope {
-            return Some(Found { fraction, objective: there, values });
+            return Ok(Some(Found { fraction, objective: there, values }));
         }
         // The minimum of the parabola through value, slope and this trial, kept within a sensible part of the step.
         let curvature = 2.0 * (there - value - slope * fraction);
         let parabola = if there.is_finite() && curvature > 0.0 { -slope * fraction / curvature } else { 0.5 };
         fraction *= parabola.clamp(0.4, 0.6);
     }
-    None
+    Ok(None)
 }

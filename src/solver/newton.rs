@@ -18,7 +18,7 @@ use super::cholesky::Factor;
 use super::line_search::backtrack;
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::energy::Configuration;
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::{MemoryLimit, bytes};
@@ -45,8 +45,18 @@ pub trait Model {
     fn terms(&self) -> Vec<Term<'_>>;
 
     /// Makes the energies valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at
-    /// most `longest`, along which nothing intersects.
-    fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64;
+    /// most `longest`, along which nothing intersects. `None` where the memory for that ran out: nothing is known of the
+    /// step, and the energies are not valid.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    fn max_feasible_step(
+        &mut self,
+        at: Configuration<'_>,
+        dx: &[DVec3],
+        dt: f64,
+        longest: f64,
+    ) -> Result<Option<f64>, Cancelled>;
 }
 
 /// What the solver has done, for reports.
@@ -58,7 +68,7 @@ pub struct Counters {
     pub factorisations: u32,
     /// Symbolic factorisations.
     pub analyses: u32,
-    /// Time of all that but for the model's part, [`Model::admit`].
+    /// Time of all that but for the model's part, [`Model::max_feasible_step`].
     pub profile: Profile,
 }
 
@@ -116,49 +126,35 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// A solver whose pattern holds the stencils of `terms`.
+    /// A solver whose pattern holds the stencils of `terms`, which never takes more memory than `limit` and ends at its
+    /// next checkpoint once somebody asks to stop.
     ///
     /// # Errors
-    /// `Internal` where memory runs out.
-    pub fn new(vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
-        Self::within(MemoryLimit::NONE, vertex_count, terms)
-    }
-
-    /// [`Self::new`], which never takes more memory than `limit`.
-    ///
-    /// # Errors
-    /// As [`Self::new`], and `MemoryLimit`; so may [`Self::linearise`] from then on.
-    pub fn within(limit: MemoryLimit, vertex_count: usize, terms: &[Term<'_>]) -> Result<Self> {
+    /// `Internal` where memory runs out, `MemoryLimit`, `Cancelled`.
+    pub fn new(vertex_count: usize, terms: &[Term<'_>], limit: MemoryLimit, cancel: Cancel) -> Result<Self> {
         let clock = Instant::now();
         let mut pairs = PairCollector::default();
         for term in terms {
             term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
         }
         let pattern = Pattern::new(vertex_count, pairs);
-        let factor = Factor::analyse_within(limit.beside(System::memory_for(&pattern)), &pattern)?;
+        let mut factor = Factor::new(cancel.clone());
+        factor.analyse(limit.beside(System::memory_for(&pattern)), &pattern)?;
         let profile = Profile { analysis: clock.elapsed(), ..Profile::default() };
         Ok(Self {
             factor,
             limit,
             pattern,
-            system: System::default(),
+            system: System::new(cancel.clone()),
             response: Vec::new(),
             dx: Vec::new(),
             trial: Vec::new(),
             values: None,
             shift: SHIFT,
             cramped: 0,
-            cancel: Cancel::new(),
+            cancel,
             counters: Counters { analyses: 1, profile, ..Counters::default() },
         })
-    }
-
-    /// The same solver, which ends with `Cancelled` at its next checkpoint once `cancel` is set.
-    pub fn watching(mut self, cancel: Cancel) -> Self {
-        self.system.watch(cancel.clone());
-        self.factor.watch(cancel.clone());
-        self.cancel = cancel;
-        self
     }
 
     /// Bytes that it holds.
@@ -175,26 +171,22 @@ impl Newton {
     /// to a change of t, or of the parameter whose border the energies hand on, as well.
     ///
     /// # Errors
-    /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `Cancelled`.
+    /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `MemoryLimit`, `Cancelled`.
     pub fn linearise(&mut self, terms: &[Term<'_>], at: Configuration<'_>, border: bool) -> Result<()> {
-        let missing = self.assemble(terms, at);
-        self.cancel.check()?;
+        let missing = self.assemble(terms, at)?;
         if !missing.is_empty() {
             let clock = Instant::now();
             self.pattern = self.pattern.extended(missing);
             let held = System::memory_for(&self.pattern);
-            self.factor.analyse_again(self.limit.beside(held), &self.pattern)?;
-            self.cancel.check()?;
+            self.factor.analyse(self.limit.beside(held), &self.pattern)?;
             self.counters.analyses += 1;
             self.counters.profile.analysis += clock.elapsed();
-            self.assemble(terms, at);
+            self.assemble(terms, at)?;
         }
-        self.cancel.check()?;
 
         let clock = Instant::now();
         self.factorise()?;
         self.counters.profile.factorisation += clock.elapsed();
-        self.cancel.check()?;
         let clock = Instant::now();
         self.response.clear();
         self.response.extend(self.system.gradient.iter().map(|g| -g));
@@ -209,13 +201,13 @@ impl Newton {
         Ok(())
     }
 
-    fn assemble(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> PairCollector {
+    fn assemble(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> Result<PairCollector, Cancelled> {
         let clock = Instant::now();
-        let missing = self.system.assemble(&self.pattern, terms, at);
+        let missing = self.system.assemble(&self.pattern, terms, at)?;
         self.counters.assemblies += 1;
         self.counters.profile.assembly += clock.elapsed();
         self.system.note_times(terms, &mut self.counters.profile);
-        missing
+        Ok(missing)
     }
 
     fn factorise(&mut self) -> Result<()> {
@@ -236,10 +228,9 @@ impl Newton {
             }
             added = shift;
             self.counters.factorisations += 1;
-            if self.factor.factorise(&self.pattern, &self.system.hessian) {
+            if self.factor.factorise(&self.pattern, &self.system.hessian)? {
                 return Ok(());
             }
-            self.cancel.check()?;
             shift *= 100.0;
         }
         Err(Error::new(ErrorKind::Internal, "the Hessian could not be made positive definite"))
@@ -324,7 +315,7 @@ impl Newton {
         }
     }
 
-    /// One step along the path: the response to an advance of t by `dt`, as far as the model admits it. There is no test
+    /// One step along the path: the response to an advance of t by `dt`, as far as the model allows it. There is no test
     /// on the objective, which must be free to rise with t. Returns the fraction of `dt` that was taken.
     ///
     /// # Errors
@@ -344,12 +335,17 @@ impl Newton {
         self.follow(model, state, ds, false)
     }
 
+    /// The fraction of the direction with `dt` that the model allows.
+    fn feasible(&self, model: &mut dyn Model, state: &State, dt: f64) -> Result<f64, Cancelled> {
+        // Without the memory to tell there is no step. It is the model's owner who looks whether that ends the run.
+        Ok(model.max_feasible_step(state.configuration(), &self.dx, dt, 1.0)?.unwrap_or(0.0))
+    }
+
     fn follow(&mut self, model: &mut dyn Model, state: &mut State, advance: f64, moves_t: bool) -> Result<f64> {
         self.linearise(&model.terms(), state.configuration(), true)?;
         let kept = self.aim(advance);
         let dt = if moves_t { kept * advance } else { 0.0 };
-        let fraction = model.admit(state.configuration(), &self.dx, dt, 1.0);
-        self.cancel.check()?;
+        let fraction = self.feasible(model, state, dt)?;
         for (x, d) in state.x.iter_mut().zip(&self.dx) {
             *x += fraction * *d;
         }
@@ -359,7 +355,7 @@ impl Newton {
     }
 
     /// One step of Newton's method, at fixed t or, with `free_t`, on the garment and t together (t never leaves [0, 1]):
-    /// linearise, admit, search. `None` where no fraction of the step decreases the objective: the state is as good as
+    /// linearise, bound, search. `None` where no fraction of the step decreases the objective: the state is as good as
     /// rounding allows, or contact leaves no way.
     ///
     /// # Errors
@@ -371,8 +367,7 @@ impl Newton {
         let dt = kept * wanted;
         let slope = self.slope(dt);
 
-        let longest = model.admit(state.configuration(), &self.dx, dt, 1.0);
-        self.cancel.check()?;
+        let longest = self.feasible(model, state, dt)?;
 
         let clock = Instant::now();
         let terms = model.terms();
@@ -381,9 +376,8 @@ impl Newton {
         let before = self.values.take().unwrap_or_else(|| assembly::values(&terms, start, profile));
         let before = assembly::weighted(&terms, &before);
         let found =
-            backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel, profile);
+            backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel, profile)?;
         profile.line_search += clock.elapsed();
-        self.cancel.check()?;
         let damped = self.shift > SHIFT;
         self.adapt(longest);
         Ok(found.map(|found| {

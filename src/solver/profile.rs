@@ -44,11 +44,6 @@ impl Profile {
         });
         &mut self.terms[at]
     }
-
-    /// Wall time in all kernels together.
-    pub fn kernels(&self) -> Duration {
-        self.assembly + self.analysis + self.factorisation + self.solve + self.broad_phase + self.ccd + self.line_search
-    }
 }
 
 impl AddAssign<&Profile> for Profile {

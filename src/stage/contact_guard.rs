@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::setup::contact_distances::{Gaps, NO_DISTANCE};
 use crate::contact::exempt_pairs::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
@@ -41,8 +41,9 @@ pub struct ContactGuard {
 }
 
 impl ContactGuard {
-    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by [`Self::settle`].
-    pub fn new(bodies: Arc<Bodies>, gaps: Gaps, limit: MemoryLimit) -> Self {
+    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by [`Self::settle`], and keep to
+    /// `limit`.
+    pub fn new(bodies: Arc<Bodies>, gaps: Gaps, limit: MemoryLimit, cancel: Cancel) -> Self {
         let settings = BarrierSettings {
             dhat_self: gaps.own_dhat,
             dhat_avatar: gaps.inflation_dhat,
@@ -56,7 +57,7 @@ impl ContactGuard {
             look_ahead: 1.0,
             bodies,
             gaps,
-            cancel: Cancel::new(),
+            cancel,
             profile: Profile::default(),
         };
         guard.limit_pairs(limit);
@@ -66,11 +67,6 @@ impl ContactGuard {
     /// The barrier term.
     pub fn barrier(&self) -> &Barrier {
         &self.barrier
-    }
-
-    /// From now on looks at `cancel`; once that is set, [`Self::admit`] admits nothing.
-    pub fn watch(&mut self, cancel: Cancel) {
-        self.cancel = cancel;
     }
 
     /// From now on keeps to `most` bytes of pairs.
@@ -225,15 +221,26 @@ impl ContactGuard {
     }
 
     /// Makes the pairs valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at most
-    /// `longest`, along which nothing intersects and no distance falls below the minimum separation.
-    pub fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
+    /// `longest`, along which nothing intersects and no distance falls below the minimum separation. `None` where the pairs
+    /// have no room: see [`Self::lacks_room`].
+    ///
+    /// # Errors
+    /// [`Cancelled`]; the token is looked at after each search for pairs and in the end.
+    pub fn max_feasible_step(
+        &mut self,
+        at: Configuration<'_>,
+        dx: &[DVec3],
+        dt: f64,
+        longest: f64,
+    ) -> Result<Option<f64>, Cancelled> {
         self.motion.set(&self.bodies, at, Some(&Step { dx, dt }));
         // The pairs that only the far part of a long step meets are many, and mostly the step ends before.
         let mut part = longest.min(self.look_ahead);
         loop {
             self.find_pairs(part);
-            if self.cancel.is_requested() || self.lacks_room() {
-                return 0.0;
+            self.cancel.check()?;
+            if self.lacks_room() {
+                return Ok(None);
             }
             let settings = self.barrier.settings();
             let clock = Instant::now();
@@ -242,7 +249,8 @@ impl ContactGuard {
             if free < part || part >= longest {
                 self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
                 self.narrow_pairs(free);
-                return free;
+                self.cancel.check()?;
+                return Ok(Some(free));
             }
             part = longest;
         }

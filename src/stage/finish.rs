@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::objective::Objective;
 use super::setup::problem::Problem;
+use crate::control::Cancelled;
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::solver::newton::{Model, State};
 
@@ -20,40 +21,45 @@ const AWAY: f64 = 2.0;
 type Group = Vec<(u32, DVec3)>;
 
 /// Straightens the rigid groups as far as contact admits. Returns what the garment in `state` falls short of.
-pub fn close(problem: &Problem, objective: &mut Objective, state: &mut State) -> Vec<Finding> {
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn close(problem: &Problem, objective: &mut Objective, state: &mut State) -> Result<Vec<Finding>, Cancelled> {
     let groups: Vec<Group> = objective.rigid().placed(&state.x).collect();
-    straighten(objective, state, &groups);
+    straighten(objective, state, &groups)?;
     let mut findings = Vec::new();
     report_bent(problem, &groups, &state.x, &mut findings);
     report_missed(problem, objective, &state.x, &mut findings);
-    findings
+    Ok(findings)
 }
 
-fn straighten(objective: &mut Objective, state: &mut State, groups: &[Group]) {
-    if groups.is_empty() || advance(objective, state, groups, true) {
-        return;
+fn straighten(objective: &mut Objective, state: &mut State, groups: &[Group]) -> Result<(), Cancelled> {
+    if groups.is_empty() || advance(objective, state, groups, true)? {
+        return Ok(());
     }
     // Something stands in the way of one of them: the others need not suffer.
     for group in groups {
-        advance(objective, state, std::slice::from_ref(group), false);
+        advance(objective, state, std::slice::from_ref(group), false)?;
     }
+    Ok(())
 }
 
 /// Moves vertices towards their places as far as that is free; with `whole`, all the way or not at all. Whether it was all
 /// the way.
-fn advance(objective: &mut Objective, state: &mut State, groups: &[Group], whole: bool) -> bool {
+fn advance(objective: &mut Objective, state: &mut State, groups: &[Group], whole: bool) -> Result<bool, Cancelled> {
     let mut dx = vec![DVec3::ZERO; state.x.len()];
     for &(v, place) in groups.iter().flatten() {
         dx[v as usize] = place - state.x[v as usize];
     }
-    let part = objective.admit(state.configuration(), &dx, 0.0, 1.0);
+    // Without the memory to tell what is in the way, nothing moves.
+    let part = objective.max_feasible_step(state.configuration(), &dx, 0.0, 1.0)?.unwrap_or(0.0);
     if part == 1.0 {
         // The place itself, to the last bit.
         groups.iter().flatten().for_each(|&(v, place)| state.x[v as usize] = place);
     } else if !whole {
         state.x.iter_mut().zip(&dx).for_each(|(x, d)| *x += part * *d);
     }
-    part == 1.0
+    Ok(part == 1.0)
 }
 
 fn report_bent(problem: &Problem, groups: &[Group], x: &[DVec3], findings: &mut Vec<Finding>) {

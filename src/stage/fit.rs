@@ -88,7 +88,7 @@ impl Settling {
     /// model still promises, is below the tolerance times the objective (or [`NOTHING`]); or no step decreases it any more.
     ///
     /// # Errors
-    /// `Internal` from the solver.
+    /// `Internal`, `MemoryLimit` and `Cancelled` from the solver.
     pub fn iterate(
         &mut self,
         objective: &mut Objective,

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::objective::Objective;
 use super::setup::problem::Problem;
 use crate::contact::{Avatar, Surface};
+use crate::control::Cancel;
 use crate::energy::fit::{Clearance, Fit};
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
@@ -23,7 +24,13 @@ impl Problem {
     ///
     /// # Errors
     /// `InvalidArgument` for a clearance that is not finite.
-    pub fn fit_objective(&self, field: Arc<Field>, x: &[DVec3], options: &Options) -> Result<Objective> {
+    pub fn fit_objective(
+        &self,
+        field: Arc<Field>,
+        x: &[DVec3],
+        options: &Options,
+        cancel: &Cancel,
+    ) -> Result<Objective> {
         let areas = TriangleMesh { positions: x.to_vec(), triangles: self.triangles.clone() }.areas();
         let positions = &self.avatar.positions;
         let avatar = Avatar {
@@ -43,6 +50,7 @@ impl Problem {
         } else if self.offset > 0.0 {
             fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;
         }
-        Ok(Objective::new(self.shape.clone(), Some(fit), self.bodies(avatar), self.gaps, options))
+        let bodies = self.bodies(avatar);
+        Ok(Objective::new(self.shape.clone(), Some(fit), bodies, self.gaps, options, cancel.clone()))
     }
 }

@@ -54,7 +54,7 @@ impl Inflation {
     /// One iteration. True where t is 1.
     ///
     /// # Errors
-    /// `InflationStalled` where t does not move any more, `Internal` from the solver.
+    /// `InflationStalled` where t does not move any more, `Internal`, `MemoryLimit` and `Cancelled` from the solver.
     pub fn iterate(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<bool> {
         self.iterations += 1;
         match &mut self.form {
@@ -67,7 +67,7 @@ impl Inflation {
             Form::Path { .. } => self.follow(objective, newton, state)?,
             Form::Lagrangian { .. } => self.push(objective, newton, state)?,
         }
-        if state.t < 1.0 && !snap(objective, state) {
+        if state.t < 1.0 && !snap(objective, state)? {
             return Ok(false);
         }
         newton.forget_values();
@@ -129,15 +129,17 @@ impl Inflation {
 }
 
 /// Jumps to t = 1 with the garment at rest, where nothing is in the way.
-fn snap(objective: &mut Objective, state: &mut State) -> bool {
+fn snap(objective: &mut Objective, state: &mut State) -> Result<bool> {
     if state.t < SNAP_FROM {
-        return false;
+        return Ok(false);
     }
-    let free = objective.admit_inflation(state.configuration(), 1.0 - state.t) >= 1.0;
+    let feasible = objective.max_feasible_inflation(state.configuration(), 1.0 - state.t)?;
+    // For want of memory it is not tried.
+    let free = feasible.is_some_and(|fraction| fraction >= 1.0);
     if free {
         state.t = 1.0;
     } else {
         objective.contact.settle(state.configuration());
     }
-    free
+    Ok(free)
 }

@@ -4,6 +4,7 @@ use super::objective::Objective;
 use super::setup::contact_distances::NO_DISTANCE;
 use super::setup::problem::Problem;
 use crate::contact::{Avatar, Configuration, Surface};
+use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
 use crate::options::Options;
@@ -16,7 +17,12 @@ impl Problem {
     /// # Errors
     /// `NotEnclosed` where the distance to the shrunk avatar is lost in rounding; if the options are strict,
     /// `SelfIntersection` where the garment intersects or touches itself.
-    pub fn inflation_objective(&self, options: &Options, findings: &mut Vec<Finding>) -> Result<Objective> {
+    pub fn inflation_objective(
+        &self,
+        options: &Options,
+        cancel: &Cancel,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Objective> {
         let at = Configuration { x: &self.rest, t: 0.0 };
         let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
         let avatar = Avatar {
@@ -24,7 +30,8 @@ impl Problem {
             start: self.projected.start.clone(),
             motion,
         };
-        let mut objective = Objective::new(self.shape.clone(), None, self.bodies(avatar), self.gaps, options);
+        let bodies = self.bodies(avatar);
+        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.gaps, options, cancel.clone());
         objective.contact.begin(at, &self.tangled);
         let tangled = objective.contact.tangle().triangle_pairs();
         report_tangle(self, tangled, options.strict, findings);

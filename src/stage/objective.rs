@@ -9,6 +9,7 @@ use super::contact_guard::ContactGuard;
 use super::setup::contact_distances::Gaps;
 use super::setup::shape::Shape;
 use crate::contact::{Bodies, Configuration};
+use crate::control::{Cancel, Cancelled};
 use crate::energy::Energy as _;
 use crate::energy::fit::Fit;
 use crate::energy::inflation::Inflation;
@@ -35,12 +36,19 @@ pub struct Objective {
 
 impl Objective {
     /// The objective without (inflation) or with the fit term; the barrier is that of the inflation.
-    pub fn new(shape: Arc<Shape>, fit: Option<Fit>, bodies: Arc<Bodies>, gaps: Gaps, weights: &Options) -> Self {
+    pub fn new(
+        shape: Arc<Shape>,
+        fit: Option<Fit>,
+        bodies: Arc<Bodies>,
+        gaps: Gaps,
+        weights: &Options,
+        cancel: Cancel,
+    ) -> Self {
         Self {
             shape,
             fit,
             inflation: None,
-            contact: ContactGuard::new(bodies, gaps, MemoryLimit::new(weights.memory_limit)),
+            contact: ContactGuard::new(bodies, gaps, MemoryLimit::new(weights.memory_limit), cancel),
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
         }
@@ -78,10 +86,14 @@ impl Objective {
         self.inflation = drive;
     }
 
-    /// The largest fraction of the avatar's motion by `dt` that a resting garment allows.
-    pub fn admit_inflation(&mut self, at: Configuration<'_>, dt: f64) -> f64 {
+    /// The largest fraction of the avatar's motion by `dt` that a resting garment allows, by
+    /// [`ContactGuard::max_feasible_step`].
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn max_feasible_inflation(&mut self, at: Configuration<'_>, dt: f64) -> Result<Option<f64>, Cancelled> {
         let still = vec![DVec3::ZERO; at.x.len()];
-        self.admit(at, &still, dt, 1.0)
+        self.max_feasible_step(at, &still, dt, 1.0)
     }
 }
 
@@ -113,7 +125,13 @@ impl Model for Objective {
         terms
     }
 
-    fn admit(&mut self, at: Configuration<'_>, dx: &[DVec3], dt: f64, longest: f64) -> f64 {
-        self.contact.admit(at, dx, dt, longest)
+    fn max_feasible_step(
+        &mut self,
+        at: Configuration<'_>,
+        dx: &[DVec3],
+        dt: f64,
+        longest: f64,
+    ) -> Result<Option<f64>, Cancelled> {
+        self.contact.max_feasible_step(at, dx, dt, longest)
     }
 }

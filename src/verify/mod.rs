@@ -11,7 +11,7 @@ mod triangles;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use boxes::{Aabb, Tree};
@@ -39,18 +39,18 @@ const CHUNK: usize = 64;
 /// # Errors
 /// [`ErrorKind::InvalidMesh`]: a coordinate is not finite or an index is out of range, so that nothing can be judged.
 pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -> Result<Intersections> {
-    intersections_unless(&Cancel::new(), a, b, limit)
+    intersections_with_cancel(a, b, limit, &Cancel::new())
 }
 
 /// [`intersections`], until somebody asks to stop.
 ///
 /// # Errors
 /// As [`intersections`], and [`ErrorKind::Cancelled`].
-pub fn intersections_unless(
-    cancel: &Cancel,
+pub fn intersections_with_cancel(
     a: &TriangleMesh,
     b: Option<&TriangleMesh>,
     limit: usize,
+    cancel: &Cancel,
 ) -> Result<Intersections> {
     judgeable(a, "first mesh")?;
     if let Some(b) = b {
@@ -63,16 +63,14 @@ pub fn intersections_unless(
     let (points_b, triangles_b) = (xb.as_deref().unwrap_or(&xa), b.map_or(&a.triangles[..], |b| &b.triangles));
     let tree = Tree::new(boxes_b.as_deref().unwrap_or(&boxes_a));
 
-    let partial: Vec<Intersections> = a
+    let partial: Result<Vec<Intersections>, Cancelled> = a
         .triangles
         .par_chunks(CHUNK)
         .enumerate()
         .map(|(chunk, triangles)| {
+            cancel.check()?;
             let mut found = Intersections::default();
             let mut hits = Vec::new();
-            if cancel.is_requested() {
-                return found;
-            }
             for (s, i) in triangles.iter().zip(chunk * CHUNK..) {
                 hits.clear();
                 tree.for_each_overlap(&boxes_a[i], |j| {
@@ -91,13 +89,12 @@ pub fn intersections_unless(
                 let room = limit - found.pairs.len();
                 found.pairs.extend(hits.iter().take(room).map(|&j| [i as u32, j]));
             }
-            found
+            Ok(found)
         })
         .collect();
-    cancel.check()?;
 
     let mut all = Intersections::default();
-    for part in partial {
+    for part in partial? {
         all.count += part.count;
         all.pairs.extend(part.pairs.into_iter().take(limit - all.pairs.len()));
     }

@@ -1,8 +1,8 @@
 //! The fit term: its closed form on a plane, its derivatives, its clearances.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
+use bespoke::control::Cancel;
 use bespoke::energy::fit::{Clearance, Fit};
 use bespoke::energy::{Configuration, Energy};
 use bespoke::geometry::mesh::TriangleMesh;
@@ -21,7 +21,7 @@ fn field(voxel: f64) -> Arc<Field> {
         DVec3::new(0.0, 0.0, -2.0),
     ];
     let mesh = TriangleMesh { positions, triangles: vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] };
-    Arc::new(Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &AtomicBool::new(false)).expect("a field"))
+    Arc::new(Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &Cancel::new()).expect("a field"))
 }
 
 /// Two triangles over one edge, some way above the plane.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use bespoke::contact::Kind;
-use bespoke::control::Stage;
+use bespoke::control::{Cancel, Stage};
 use bespoke::error::Result;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::session::Session;
@@ -47,7 +47,7 @@ impl<'a> Judge<'a> {
         let problem = scene.problem()?;
         let mut judge = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
         let start = judge.source_positions();
-        let objective = judge.problem.inflation_objective(&scene.options, &mut Vec::new())?;
+        let objective = judge.problem.inflation_objective(&scene.options, &Cancel::new(), &mut Vec::new())?;
         for &pair in objective.contact.tangle().triangle_pairs() {
             let pair = pair.map(|t| judge.problem.weld.triangle_of[t as usize]);
             let touches = distance(&start, pair) < 2e-12;

@@ -1,11 +1,11 @@
 //! The Goblin: 20 components that cross each other, with open loops. Prints its figures (`--nocapture`).
 
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use bespoke::control::Cancel;
 use bespoke::geometry::closest_point::closest_on_triangle;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::sdf::volume::Volume;
+use bespoke::sdf::volume::{BLOCK, Volume};
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
 
@@ -56,7 +56,7 @@ fn field_outside_is_the_distance() {
     let voxel = 0.01;
     let start = Instant::now();
     let options = FieldOptions { voxel, threads: 1 };
-    let field = Field::build(&mesh, options, &AtomicBool::new(false)).expect("a field");
+    let field = Field::build(&mesh, options, &Cancel::new()).expect("a field");
     println!("build {:.3} s, {:.1} MB", start.elapsed().as_secs_f64(), field.memory() as f64 / 1e6);
 
     let points = around(&mesh, 0.3, 3000);
@@ -95,7 +95,7 @@ fn bits_do_not_depend_on_threads() {
     let points = around(&mesh, 0.02, 60_000);
     let sample = |threads| -> Vec<u64> {
         let options = FieldOptions { voxel: 0.01, threads };
-        let field = Field::build(&mesh, options, &AtomicBool::new(false)).expect("a field");
+        let field = Field::build(&mesh, options, &Cancel::new()).expect("a field");
         points.iter().map(|&p| field.value(p).to_bits()).collect()
     };
     let one = sample(1);
@@ -106,6 +106,19 @@ fn bits_do_not_depend_on_threads() {
     }
 }
 
+/// How many nodes around `points` are nearer to the surface than `bands`.
+fn nodes_within(volume: &Volume, points: &[[f32; 3]], bands: [f32; 2]) -> usize {
+    let blocks = |axis: usize| {
+        let coordinates = || points.iter().map(move |p| p[axis]);
+        let low = coordinates().fold(f32::INFINITY, f32::min) - bands[0];
+        let high = coordinates().fold(f32::NEG_INFINITY, f32::max) + bands[0];
+        (low as i32 - 1..=high as i32 + BLOCK as i32).step_by(BLOCK)
+    };
+    let origins = blocks(0).flat_map(|x| blocks(1).flat_map(move |y| blocks(2).map(move |z| [x, y, z])));
+    let is_near = |value: &&f32| **value > -bands[1] && **value < bands[0];
+    origins.map(|origin| volume.read_block(origin).iter().filter(is_near).count()).sum()
+}
+
 #[test]
 fn figures() {
     let Some(mesh) = goblin() else { return };
@@ -114,14 +127,14 @@ fn figures() {
     for bands in [[2.0, 2.0], [3.0, 3.0], [5.0, 3.0]] {
         for threads in [1, 2] {
             let start = Instant::now();
-            let volume = Volume::build(&points, &mesh.triangles, bands, threads, &AtomicBool::new(false)).expect("one");
+            let volume = Volume::build(&points, &mesh.triangles, bands, threads, &Cancel::new()).expect("one");
             let seconds = start.elapsed().as_secs_f64();
-            let (nodes, megabytes) = (volume.active_count(), volume.memory() as f64 / 1e6);
+            let (nodes, megabytes) = (nodes_within(&volume, &points, bands), volume.memory() as f64 / 1e6);
             println!("bands {bands:?}, {threads} threads: {seconds:.2} s, {nodes} nodes, {megabytes:.1} MB");
             assert!(nodes > 100_000);
         }
     }
-    let field = Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &AtomicBool::new(false)).expect("a field");
+    let field = Field::build(&mesh, FieldOptions { voxel, threads: 1 }, &Cancel::new()).expect("a field");
     let points = layer(&mesh, 0.03);
     let per = |name: &str, sample: &dyn Fn(DVec3) -> f64| {
         let start = Instant::now();
@@ -134,7 +147,6 @@ fn figures() {
     for _ in 0..2 {
         per("value", &|p| field.value(p));
         per("gradient", &|p| field.value_gradient(p).1.x);
-        per("Hessian", &|p| field.value_gradient_hessian(p).2.x_axis.x);
     }
     per("closest point", &|p| field.closest_point().distance(p));
 }

@@ -1,14 +1,11 @@
 //! The shim: what it refuses, what it reads, and that it can be stopped.
 
-use std::sync::atomic::AtomicBool;
-
+use bespoke::control::Cancel;
 use bespoke::error::ErrorKind;
 use bespoke::sdf::volume::{BLOCK, Volume};
 use glam::DVec3;
 
 use crate::shapes::{cuboid, cuboid_distance, sphere};
-
-static GO_ON: AtomicBool = AtomicBool::new(false);
 
 fn points(mesh: &bespoke::geometry::mesh::TriangleMesh) -> Vec<[f32; 3]> {
     mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect()
@@ -28,7 +25,7 @@ fn refuses_what_it_cannot_use() {
         ("band", &triangle, &[[0, 1, 2]], [3.0, f32::INFINITY]),
     ];
     for (what, points, triangles, bands) in cases {
-        let error = Volume::build(points, triangles, bands, 1, &GO_ON).expect_err(what);
+        let error = Volume::build(points, triangles, bands, 1, &Cancel::new()).expect_err(what);
         assert_eq!(error.kind, ErrorKind::InvalidMesh, "{error}");
         assert!(error.message.contains(what), "{error}");
     }
@@ -37,9 +34,11 @@ fn refuses_what_it_cannot_use() {
 #[test]
 fn stops_when_asked() {
     let mesh = sphere(DVec3::ZERO, 100.0, 40, 2.0);
+    let stop = Cancel::new();
+    stop.request();
     for threads in [1, 2] {
-        let error = Volume::build(&points(&mesh), &mesh.triangles, [3.0, 3.0], threads, &AtomicBool::new(true))
-            .expect_err("the flag is set");
+        let error =
+            Volume::build(&points(&mesh), &mesh.triangles, [3.0, 3.0], threads, &stop).expect_err("the flag is set");
         assert_eq!(error.kind, ErrorKind::Cancelled);
     }
 }
@@ -49,17 +48,17 @@ fn reads_distances_within_the_band_and_the_side_beyond() {
     let half = DVec3::new(20.3, 15.2, 12.7);
     let mesh = cuboid(half);
     let bands = [5.0, 3.0];
-    let volume = Volume::build(&points(&mesh), &mesh.triangles, bands, 0, &GO_ON).expect("a box");
+    let volume = Volume::build(&points(&mesh), &mesh.triangles, bands, 0, &Cancel::new()).expect("a box");
     let (mut near, mut far) = (0, 0);
     let blocks = || (-5..5).map(|b| b * BLOCK as i32);
     for origin in blocks().flat_map(|x| blocks().flat_map(move |y| blocks().map(move |z| [x, y, z]))) {
-        let (values, active) = volume.read_block(origin);
-        for (i, (value, active)) in values.iter().zip(active).enumerate() {
+        for (i, value) in volume.read_block(origin).iter().enumerate() {
             let node = [i / 64, i / 8 % 8, i % 8];
             let p = DVec3::from_array([0, 1, 2].map(|a| f64::from(origin[a]) + node[a] as f64));
             let exact = cuboid_distance(half, p);
             assert_eq!(*value < 0.0, exact < 0.0, "side of {p}");
-            if active {
+            // Beyond the band all that is stored is its width.
+            if *value > -bands[1] && *value < bands[0] {
                 near += 1;
                 // To some triangle, not always the closest: it passes candidates on from voxel to voxel.
                 let excess = f64::from(value.abs()) - exact.abs();
@@ -74,7 +73,6 @@ fn reads_distances_within_the_band_and_the_side_beyond() {
         }
     }
     assert!(near > 10_000 && far > 10_000);
-    assert_eq!(volume.active_count(), near);
     assert!(volume.memory() > 4 * near);
     // Any node of a block names it.
     assert_eq!(volume.read_block([-17, 3, 9]), volume.read_block([-24, 0, 8]));

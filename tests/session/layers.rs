@@ -1,9 +1,8 @@
 //! One garment over another.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
-use bespoke::control::Stage;
+use bespoke::control::{Cancel, Stage};
 use bespoke::error::ErrorKind;
 use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
@@ -260,9 +259,8 @@ fn a_layer_that_pokes_through_is_named() {
 #[test]
 fn the_field_of_a_layered_body_is_right_beside_the_openings() {
     let body = Arc::new(thick_arm());
-    let field = |mesh: &TriangleMesh| {
-        Field::build(mesh, FieldOptions { voxel: 0.01, threads: 1 }, &AtomicBool::new(false)).unwrap()
-    };
+    let field =
+        |mesh: &TriangleMesh| Field::build(mesh, FieldOptions { voxel: 0.01, threads: 1 }, &Cancel::new()).unwrap();
     let bare = field(&body);
     let mut random = Random::new(5);
     // A wide one, and a tight one, under which the space may be closed to the voxels.

@@ -7,6 +7,7 @@ use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
+use bespoke::memory::MemoryLimit;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Precision, Session};
 use bespoke::solver::newton::{Model, Newton, State};
@@ -136,10 +137,10 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
 fn no_iterate_of_the_inflation_intersects() {
     let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
     let problem = problem(&garment);
-    let mut objective = problem.inflation_objective(&options, &mut findings).unwrap();
+    let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut findings).unwrap();
     assert!(findings.is_empty() && objective.contact.floor() == options.separation_floor, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
-    let mut newton = Newton::new(state.x.len(), &objective.terms()).unwrap();
+    let mut newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut inflation = Inflation::default();
     let mut last = 0.0;
     for _ in 0..200 {

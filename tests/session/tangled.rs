@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use bespoke::contact::Configuration;
-use bespoke::control::Stage;
+use bespoke::control::{Cancel, Stage};
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
@@ -116,7 +116,7 @@ fn what_has_come_apart_stays_apart() {
 
     let problem = problem(&garment);
     let options = Options::default();
-    let mut objective = problem.inflation_objective(&options, &mut Vec::new()).unwrap();
+    let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new()).unwrap();
     assert_eq!(
         objective.contact.tangle().triangle_pairs().len(),
         count as usize,
@@ -129,12 +129,19 @@ fn what_has_come_apart_stays_apart() {
     };
     // While it is through, the tip may go to and fro.
     let mut x = problem.rest.clone();
-    assert_eq!(objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.001), 0.0, 1.0), 1.0);
-    assert_eq!(objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, -0.003), 0.0, 1.0), 1.0);
+    assert_eq!(
+        objective.max_feasible_step(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.001), 0.0, 1.0),
+        Ok(Some(1.0))
+    );
+    assert_eq!(
+        objective.max_feasible_step(Configuration { x: &x, t: 0.0 }, &inward(&x, -0.003), 0.0, 1.0),
+        Ok(Some(1.0))
+    );
     x[tip] += 0.003 * out;
     assert!(objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
     assert!(objective.contact.tangle().is_empty());
-    let kept = objective.admit(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.003), 0.0, 1.0);
+    let kept =
+        objective.max_feasible_step(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.003), 0.0, 1.0).unwrap().unwrap();
     assert!(kept > 0.1 && kept < 1.0 / 3.0, "the tip stops before the wall, a thousandth away: {kept}");
     assert!(!objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "nothing is new");
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use bespoke::energy::{Configuration, Direction, Energy, Row, Sink};
+use bespoke::memory::MemoryLimit;
 use bespoke::solver::Term;
 use bespoke::solver::assembly::System;
 use bespoke::solver::cholesky::Factor;
@@ -137,7 +138,7 @@ fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
     let run = |threads| {
         let mut system = System::default();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let missing = pool.install(|| system.assemble(&pattern, &terms, at));
+        let missing = pool.install(|| system.assemble(&pattern, &terms, at)).unwrap();
         assert!(missing.is_empty());
         system
     };
@@ -175,10 +176,10 @@ fn a_pair_outside_of_the_pattern_is_reported_and_the_pattern_grows() {
     let x = vec![DVec3::ZERO; 20];
     let at = Configuration { x: &x, t: 0.0 };
     let terms = [Term { energy: &known, weight: 1.0 }, Term { energy: &news, weight: 1.0 }];
-    let missing = System::default().assemble(&pattern, &terms, at);
+    let missing = System::default().assemble(&pattern, &terms, at).unwrap();
     assert!(!missing.is_empty());
     let grown = pattern.extended(missing);
-    assert!(System::default().assemble(&grown, &terms, at).is_empty());
+    assert!(System::default().assemble(&grown, &terms, at).unwrap().is_empty());
     assert!(grown.value_count() > pattern.value_count());
 }
 
@@ -190,7 +191,7 @@ fn the_factor_solves_the_system() {
     let pattern = pattern_of(n, &pieces);
     let x = vec![DVec3::ZERO; n];
     let mut system = System::default();
-    system.assemble(&pattern, &[Term { energy: &pieces, weight: 1.0 }], Configuration { x: &x, t: 0.0 });
+    system.assemble(&pattern, &[Term { energy: &pieces, weight: 1.0 }], Configuration { x: &x, t: 0.0 }).unwrap();
     for j in 0..n as u32 {
         for d in pattern.diagonal(j) {
             system.hessian[d] += 0.1;
@@ -212,8 +213,9 @@ fn the_factor_solves_the_system() {
     let want: Vec<f64> = (0..6 * n).map(|_| random.signed()).collect();
     let mut rhs = multiply(&want[..3 * n]);
     rhs.extend(multiply(&want[3 * n..]));
-    let mut factor = Factor::analyse(&pattern).unwrap();
-    assert!(factor.factorise(&pattern, &system.hessian));
+    let mut factor = Factor::default();
+    factor.analyse(MemoryLimit::NONE, &pattern).unwrap();
+    assert!(factor.factorise(&pattern, &system.hessian).unwrap());
     factor.solve(&mut rhs, 2);
     for (a, b) in rhs.iter().zip(&want) {
         assert!((a - b).abs() < 1e-8, "{a} {b}");
@@ -221,5 +223,5 @@ fn the_factor_solves_the_system() {
     for j in 0..n as u32 {
         system.hessian[pattern.diagonal(j)[0]] = -1.0;
     }
-    assert!(!factor.factorise(&pattern, &system.hessian));
+    assert!(!factor.factorise(&pattern, &system.hessian).unwrap());
 }

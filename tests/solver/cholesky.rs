@@ -2,7 +2,7 @@
 // Loops over indices, as the formulas have them.
 #![allow(clippy::needless_range_loop)]
 
-use bespoke::control::Cancel;
+use bespoke::control::{Cancel, Cancelled};
 use bespoke::error::ErrorKind;
 use bespoke::memory::MemoryLimit;
 use bespoke::solver::cholesky::Factor;
@@ -89,11 +89,17 @@ fn close(found: &[f64], wanted: &[f64], tolerance: f64) {
     }
 }
 
+fn analysed(pattern: &Pattern) -> Factor {
+    let mut factor = Factor::default();
+    factor.analyse(MemoryLimit::NONE, pattern).unwrap();
+    factor
+}
+
 fn agrees_with_dense(pattern: &Pattern, random: &mut Random) {
     let n = 3 * pattern.vertex_count();
     let matrix = values(pattern, 0.1, random);
-    let mut factor = Factor::analyse(pattern).unwrap();
-    assert!(factor.factorise(pattern, &matrix));
+    let mut factor = analysed(pattern);
+    assert!(factor.factorise(pattern, &matrix).unwrap());
     for columns in 1..=3 {
         let mut found: Vec<f64> = (0..columns * n).map(|_| random.signed()).collect();
         let mut wanted = found.clone();
@@ -160,8 +166,8 @@ fn agrees_with_another_library(pattern: &Pattern, random: &mut Random) {
     let matrix = values(pattern, 1e-3, random);
     let mut found: Vec<f64> = (0..2 * n).map(|_| random.signed()).collect();
     let mut wanted = found.clone();
-    let mut factor = Factor::analyse(pattern).unwrap();
-    assert!(factor.factorise(pattern, &matrix));
+    let mut factor = analysed(pattern);
+    assert!(factor.factorise(pattern, &matrix).unwrap());
     factor.solve(&mut found, 2);
     let symbolic = SymbolicSparseColMatRef::new_checked(n, n, pattern.col_ptr(), None, pattern.row_idx());
     let other = SparseColMatRef::new(symbolic, &matrix).sp_cholesky(Side::Lower).unwrap();
@@ -202,11 +208,11 @@ fn any_number_of_threads_gives_the_same_bits() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut factor = Factor::analyse(&pattern).unwrap();
+            let mut factor = analysed(&pattern);
             let mut out = Vec::new();
             // The second time in work space that has been used.
             for _ in 0..2 {
-                assert!(factor.factorise(&pattern, &matrix));
+                assert!(factor.factorise(&pattern, &matrix).unwrap());
                 let mut x = rhs.clone();
                 factor.solve(&mut x, 2);
                 out.extend(x.into_iter().map(f64::to_bits));
@@ -228,20 +234,20 @@ fn a_matrix_that_is_not_positive_definite_is_refused_and_the_next_one_is_not() {
     let pattern = sheet(30, 20, 10, &mut random);
     let n = 3 * pattern.vertex_count();
     let good = values(&pattern, 0.1, &mut random);
-    let mut factor = Factor::analyse(&pattern).unwrap();
+    let mut factor = analysed(&pattern);
     for bad in [-1.0, 0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for j in [0, n / 2, n - 1] {
             let mut matrix = good.clone();
             matrix[pattern.col_ptr()[j] as usize] = bad;
-            assert!(!factor.factorise(&pattern, &matrix), "{bad} in column {j}");
+            assert!(!factor.factorise(&pattern, &matrix).unwrap(), "{bad} in column {j}");
         }
     }
-    assert!(factor.factorise(&pattern, &good));
+    assert!(factor.factorise(&pattern, &good).unwrap());
     let mut found: Vec<f64> = (0..n).map(|_| random.signed()).collect();
     let mut wanted = found.clone();
     factor.solve(&mut found, 1);
-    let mut fresh = Factor::analyse(&pattern).unwrap();
-    assert!(fresh.factorise(&pattern, &good));
+    let mut fresh = analysed(&pattern);
+    assert!(fresh.factorise(&pattern, &good).unwrap());
     fresh.solve(&mut wanted, 1);
     assert_eq!(found, wanted);
 }
@@ -249,9 +255,9 @@ fn a_matrix_that_is_not_positive_definite_is_refused_and_the_next_one_is_not() {
 #[test]
 fn a_limit_is_kept_to_the_byte() {
     let pattern = sheet(30, 20, 10, &mut Random::new(16));
-    let held = Factor::analyse(&pattern).unwrap().memory();
-    assert!(Factor::analyse_within(MemoryLimit::new(held), &pattern).is_ok());
-    let error = Factor::analyse_within(MemoryLimit::new(held - 1), &pattern).err().unwrap();
+    let held = analysed(&pattern).memory();
+    assert!(Factor::default().analyse(MemoryLimit::new(held), &pattern).is_ok());
+    let error = Factor::default().analyse(MemoryLimit::new(held - 1), &pattern).unwrap_err();
     assert_eq!(error.kind, ErrorKind::MemoryLimit);
 }
 
@@ -259,14 +265,14 @@ fn a_limit_is_kept_to_the_byte() {
 fn another_pattern_is_analysed_in_the_memory_of_the_one_before() {
     let mut random = Random::new(17);
     let mut factor = Factor::default();
-    assert!(!factor.factorise(&pattern(0, []), &[]));
+    assert!(!factor.factorise(&pattern(0, []), &[]).unwrap());
     for (width, chords) in [(12, 0), (20, 30), (9, 2)] {
         let pattern = sheet(width, 15, chords, &mut random);
         let matrix = values(&pattern, 0.1, &mut random);
-        factor.analyse_again(MemoryLimit::NONE, &pattern).unwrap();
-        let fresh = Factor::analyse(&pattern).unwrap();
+        factor.analyse(MemoryLimit::NONE, &pattern).unwrap();
+        let fresh = analysed(&pattern);
         assert!(factor.memory() >= fresh.memory() && factor.value_count() == fresh.value_count());
-        assert!(factor.factorise(&pattern, &matrix));
+        assert!(factor.factorise(&pattern, &matrix).unwrap());
         let mut found: Vec<f64> = (0..3 * pattern.vertex_count()).map(|_| random.signed()).collect();
         let mut wanted = found.clone();
         factor.solve(&mut found, 1);
@@ -275,8 +281,8 @@ fn another_pattern_is_analysed_in_the_memory_of_the_one_before() {
     }
     let larger = sheet(40, 40, 0, &mut random);
     let limit = MemoryLimit::new(factor.memory());
-    assert_eq!(factor.analyse_again(limit, &larger).unwrap_err().kind, ErrorKind::MemoryLimit);
-    assert!(!factor.factorise(&larger, &values(&larger, 0.1, &mut random)));
+    assert_eq!(factor.analyse(limit, &larger).unwrap_err().kind, ErrorKind::MemoryLimit);
+    assert!(!factor.factorise(&larger, &values(&larger, 0.1, &mut random)).unwrap());
 }
 
 #[test]
@@ -285,9 +291,10 @@ fn a_request_to_stop_ends_it() {
     let pattern = sheet(20, 20, 0, &mut random);
     let matrix = values(&pattern, 0.1, &mut random);
     let cancel = Cancel::new();
-    let mut factor = Factor::analyse(&pattern).unwrap();
-    factor.watch(cancel.clone());
-    assert!(factor.factorise(&pattern, &matrix));
+    let mut factor = Factor::new(cancel.clone());
+    factor.analyse(MemoryLimit::NONE, &pattern).unwrap();
+    assert!(factor.factorise(&pattern, &matrix).unwrap());
     cancel.request();
-    assert!(!factor.factorise(&pattern, &matrix));
+    assert_eq!(factor.factorise(&pattern, &matrix), Err(Cancelled));
+    assert_eq!(factor.analyse(MemoryLimit::NONE, &pattern).unwrap_err().kind, ErrorKind::Cancelled);
 }

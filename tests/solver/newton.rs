@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
+use bespoke::control::{Cancel, Cancelled};
 use bespoke::energy::{Configuration, Direction, Energy, Sink};
+use bespoke::memory::MemoryLimit;
 use bespoke::solver::Term;
 use bespoke::solver::newton::{Model, Newton, State};
 use glam::DVec3;
@@ -63,8 +65,14 @@ impl Model for Free {
         vec![Term { energy: &self.0, weight: 2.0 }]
     }
 
-    fn admit(&mut self, _: Configuration<'_>, _: &[DVec3], _: f64, longest: f64) -> f64 {
-        longest.min(self.1)
+    fn max_feasible_step(
+        &mut self,
+        _: Configuration<'_>,
+        _: &[DVec3],
+        _: f64,
+        longest: f64,
+    ) -> Result<Option<f64>, Cancelled> {
+        Ok(Some(longest.min(self.1)))
     }
 }
 
@@ -77,7 +85,7 @@ fn start() -> State {
 fn descent_reaches_a_minimum_and_never_rises() {
     let mut model = Free(Springs { count: 5 }, 1.0);
     let mut state = start();
-    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut last = f64::INFINITY;
     for _ in 0..200 {
         let Some(step) = newton.descend(&mut model, &mut state, false).unwrap() else { break };
@@ -93,7 +101,7 @@ fn descent_reaches_a_minimum_and_never_rises() {
 fn a_step_never_goes_beyond_what_the_model_admits() {
     let mut model = Free(Springs { count: 5 }, 0.25);
     let mut state = start();
-    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     for _ in 0..5 {
         let before = state.x.clone();
         newton.descend(&mut model, &mut state, false).unwrap().unwrap();
@@ -106,7 +114,7 @@ fn a_step_never_goes_beyond_what_the_model_admits() {
 fn cramped_steps_are_damped_until_steps_are_free_again() {
     let mut model = Free(Springs { count: 5 }, 0.01);
     let mut state = start();
-    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut damped = |admitted: f64, steps: usize| -> Vec<bool> {
         model.1 = admitted;
         (0..steps).map(|_| newton.descend(&mut model, &mut state, false).unwrap().unwrap().damped).collect()
@@ -121,7 +129,7 @@ fn cramped_steps_are_damped_until_steps_are_free_again() {
 fn the_border_agrees_with_a_dense_solve() {
     let model = Free(Springs { count: 5 }, 1.0);
     let state = start();
-    let mut newton = Newton::new(5, &model.terms()).unwrap();
+    let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     newton.linearise(&model.terms(), state.configuration(), true).unwrap();
     let dt = newton.newton_dt();
     // Finite differences along t of the energy minimised over x by the quadratic model: the slope must vanish at dt.

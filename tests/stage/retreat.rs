@@ -112,7 +112,7 @@ impl Case {
         let crossings =
             edge_crossings(&problem.rest, &problem.triangles, &problem.projected.start, &problem.projected.triangles);
         assert_eq!(crossings, 0);
-        let objective = problem.inflation_objective(&Options::default(), &mut Vec::new()).unwrap();
+        let objective = problem.inflation_objective(&Options::default(), &Cancel::new(), &mut Vec::new()).unwrap();
         assert_eq!(objective.contact.floor(), Options::default().separation_floor);
         // The pieces still tile the avatar at the end, and know what they are pieces of.
         let area = |p: &[DVec3], t: &[u32; 3]| {

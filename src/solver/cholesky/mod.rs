@@ -17,7 +17,7 @@ mod symbolic;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use super::pattern::Pattern;
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::{MemoryLimit, Part, bytes};
 use buffer::Buffer;
@@ -43,30 +43,18 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Orders and analyses `pattern`.
-    ///
-    /// # Errors
-    /// `Internal` where memory runs out.
-    pub fn analyse(pattern: &Pattern) -> Result<Self> {
-        Self::analyse_within(MemoryLimit::NONE, pattern)
+    /// A factor without a pattern, whose work ends once somebody asks to stop.
+    pub fn new(cancel: Cancel) -> Self {
+        Self { cancel, ..Self::default() }
     }
 
-    /// [`Self::analyse`], as long as the factor has room.
+    /// Orders and analyses `pattern`, in the memory of the one before, which `limit` does not count. The factor of the
+    /// last matrix is gone.
     ///
     /// # Errors
-    /// As [`Self::analyse`], and `MemoryLimit`.
-    pub fn analyse_within(limit: MemoryLimit, pattern: &Pattern) -> Result<Self> {
-        let mut factor = Self::default();
-        factor.analyse_again(limit, pattern)?;
-        Ok(factor)
-    }
-
-    /// Orders and analyses another pattern, in the memory of the one before, which `limit` does not count. The factor
-    /// of the last matrix is gone.
-    ///
-    /// # Errors
-    /// As [`Self::analyse_within`]; then there is nothing to factorise with.
-    pub fn analyse_again(&mut self, limit: MemoryLimit, pattern: &Pattern) -> Result<()> {
+    /// `Internal` where memory runs out, `MemoryLimit`, `Cancelled` (looked at in the end); then there is nothing to
+    /// factorise with.
+    pub fn analyse(&mut self, limit: MemoryLimit, pattern: &Pattern) -> Result<()> {
         self.plan = Plan::default();
         let failed = |what: &str| Error::new(ErrorKind::Internal, format!("the symbolic factorisation {what}"));
         let order = minimum_degree(pattern).map_err(|_| failed("ran out of memory or indices"))?;
@@ -83,18 +71,17 @@ impl Factor {
             return Err(Error::new(ErrorKind::Internal, "there is no memory for the factorisation's work space"));
         }
         self.x = (0..unknowns).map(|_| AtomicU64::new(0)).collect();
+        self.cancel.check()?;
         self.plan = plan;
         Ok(())
     }
 
-    /// From now on a factorisation ends between two fronts once `cancel` is set.
-    pub fn watch(&mut self, cancel: Cancel) {
-        self.cancel = cancel;
-    }
-
     /// Factorises the matrix with the given values (lower triangle, in the order of `pattern`, which is the one that
-    /// was analysed). Returns false where it is not numerically positive definite, and where it was cancelled.
-    pub fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> bool {
+    /// was analysed). Returns whether it is numerically positive definite; only then there is a factor.
+    ///
+    /// # Errors
+    /// [`Cancelled`]; the token is looked at between two fronts.
+    pub fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> Result<bool, Cancelled> {
         let Self { plan, cancel, .. } = self;
         Factorisation { plan, pattern, matrix: values, cancel, failed: AtomicBool::new(false) }
             .run(&mut self.values, &mut self.work)

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::kernel::{GROUP, Panel, STEP, negative_product, padded, update_diagonal, update_len, update_start};
 use super::symbolic::{Node, Plan, Task};
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::solver::pattern::Pattern;
 
 /// Fewest products that are worth asking whether another thread has time.
@@ -50,11 +50,12 @@ impl<'a> Left<'a> {
 }
 
 impl Factorisation<'_> {
-    /// Does the last task and all before it. False where the matrix is not positive definite, or on request.
-    pub(super) fn run(self, values: &mut [f64], work: &mut [f64]) -> bool {
-        let Some(last) = self.plan.tasks.len().checked_sub(1) else { return false };
+    /// Does the last task and all before it. False where the matrix is not positive definite.
+    pub(super) fn run(self, values: &mut [f64], work: &mut [f64]) -> Result<bool, Cancelled> {
+        let Some(last) = self.plan.tasks.len().checked_sub(1) else { return Ok(false) };
         self.task(last, values, work);
-        !self.is_over()
+        self.cancel.check()?;
+        Ok(!self.failed.into_inner())
     }
 
     fn is_over(&self) -> bool {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::energy::attachment::Hold;
 use crate::geometry::closest_point::ClosestPoint;
-use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces};
+use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces, triangle_area};
 use crate::input::diagnostic::{self, Finding, FindingKind, Severity, Subject};
 
 /// A loose piece has at most this fraction of its host's area.
@@ -160,8 +160,7 @@ fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
 }
 
 fn area(rest: &[DVec3], t: &[u32; 3]) -> f64 {
-    let [a, b, c] = t.map(|v| rest[v as usize]);
-    0.5 * (b - a).cross(c - a).length()
+    triangle_area(t.map(|v| rest[v as usize]))
 }
 
 /// The rest area around each vertex.

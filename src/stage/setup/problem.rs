@@ -24,7 +24,7 @@ use crate::memory::bytes;
 use crate::options::Options;
 use crate::stage::start::projection::{ProjectedAvatar, project};
 use crate::stage::start::{enclosure, repair};
-use crate::verify::intersections_unless;
+use crate::verify::intersections_with_cancel;
 
 /// The largest offset that can be meant, in the normalised space. A larger one is one in another unit.
 const MOST_OFFSET: f64 = 1.0;
@@ -107,7 +107,7 @@ impl Problem {
         if gaps != Gaps::of(options) {
             findings.push(coarse_coordinates(&gaps));
         }
-        let tangled = intersections_unless(cancel, garment, None, usize::MAX)?.pairs;
+        let tangled = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
         let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, findings)?;

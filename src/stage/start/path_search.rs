@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::bent_skeleton::{Knot, Wire};
 use super::offset_grid::{Cells, ball, disc};
 use super::section::Section;
-use crate::control::Cancel;
+use crate::control::{Cancel, Cancelled};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
@@ -38,8 +38,6 @@ pub struct Scene<'a> {
     pub source: &'a Skeleton,
     /// For each bone, the least and the largest parameter of anything on it, 0 and 1 included.
     pub extents: Vec<[f64; 2]>,
-    /// Stops the search.
-    pub cancel: &'a Cancel,
     /// Bones that the wire should lead through places that the garment is around, where there are any.
     pub sought: Vec<bool>,
 }
@@ -106,9 +104,11 @@ struct Chain {
 }
 
 impl Scene<'_> {
-    /// The wire of least cost from `root`, without the bones that are `cut`. None where there is no place for the root, or
-    /// somebody has asked to stop.
-    pub fn route(&self, root: u32, cut: &[bool], search: &Search) -> Option<Route> {
+    /// The wire of least cost from `root`, without the bones that are `cut`. None where there is no place for the root.
+    ///
+    /// # Errors
+    /// [`Cancelled`]; `cancel` is looked at before each bone and in the end.
+    pub fn route(&self, root: u32, cut: &[bool], search: &Search, cancel: &Cancel) -> Result<Option<Route>, Cancelled> {
         let mut chains = self.chains(root, cut, search);
         let places: usize = chains.iter().flatten().map(|c| c.parameters.len()).sum();
         let count = BUDGET / places.max(1);
@@ -124,9 +124,7 @@ impl Scene<'_> {
             joints[j] = self.layer(base, joint_offsets.clone(), STRIDE * search.spacing, search);
             let mut value = joints[j].cost.clone();
             for chain in &mut chains[j] {
-                if self.cancel.is_requested() {
-                    return None;
-                }
+                cancel.check()?;
                 self.fill(chain, count, search);
                 let value_of_chain = self.solve(chain, &joints, &values, &behind, j, search);
                 value.iter_mut().zip(value_of_chain).for_each(|(v, c)| *v += c);
@@ -148,8 +146,9 @@ impl Scene<'_> {
                 best = Some((value, k));
             }
         }
-        let (_, first) = best?;
-        Some(self.trace(root, first, &chains, &joints, cut, search))
+        let route = best.map(|(_, first)| self.trace(root, first, &chains, &joints, cut, search));
+        cancel.check()?;
+        Ok(route)
     }
 
     /// The chains that begin at each joint.

@@ -16,7 +16,7 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
 use crate::input::skeleton::{Location, Skeleton};
-use crate::verify::intersections_unless;
+use crate::verify::intersections_with_cancel;
 
 /// What is tried, one after the other, until nothing between joints has to be pulled back: finely and near, then far, and
 /// last with hardly any clearance.
@@ -77,7 +77,7 @@ pub fn resolve(
 
 fn find(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Poke>> {
     let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
-    let found = intersections_unless(cancel, garment, Some(&shrunk), usize::MAX)?;
+    let found = intersections_with_cancel(garment, Some(&shrunk), usize::MAX, cancel)?;
     let poke = |&[garment, piece]: &[u32; 2]| Poke {
         garment,
         bone: projected.bones[piece as usize],
@@ -102,15 +102,12 @@ fn search(
         tree: ClosestPoint::new(garment),
         source,
         extents: extents(projected, source),
-        cancel,
         sought: beside_pokes(pokes, source),
     };
     let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
     let mut best: Option<(f64, Route, ProjectedAvatar)> = None;
     for search in &ROUNDS {
-        let route = scene.route(root, &cut, search);
-        cancel.check()?;
-        let Some(route) = route else { continue };
+        let Some(route) = scene.route(root, &cut, search, cancel)? else { continue };
         let pulled: f64 = route.pulled.iter().map(|p| p[0]).sum();
         let better = best.as_ref().is_none_or(|(least, ..)| pulled < *least);
         if !better || pulled > MOST_PULLED * whole || route.wire.skeleton.joints.len() > MOST_JOINTS {

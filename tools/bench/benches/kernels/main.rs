@@ -8,6 +8,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Duration;
 
+use bespoke::control::Cancel;
 use bespoke::sdf::{Field, FieldOptions};
 use bespoke::solver::Term;
 use bespoke::solver::assembly::{System, values};
@@ -57,7 +58,7 @@ fn assembly(criterion: &mut Criterion, moment: &Moment) {
         criterion.bench_function(&format!("derivatives/{name}"), |bencher| {
             clocked(bencher, || {
                 let term = one(&terms, name);
-                system.assemble(&pattern, black_box(&term), at);
+                system.assemble(&pattern, black_box(&term), at).expect("nobody cancels");
                 let mut profile = Profile::default();
                 system.note_times(&term, &mut profile);
                 total(&profile, |time| time.derivatives)
@@ -95,15 +96,15 @@ fn linear_algebra(criterion: &mut Criterion, moment: &mut Moment) -> Result<(), 
 /// What a step goes through before it is taken.
 fn contact(criterion: &mut Criterion, moment: &mut Moment) {
     let Moment { objective, state, direction, .. } = moment;
-    let mut admit = |bencher: &mut Bencher<'_>, part: fn(&Profile) -> Duration| {
+    let mut bound = |bencher: &mut Bencher<'_>, part: fn(&Profile) -> Duration| {
         clocked(bencher, || {
             objective.contact.take_profile();
-            black_box(objective.admit(state.configuration(), direction, 0.0, 1.0));
+            black_box(objective.max_feasible_step(state.configuration(), direction, 0.0, 1.0)).ok();
             part(&objective.contact.take_profile())
         });
     };
-    criterion.bench_function("broad phase", |bencher| admit(bencher, |profile| profile.broad_phase));
-    criterion.bench_function("CCD", |bencher| admit(bencher, |profile| profile.ccd));
+    criterion.bench_function("broad phase", |bencher| bound(bencher, |profile| profile.broad_phase));
+    criterion.bench_function("CCD", |bencher| bound(bencher, |profile| profile.ccd));
 }
 
 /// What is done once: the distance field, and the judgement.
@@ -113,7 +114,7 @@ fn whole_meshes(criterion: &mut Criterion, moment: &Moment) {
         bencher.iter(|| [intersections(garment, None, 0), intersections(garment, Some(avatar), 0)]);
     });
     criterion.bench_function("distance field", |bencher| {
-        bencher.iter(|| Field::build(avatar, FieldOptions::default(), &false.into()));
+        bencher.iter(|| Field::build(avatar, FieldOptions::default(), &Cancel::new()));
     });
 }
 
@@ -124,7 +125,7 @@ fn pattern(moment: &Moment, terms: &[Term<'_>]) -> Pattern {
         term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
     }
     let pattern = Pattern::new(moment.state.x.len(), pairs);
-    let missing = System::default().assemble(&pattern, terms, moment.state.configuration());
+    let missing = System::default().assemble(&pattern, terms, moment.state.configuration()).expect("nobody cancels");
     pattern.extended(missing)
 }
 

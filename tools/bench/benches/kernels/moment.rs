@@ -2,12 +2,12 @@
 
 use std::error::Error;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use bespoke::control::Cancel;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
+use bespoke::memory::MemoryLimit;
 use bespoke::options::Options;
 use bespoke::sdf::{Field, FieldOptions};
 use bespoke::solver::newton::{Model, Newton, State};
@@ -58,21 +58,20 @@ impl Moment {
             coordinate_error: 0.0,
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;
-        let mut objective = problem.inflation_objective(&options, &mut Vec::new())?;
+        let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new())?;
         let mut state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut newton = Newton::new(state.x.len(), &objective.terms())?;
+        let mut newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new())?;
         let mut inflation = Inflation::default();
         while !inflation.iterate(&mut objective, &mut newton, &mut state)? {
             if inflation.iterations >= options.max_iterations {
                 return Err("the inflation does not end".into());
             }
         }
-        let field =
-            Field::build(&problem.avatar, FieldOptions { voxel: options.voxel, threads: 1 }, &AtomicBool::new(false))?;
-        let mut next = problem.fit_objective(Arc::new(field), &state.x, &options)?;
+        let field = Field::build(&problem.avatar, FieldOptions { voxel: options.voxel, threads: 1 }, &Cancel::new())?;
+        let mut next = problem.fit_objective(Arc::new(field), &state.x, &options, &Cancel::new())?;
         next.contact.take_over(&objective.contact);
         objective = next;
-        newton = Newton::new(state.x.len(), &objective.terms())?;
+        newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new())?;
         let mut settling = Settling::begin(&mut objective, &state, &options);
         for _ in 0..ITERATIONS {
             settling.iterate(&mut objective, &mut newton, &mut state, &options)?;
