@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::Term;
-use super::element_buffer::{ELEMENT_BYTES, Incidence, Owner, Scratch, Tape};
+use super::element_buffer::{ColumnBlock, ELEMENT_BYTES, ElementBuffer, Scratch, VertexElements};
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
 use crate::control::{Cancel, Cancelled};
@@ -20,7 +20,7 @@ const CHUNK: usize = 32;
 /// Chunks that are evaluated before they are summed: their derivatives are in memory at the same time.
 const BATCH: usize = 64;
 /// Owners of vertices.
-const OWNERS: usize = 64;
+const COLUMN_BLOCKS: usize = 64;
 
 /// The linear system of one Newton iteration: `[H b; b^T c] [dx; dt] = -[g; g_t]`.
 #[derive(Clone, Debug, Default)]
@@ -35,8 +35,8 @@ pub struct System {
     pub t_gradient: f64,
     /// c.
     pub t_hessian: f64,
-    tapes: Vec<Tape>,
-    incidence: Incidence,
+    buffers: Vec<ElementBuffer>,
+    vertex_elements: VertexElements,
     /// Time in each term, over all threads.
     times: Vec<Duration>,
     cancel: Cancel,
@@ -85,8 +85,8 @@ impl System {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        let tapes: u64 = self.tapes.iter().map(Tape::memory).sum();
-        tapes + self.incidence.memory() + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
+        let buffers: u64 = self.buffers.iter().map(ElementBuffer::memory).sum();
+        buffers + self.vertex_elements.memory() + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
     }
 
     /// About how many bytes it will hold for `pattern`.
@@ -116,18 +116,18 @@ impl System {
         last: usize,
         at: Configuration<'_>,
     ) -> Result<Duration, Cancelled> {
-        self.tapes.resize_with((last - first).div_ceil(CHUNK), Tape::default);
+        self.buffers.resize_with((last - first).div_ceil(CHUNK), ElementBuffer::default);
         let cancel = &self.cancel;
-        let work = |(k, tape): (usize, &mut Tape)| {
+        let work = |(k, buffer): (usize, &mut ElementBuffer)| {
             let clock = Instant::now();
-            tape.clear(term.weight);
+            buffer.clear(term.weight);
             let start = first + k * CHUNK;
             if !cancel.is_requested() {
-                term.energy.derivatives(at, start..last.min(start + CHUNK), tape);
+                term.energy.derivatives(at, start..last.min(start + CHUNK), buffer);
             }
             clock.elapsed()
         };
-        let time = self.tapes.par_iter_mut().enumerate().map(work).sum();
+        let time = self.buffers.par_iter_mut().enumerate().map(work).sum();
         // Chunks may have been left out.
         self.cancel.check()?;
         Ok(time)
@@ -137,46 +137,46 @@ impl System {
     /// all threads.
     fn sum(&mut self, pattern: &Pattern, missing: &mut PairCollector) -> Duration {
         let clock = Instant::now();
-        for tape in &self.tapes {
-            self.t_gradient += tape.t_gradient;
-            self.t_hessian += tape.t_hessian;
+        for buffer in &self.buffers {
+            self.t_gradient += buffer.t_gradient;
+            self.t_hessian += buffer.t_hessian;
         }
         let n = pattern.vertex_count();
-        self.incidence.find(n, &self.tapes);
+        self.vertex_elements.find(n, &self.buffers);
         let alone = clock.elapsed();
-        let (tapes, incidence) = (&self.tapes, &self.incidence);
-        let mut owners = owners(pattern, incidence, &mut self.hessian, &mut self.gradient, &mut self.border);
-        let work = |scratch: &mut Scratch, owner: &mut Owner<'_>| {
+        let (buffers, vertex_elements) = (&self.buffers, &self.vertex_elements);
+        let mut blocks = blocks(pattern, vertex_elements, &mut self.hessian, &mut self.gradient, &mut self.border);
+        let work = |scratch: &mut Scratch, block: &mut ColumnBlock<'_>| {
             let clock = Instant::now();
-            owner.add(pattern, tapes, incidence, scratch);
+            block.add(pattern, buffers, vertex_elements, scratch);
             clock.elapsed()
         };
-        let together: Duration = owners.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
-        owners.iter_mut().for_each(|owner| missing.append(&mut owner.missing));
+        let together: Duration = blocks.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
+        blocks.iter_mut().for_each(|block| missing.append(&mut block.missing));
         alone + together
     }
 }
 
-/// Deals all vertices to owners with about the same number of records each.
-fn owners<'a>(
+/// Deals all vertices to blocks with about the same number of elements each.
+fn blocks<'a>(
     pattern: &Pattern,
-    incidence: &Incidence,
+    vertex_elements: &VertexElements,
     mut hessian: &'a mut [f64],
     mut gradient: &'a mut [f64],
     mut border: &'a mut [f64],
-) -> Vec<Owner<'a>> {
+) -> Vec<ColumnBlock<'a>> {
     let n = pattern.vertex_count();
-    let share = (incidence.before(n) as usize).div_ceil(OWNERS).max(1);
-    let mut owners = Vec::with_capacity(OWNERS + 1);
+    let share = (vertex_elements.entries_below(n) as usize).div_ceil(COLUMN_BLOCKS).max(1);
+    let mut blocks = Vec::with_capacity(COLUMN_BLOCKS + 1);
     let mut first = 0;
     while first < n {
-        let wanted = incidence.before(first) as usize + share;
+        let wanted = vertex_elements.entries_below(first) as usize + share;
         let mut next = first + 1;
-        while next < n && (incidence.before(next) as usize) < wanted {
+        while next < n && (vertex_elements.entries_below(next) as usize) < wanted {
             next += 1;
         }
         let values = pattern.col_ptr()[3 * next] - pattern.col_ptr()[3 * first];
-        owners.push(Owner {
+        blocks.push(ColumnBlock {
             first,
             hessian: hessian.split_off_mut(..values as usize).unwrap_or_default(),
             gradient: gradient.split_off_mut(..3 * (next - first)).unwrap_or_default(),
@@ -185,7 +185,7 @@ fn owners<'a>(
         });
         first = next;
     }
-    owners
+    blocks
 }
 
 /// The value of each term, unweighted, in the order of `terms`. Their times are added to `profile`.

@@ -16,12 +16,12 @@ use crate::simd::four::{Four, Kernel, dispatch};
 /// Vertices of an element, at most.
 const CORNERS: usize = 4;
 
-/// Rows of one record; more make several.
+/// Rows of one element; more make several.
 const ROWS: usize = 6;
 
 /// What an element adds: rank-one pieces over the same vertices.
 #[derive(Clone, Copy, Debug)]
-struct Record {
+struct ElementDerivatives {
     vertices: [u32; CORNERS],
     /// Its first row.
     first: u32,
@@ -31,20 +31,20 @@ struct Record {
     curved: bool,
 }
 
-impl Record {
+impl ElementDerivatives {
     #[inline]
     fn corners(&self) -> &[u32] {
         &self.vertices[..self.corners as usize]
     }
 }
 
-/// A rank-one piece, with the term's weight: for each vertex the component of its direction, and in the fourth places
+/// A rank-one update, with the term's weight: for each vertex the component of its direction, and in the fourth places
 /// what else belongs to it. Two lines of the cache.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-struct Piece([[f64; 4]; CORNERS]);
+struct RankOneUpdate([[f64; 4]; CORNERS]);
 
-impl Piece {
+impl RankOneUpdate {
     #[inline(always)]
     fn new(row: &Row, weight: f64) -> Self {
         let [a, b, c, d] = row.components;
@@ -71,36 +71,36 @@ impl Piece {
     }
 }
 
-/// Bytes that a tape takes for an element, at most.
-pub(super) const ELEMENT_BYTES: usize = size_of::<Record>() + ROWS * size_of::<Piece>();
+/// Bytes that a buffer takes for an element, at most.
+pub(super) const ELEMENT_BYTES: usize = size_of::<ElementDerivatives>() + ROWS * size_of::<RankOneUpdate>();
 
 /// The derivatives of some elements of one term.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tape {
+pub(super) struct ElementBuffer {
     weight: f64,
-    records: Vec<Record>,
-    rows: Vec<Piece>,
+    elements: Vec<ElementDerivatives>,
+    rows: Vec<RankOneUpdate>,
     /// Derivative by t.
     pub t_gradient: f64,
     /// Second derivative by t.
     pub t_hessian: f64,
 }
 
-impl Tape {
+impl ElementBuffer {
     /// Begins anew, for a term with this weight.
     pub fn clear(&mut self, weight: f64) {
-        self.records.clear();
+        self.elements.clear();
         self.rows.clear();
         (self.weight, self.t_gradient, self.t_hessian) = (weight, 0.0, 0.0);
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.records) + bytes(&self.rows)
+        bytes(&self.elements) + bytes(&self.rows)
     }
 }
 
-impl Sink for Tape {
+impl Sink for ElementBuffer {
     fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64) {
         let mut row = Row { g, h, t: a.t, ..Row::default() };
         for (component, &c) in row.components.iter_mut().zip(a.components) {
@@ -116,44 +116,45 @@ impl Sink for Tape {
             let first = self.rows.len() as u32;
             let mut curved = false;
             for row in rows {
-                let piece = Piece::new(row, self.weight);
-                self.t_gradient += piece.g() * row.t;
-                self.t_hessian += piece.h() * row.t * row.t;
-                curved |= piece.h() != 0.0;
-                self.rows.push(piece);
+                let update = RankOneUpdate::new(row, self.weight);
+                self.t_gradient += update.g() * row.t;
+                self.t_hessian += update.h() * row.t * row.t;
+                curved |= update.h() != 0.0;
+                self.rows.push(update);
             }
-            let mut record = Record { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
-            for (to, &v) in record.vertices.iter_mut().zip(vertices) {
+            let mut element =
+                ElementDerivatives { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
+            for (to, &v) in element.vertices.iter_mut().zip(vertices) {
                 *to = v;
             }
-            self.records.push(record);
+            self.elements.push(element);
         }
     }
 }
 
-/// For each vertex the records that it takes part in, in their order.
+/// For each vertex the elements that it takes part in, in their order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Incidence {
+pub(super) struct VertexElements {
     /// For each vertex, where its entries begin.
     start: Vec<u32>,
     entries: Vec<Entry>,
 }
 
-/// A corner of a record.
+/// A corner of a element.
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
-    tape: u32,
-    /// Index of the record times [`CORNERS`], and the corner.
+    buffer: u32,
+    /// Index of the element times [`CORNERS`], and the corner.
     corner: u32,
 }
 
-impl Incidence {
-    /// Finds the records of `tapes` around each of `vertex_count` vertices.
-    pub fn find(&mut self, vertex_count: usize, tapes: &[Tape]) {
+impl VertexElements {
+    /// Finds the elements of `buffers` around each of `vertex_count` vertices.
+    pub fn find(&mut self, vertex_count: usize, buffers: &[ElementBuffer]) {
         self.start.clear();
         self.start.resize(vertex_count + 1, 0);
-        for record in tapes.iter().flat_map(|tape| &tape.records) {
-            for &v in record.corners() {
+        for element in buffers.iter().flat_map(|buffer| &buffer.elements) {
+            for &v in element.corners() {
                 self.start[v as usize] += 1;
             }
         }
@@ -164,19 +165,19 @@ impl Incidence {
         }
         self.entries.resize(sum as usize, Entry::default());
         // From the end, so that entries come to stand in order and the counts end as the beginnings.
-        for tape in (0..tapes.len()).rev() {
-            for (r, record) in tapes[tape].records.iter().enumerate().rev() {
-                for (c, &v) in record.corners().iter().enumerate() {
+        for buffer in (0..buffers.len()).rev() {
+            for (r, element) in buffers[buffer].elements.iter().enumerate().rev() {
+                for (c, &v) in element.corners().iter().enumerate() {
                     let at = &mut self.start[v as usize];
                     *at -= 1;
-                    self.entries[*at as usize] = Entry { tape: tape as u32, corner: (r * CORNERS + c) as u32 };
+                    self.entries[*at as usize] = Entry { buffer: buffer as u32, corner: (r * CORNERS + c) as u32 };
                 }
             }
         }
     }
 
     /// The number of entries of the vertices below `vertex`.
-    pub fn before(&self, vertex: usize) -> u32 {
+    pub fn entries_below(&self, vertex: usize) -> u32 {
         self.start[vertex]
     }
 
@@ -191,7 +192,7 @@ impl Incidence {
 }
 
 /// Some consecutive vertices, with their part of the system.
-pub(super) struct Owner<'a> {
+pub(super) struct ColumnBlock<'a> {
     /// The first vertex.
     pub first: usize,
     /// Their columns of the Hessian.
@@ -220,10 +221,16 @@ impl Scratch {
     }
 }
 
-impl Owner<'_> {
-    /// Adds what `tapes` have for its vertices.
-    pub fn add(&mut self, pattern: &Pattern, tapes: &[Tape], incidence: &Incidence, scratch: &mut Scratch) {
-        dispatch(Sum { owner: self, pattern, tapes, incidence, scratch });
+impl ColumnBlock<'_> {
+    /// Adds what `buffers` have for its vertices.
+    pub fn add(
+        &mut self,
+        pattern: &Pattern,
+        buffers: &[ElementBuffer],
+        vertex_elements: &VertexElements,
+        scratch: &mut Scratch,
+    ) {
+        dispatch(Sum { owner: self, pattern, buffers, vertex_elements, scratch });
     }
 
     /// Adds the sums of one vertex, the `local`-th of the owner.
@@ -256,12 +263,12 @@ impl Owner<'_> {
     }
 }
 
-/// The work of [`Owner::add`].
+/// The work of [`ColumnBlock::add`].
 struct Sum<'a, 'b> {
-    owner: &'a mut Owner<'b>,
+    owner: &'a mut ColumnBlock<'b>,
     pattern: &'a Pattern,
-    tapes: &'a [Tape],
-    incidence: &'a Incidence,
+    buffers: &'a [ElementBuffer],
+    vertex_elements: &'a VertexElements,
     scratch: &'a mut Scratch,
 }
 
@@ -270,10 +277,10 @@ impl Kernel for Sum<'_, '_> {
 
     #[inline(always)]
     fn run<V: Four>(self) {
-        let Self { owner, pattern, tapes, incidence, scratch: Scratch { mark, blocks } } = self;
+        let Self { owner, pattern, buffers, vertex_elements, scratch: Scratch { mark, blocks } } = self;
         for local in 0..owner.gradient.len() / 3 {
             let v = owner.first + local;
-            let entries = incidence.of(v);
+            let entries = vertex_elements.of(v);
             if entries.is_empty() {
                 continue;
             }
@@ -285,19 +292,19 @@ impl Kernel for Sum<'_, '_> {
             blocks.resize(1 + below.len(), [[0.0; 4]; 3]);
             let (mut gradient, mut border) = (V::splat(0.0), V::splat(0.0));
             for entry in entries {
-                let tape = &tapes[entry.tape as usize];
+                let buffer = &buffers[entry.buffer as usize];
                 let corner = entry.corner as usize % CORNERS;
-                let record = &tape.records[entry.corner as usize / CORNERS];
-                let rows = &tape.rows[record.first as usize..][..record.rows as usize];
+                let element = &buffer.elements[entry.corner as usize / CORNERS];
+                let rows = &buffer.rows[element.first as usize..][..element.rows as usize];
                 for row in rows {
                     let component = V::load(&row.0[corner]);
                     gradient = gradient.add_scaled(row.g(), component);
                     border = border.add_scaled(row.h() * row.t(), component);
                 }
-                if !record.curved {
+                if !element.curved {
                     continue;
                 }
-                for (other, &w) in record.corners().iter().enumerate() {
+                for (other, &w) in element.corners().iter().enumerate() {
                     let place = match (w as usize).cmp(&v) {
                         Ordering::Less => continue,
                         Ordering::Equal => 0,

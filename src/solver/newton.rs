@@ -89,20 +89,20 @@ pub struct Accepted {
 
 /// The largest coordinate of a vertex's displacement in one step. Swept volumes, and with them the candidate pairs,
 /// grow quickly beyond it.
-const STEP_LIMIT: f64 = 0.1;
+const MAX_DISPLACEMENT: f64 = 0.1;
 /// Multiple of the mean diagonal that is always added to the Hessian: surface and contact terms are blind to
 /// similarities of a garment that nothing holds.
-const SHIFT: f64 = 1e-7;
-/// A step that keeps less than this fraction is cramped: it slides along contact nearer than the step is long. After so
-/// many of them, one after the other, the shift grows by [`DAMPING`] at every further one, up to a limit, and falls
+const MIN_DAMPING: f64 = 1e-7;
+/// A step that keeps less than this fraction is short_steps: it slides along contact nearer than the step is long. After so
+/// many of them, one after the other, the shift grows by [`DAMPING_FACTOR`] at every further one, up to a limit, and falls
 /// again with steps that are free: then stiff directions, along which contact opens, come before soft ones.
-const CRAMPED: f64 = 0.05;
-const CRAMPED_STEPS: u32 = 3;
-const FREE: f64 = 0.5;
-const DAMPING: f64 = 100.0;
-const LARGEST_DAMPED: f64 = 0.1;
+const SHORT_STEP: f64 = 0.05;
+const MAX_SHORT_STEPS: u32 = 3;
+const LONG_STEP: f64 = 0.5;
+const DAMPING_FACTOR: f64 = 100.0;
+const MAX_DAMPING: f64 = 0.1;
 /// Shift at which a matrix is given up.
-const LARGEST_SHIFT: f64 = 1e4;
+const MAX_DIAGONAL_SHIFT: f64 = 1e4;
 
 /// A Newton solver for one pattern that grows as contacts come.
 pub struct Newton {
@@ -116,9 +116,9 @@ pub struct Newton {
     /// The value of each term at the present state, where it is known.
     values: Option<Vec<f64>>,
     /// The present shift.
-    shift: f64,
+    damping: f64,
     /// Cramped steps one after the other.
-    cramped: u32,
+    short_steps: u32,
     cancel: Cancel,
     limit: MemoryLimit,
     /// What has been done so far.
@@ -150,8 +150,8 @@ impl Newton {
             dx: Vec::new(),
             trial: Vec::new(),
             values: None,
-            shift: SHIFT,
-            cramped: 0,
+            damping: MIN_DAMPING,
+            short_steps: 0,
             cancel,
             counters: Counters { analyses: 1, profile, ..Counters::default() },
         })
@@ -218,9 +218,9 @@ impl Newton {
             .sum::<f64>()
             .max(f64::MIN_POSITIVE)
             / (3 * n) as f64;
-        let mut shift = self.shift * mean;
+        let mut shift = self.damping * mean;
         let mut added = 0.0;
-        while shift <= LARGEST_SHIFT * mean {
+        while shift <= MAX_DIAGONAL_SHIFT * mean {
             for j in 0..n as u32 {
                 for d in self.pattern.diagonal(j) {
                     self.system.hessian[d] += shift - added;
@@ -252,7 +252,7 @@ impl Newton {
     }
 
     /// Sets the direction to `p0 + dt p1`, cut to the step limit. Returns the fraction that is left of it.
-    pub fn aim(&mut self, dt: f64) -> f64 {
+    pub fn set_direction(&mut self, dt: f64) -> f64 {
         let n = self.system.gradient.len();
         let (p0, p1) = self.response.split_at(n);
         self.dx.clear();
@@ -261,7 +261,7 @@ impl Newton {
             if dt == 0.0 { p } else { p + dt * DVec3::from_slice(&p1[3 * v..]) }
         }));
         let largest = self.dx.iter().fold(0.0_f64, |m, d| m.max(d.abs().max_element()));
-        let kept = if largest > STEP_LIMIT { STEP_LIMIT / largest } else { 1.0 };
+        let kept = if largest > MAX_DISPLACEMENT { MAX_DISPLACEMENT / largest } else { 1.0 };
         if kept < 1.0 {
             for d in &mut self.dx {
                 *d *= kept;
@@ -270,7 +270,7 @@ impl Newton {
         kept
     }
 
-    /// The direction that [`Self::aim`] set.
+    /// The direction that [`Self::set_direction`] set.
     pub fn direction(&self) -> &[DVec3] {
         &self.dx
     }
@@ -299,18 +299,18 @@ impl Newton {
     }
 
     /// Damps the next steps where `fraction`, what was kept of the last one, is small again and again.
-    fn adapt(&mut self, fraction: f64) {
-        if fraction < CRAMPED {
-            self.cramped += 1;
-            if self.cramped >= CRAMPED_STEPS {
-                self.shift = (DAMPING * self.shift).min(LARGEST_DAMPED);
+    fn update_damping(&mut self, fraction: f64) {
+        if fraction < SHORT_STEP {
+            self.short_steps += 1;
+            if self.short_steps >= MAX_SHORT_STEPS {
+                self.damping = (DAMPING_FACTOR * self.damping).min(MAX_DAMPING);
             }
         } else {
-            self.cramped = 0;
-            if fraction >= FREE {
+            self.short_steps = 0;
+            if fraction >= LONG_STEP {
                 // Rounding must not leave a trace of damping.
-                let less = self.shift / DAMPING;
-                self.shift = if less < 2.0 * SHIFT { SHIFT } else { less };
+                let less = self.damping / DAMPING_FACTOR;
+                self.damping = if less < 2.0 * MIN_DAMPING { MIN_DAMPING } else { less };
             }
         }
     }
@@ -320,8 +320,8 @@ impl Newton {
     ///
     /// # Errors
     /// As [`Self::linearise`].
-    pub fn advance(&mut self, model: &mut dyn Model, state: &mut State, dt: f64) -> Result<f64> {
-        let taken = self.follow(model, state, dt, true)?;
+    pub fn continue_t(&mut self, model: &mut dyn Model, state: &mut State, dt: f64) -> Result<f64> {
+        let taken = self.continuation_step(model, state, dt, true)?;
         state.t += taken * dt;
         Ok(taken)
     }
@@ -331,8 +331,8 @@ impl Newton {
     ///
     /// # Errors
     /// As [`Self::linearise`].
-    pub fn accompany(&mut self, model: &mut dyn Model, state: &mut State, ds: f64) -> Result<f64> {
-        self.follow(model, state, ds, false)
+    pub fn continue_barrier(&mut self, model: &mut dyn Model, state: &mut State, ds: f64) -> Result<f64> {
+        self.continuation_step(model, state, ds, false)
     }
 
     /// The fraction of the direction with `dt` that the model allows.
@@ -341,16 +341,22 @@ impl Newton {
         Ok(model.max_feasible_step(state.configuration(), &self.dx, dt, 1.0)?.unwrap_or(0.0))
     }
 
-    fn follow(&mut self, model: &mut dyn Model, state: &mut State, advance: f64, moves_t: bool) -> Result<f64> {
+    fn continuation_step(
+        &mut self,
+        model: &mut dyn Model,
+        state: &mut State,
+        advance: f64,
+        moves_t: bool,
+    ) -> Result<f64> {
         self.linearise(&model.terms(), state.configuration(), true)?;
-        let kept = self.aim(advance);
+        let kept = self.set_direction(advance);
         let dt = if moves_t { kept * advance } else { 0.0 };
         let fraction = self.feasible(model, state, dt)?;
         for (x, d) in state.x.iter_mut().zip(&self.dx) {
             *x += fraction * *d;
         }
         self.values = None;
-        self.adapt(fraction);
+        self.update_damping(fraction);
         Ok(fraction * kept)
     }
 
@@ -360,10 +366,10 @@ impl Newton {
     ///
     /// # Errors
     /// As [`Self::linearise`].
-    pub fn descend(&mut self, model: &mut dyn Model, state: &mut State, free_t: bool) -> Result<Option<Accepted>> {
+    pub fn newton_step(&mut self, model: &mut dyn Model, state: &mut State, free_t: bool) -> Result<Option<Accepted>> {
         self.linearise(&model.terms(), state.configuration(), free_t)?;
         let wanted = if free_t { self.newton_dt().clamp(-state.t, 1.0 - state.t) } else { 0.0 };
-        let kept = self.aim(wanted);
+        let kept = self.set_direction(wanted);
         let dt = kept * wanted;
         let slope = self.slope(dt);
 
@@ -378,8 +384,8 @@ impl Newton {
         let found =
             backtrack(&terms, start, &self.dx, dt, slope, before, longest, &mut self.trial, &self.cancel, profile)?;
         profile.line_search += clock.elapsed();
-        let damped = self.shift > SHIFT;
-        self.adapt(longest);
+        let damped = self.damping > MIN_DAMPING;
+        self.update_damping(longest);
         Ok(found.map(|found| {
             std::mem::swap(&mut state.x, &mut self.trial);
             state.t += found.fraction * dt;

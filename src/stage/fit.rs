@@ -100,7 +100,7 @@ impl Settling {
         match &mut self.phase {
             Phase::Ease(steps) => {
                 *steps += 1;
-                let step = newton.descend(objective, state, false)?;
+                let step = newton.newton_step(objective, state, false)?;
                 if *steps >= PATIENCE || step.is_none_or(|s| s.decrement <= EASED * s.after.max(NOTHING)) {
                     self.phase = Phase::Narrow { s: 0.0, advance: FIRST_ADVANCE };
                 }
@@ -109,7 +109,7 @@ impl Settling {
                 let path = Path::new(objective, options);
                 objective.contact.set_narrowing(Some(path.rates()));
                 let ds = advance.min(1.0 - *s);
-                let taken = newton.accompany(objective, state, ds);
+                let taken = newton.continue_barrier(objective, state, ds);
                 objective.contact.set_narrowing(None);
                 let taken = taken?;
                 *s += taken * ds;
@@ -129,7 +129,7 @@ impl Settling {
                 }
             }
             Phase::Settle(calm) => {
-                let step = newton.descend(objective, state, false)?;
+                let step = newton.newton_step(objective, state, false)?;
                 let Some(step) = step else { return Ok(true) };
                 *calm = if !step.damped && step.decrement <= options.tolerance * step.after.max(NOTHING) {
                     *calm + 1

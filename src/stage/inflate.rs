@@ -60,7 +60,7 @@ impl Inflation {
         match &mut self.form {
             Form::Path { corrections, .. } if *corrections > 0 => {
                 *corrections -= 1;
-                if newton.descend(objective, state, false)?.is_none() {
+                if newton.newton_step(objective, state, false)?.is_none() {
                     *corrections = 0;
                 }
             }
@@ -77,7 +77,7 @@ impl Inflation {
     /// One advance along the path.
     fn follow(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
         let Form::Path { advance, corrections, cramped } = &mut self.form else { return Ok(()) };
-        let taken = newton.advance(objective, state, advance.min(1.0 - state.t))?;
+        let taken = newton.continue_t(objective, state, advance.min(1.0 - state.t))?;
         if taken >= 0.99 {
             *advance = (2.0 * *advance).min(LARGEST_ADVANCE);
             *cramped = 0;
@@ -102,7 +102,7 @@ impl Inflation {
     fn push(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
         let Form::Lagrangian { inner } = &mut self.form else { return Ok(()) };
         *inner += 1;
-        let step = newton.descend(objective, state, true)?;
+        let step = newton.newton_step(objective, state, true)?;
         let solved = step.is_none_or(|s| s.decrement <= INNER_TOLERANCE * s.after.abs());
         if !solved && *inner < INNER_STEPS {
             return Ok(());

@@ -88,7 +88,7 @@ fn descent_reaches_a_minimum_and_never_rises() {
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut last = f64::INFINITY;
     for _ in 0..200 {
-        let Some(step) = newton.descend(&mut model, &mut state, false).unwrap() else { break };
+        let Some(step) = newton.newton_step(&mut model, &mut state, false).unwrap() else { break };
         assert!(step.after <= step.before && step.before <= last * (1.0 + 1e-12));
         assert!(step.displacement <= 0.1 * 3.0_f64.sqrt() + 1e-12);
         last = step.after;
@@ -104,7 +104,7 @@ fn a_step_never_goes_beyond_what_the_model_admits() {
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     for _ in 0..5 {
         let before = state.x.clone();
-        newton.descend(&mut model, &mut state, false).unwrap().unwrap();
+        newton.newton_step(&mut model, &mut state, false).unwrap().unwrap();
         let moved = before.iter().zip(&state.x).fold(0.0_f64, |m, (a, b)| m.max((*a - *b).abs().max_element()));
         assert!(moved <= 0.25 * 0.1 + 1e-12, "{moved}");
     }
@@ -117,7 +117,7 @@ fn cramped_steps_are_damped_until_steps_are_free_again() {
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut damped = |admitted: f64, steps: usize| -> Vec<bool> {
         model.1 = admitted;
-        (0..steps).map(|_| newton.descend(&mut model, &mut state, false).unwrap().unwrap().damped).collect()
+        (0..steps).map(|_| newton.newton_step(&mut model, &mut state, false).unwrap().unwrap().damped).collect()
     };
     assert_eq!(damped(0.01, 5), [false, false, false, true, true]);
     let free = damped(1.0, 5);
@@ -133,7 +133,7 @@ fn the_border_agrees_with_a_dense_solve() {
     newton.linearise(&model.terms(), state.configuration(), true).unwrap();
     let dt = newton.newton_dt();
     // Finite differences along t of the energy minimised over x by the quadratic model: the slope must vanish at dt.
-    let kept = newton.aim(dt);
+    let kept = newton.set_direction(dt);
     let dx: Vec<DVec3> = newton.direction().iter().map(|d| *d / kept).collect();
     let mut rows = vec![vec![0.0; 17]; 16];
     let springs = &model.0;

@@ -77,7 +77,7 @@ impl Moment {
             settling.iterate(&mut objective, &mut newton, &mut state, &options)?;
         }
         newton.linearise(&objective.terms(), state.configuration(), false)?;
-        newton.aim(0.0);
+        newton.set_direction(0.0);
         let direction = newton.direction().to_vec();
         let garment = TriangleMesh { positions: state.x.clone(), triangles: problem.triangles.clone() };
         Ok(Self { objective, newton, state, direction, garment, avatar: problem.avatar })
