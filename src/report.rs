@@ -83,7 +83,7 @@ pub struct Report {
     /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
     /// Pairs of garment triangles that intersect or touch at the start, and are let off.
-    pub tangled_at_start: usize,
+    pub initial_self_intersections: usize,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],
     /// Avatar vertices and triangles, without its layers.

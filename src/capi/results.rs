@@ -247,7 +247,7 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 energy_count: own.terms.len() as u32,
                 reserved: 0,
                 memory_bytes: own.memory,
-                garment_intersections_at_start: own.tangled_at_start as u64,
+                garment_intersections_at_start: own.initial_self_intersections as u64,
             };
             sized::write(filled, report, "report")
         })

@@ -6,12 +6,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::{Bodies, Motion};
-use super::candidate_set::{CandidateSet, Class, ROUNDING};
-use super::distance::Kind;
-use super::exempt_pairs::Tangle;
-use super::one_ring::Neighbours;
+use super::candidate_set::{CandidateSet, CollisionGroup, ROUNDING};
+use super::distance::PairType;
+use super::exempt_pairs::ExemptPairs;
+use super::one_ring::OneRingPairs;
 use super::surface::Surface;
-use super::swept::{Plane, SweptSurface, shadow};
+use super::swept::{Plane, SweptSurface, interval};
 use crate::geometry::bvh::{Aabb, NodePair};
 use crate::memory::bytes;
 
@@ -33,20 +33,20 @@ struct Piece {
 pub struct BroadPhase {
     garment: SweptSurface,
     avatar: SweptSurface,
-    neighbours: Neighbours,
+    one_ring: OneRingPairs,
     /// What the avatar follows: t at both ends, and the margin.
     avatar_at: Option<[f64; 3]>,
     garment_work: Vec<NodePair>,
     avatar_work: Vec<NodePair>,
     pieces: Vec<Piece>,
-    tangle: Tangle,
+    exempt: ExemptPairs,
     most: usize,
     /// The last search ended before it was complete.
     is_incomplete: bool,
 }
 
 impl BroadPhase {
-    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is tangled.
+    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is intersecting.
     pub fn new(bodies: &Bodies) -> Self {
         let n = bodies.garment_count();
         let surface =
@@ -54,25 +54,25 @@ impl BroadPhase {
         Self {
             garment: surface(&bodies.garment.surface, 0),
             avatar: surface(&bodies.avatar.surface, n),
-            neighbours: Neighbours::new(&bodies.garment.surface),
+            one_ring: OneRingPairs::new(&bodies.garment.surface),
             avatar_at: None,
             garment_work: Vec::new(),
             avatar_work: Vec::new(),
             pieces: Vec::new(),
-            tangle: Tangle::default(),
+            exempt: ExemptPairs::default(),
             most: usize::MAX,
             is_incomplete: false,
         }
     }
 
-    /// The tangle whose free pairs are left out.
-    pub fn tangle(&self) -> &Tangle {
-        &self.tangle
+    /// The exempt whose free pairs are left out.
+    pub fn exempt_pairs(&self) -> &ExemptPairs {
+        &self.exempt
     }
 
-    /// Replaces the tangle.
-    pub fn set_tangle(&mut self, tangle: Tangle) {
-        self.tangle = tangle;
+    /// Replaces the exempt.
+    pub fn set_exempt_pairs(&mut self, exempt: ExemptPairs) {
+        self.exempt = exempt;
     }
 
     /// From now on a search ends, incomplete, where it has found about `most` pairs.
@@ -88,12 +88,12 @@ impl BroadPhase {
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
         let pieces = self.pieces.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
-        self.garment.memory() + self.avatar.memory() + self.neighbours.memory() + pieces.sum::<u64>()
+        self.garment.memory() + self.avatar.memory() + self.one_ring.memory() + pieces.sum::<u64>()
     }
 
     /// Replaces `out` by all the pairs that come within a margin of each other during the first `part` of `motion`, and
     /// some that do not: `margin_self` for the garment with itself, `margin_avatar` with the avatar. Pairs that share a
-    /// vertex or are free in the tangle are left out. `bodies` is what the broad phase was made for.
+    /// vertex or are free in the exempt are left out. `bodies` is what the broad phase was made for.
     ///
     /// The result, its order included, is the same for any number of threads.
     pub fn candidates(
@@ -138,25 +138,22 @@ impl BroadPhase {
 
     /// Fills the pieces. Returns how many of them, from the first on, are of the garment with itself.
     fn search(&mut self, bodies: &Bodies, margin_self: f64, margin_avatar: f64) -> usize {
-        let near = &self.neighbours;
+        let near = &self.one_ring;
         let near_count = near.point_triangle.len().max(near.edge_edge.len()).div_ceil(CHUNK);
         let self_count = near_count + self.garment_work.len();
         self.pieces.resize_with(self_count + self.avatar_work.len(), Piece::default);
         let (self_pieces, avatar_pieces) = self.pieces.split_at_mut(self_count);
         let (near_pieces, tree_pieces) = self_pieces.split_at_mut(near_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
-        let room = &Room { found: AtomicUsize::new(0), most: self.most };
-        let own = Side { surface: &bodies.garment.surface, swept: &self.garment, offset: 0 };
+        let budget = &PairBudget { found: AtomicUsize::new(0), most: self.most };
+        let own = Operand { surface: &bodies.garment.surface, swept: &self.garment, offset: 0 };
         let offset = bodies.garment_count() as u32;
-        let theirs = Side { surface: &bodies.avatar.surface, swept: &self.avatar, offset };
-        let search = Collector { a: own, b: own, neighbours: near, margin: margin_self, room };
+        let theirs = Operand { surface: &bodies.avatar.surface, swept: &self.avatar, offset };
+        let search = Collector { a: own, b: own, one_ring: near, margin: margin_self, budget };
         let avatar_search = Collector { b: theirs, margin: margin_avatar, ..search };
         rayon::join(
             || {
-                near_pieces
-                    .par_iter_mut()
-                    .enumerate()
-                    .for_each(|(chunk, piece)| search.look_at_neighbours(chunk, piece));
+                near_pieces.par_iter_mut().enumerate().for_each(|(chunk, piece)| search.test_one_ring(chunk, piece));
                 let work = tree_pieces.par_iter_mut().zip(self_work);
                 work.for_each(|(piece, &start)| search.run::<true>(start, piece));
             },
@@ -171,17 +168,17 @@ impl BroadPhase {
     /// Puts what the pieces found together, in their order; the first `self_count` are of the garment with itself.
     fn merge(&self, self_count: usize, out: &mut CandidateSet) {
         let (self_pieces, avatar_pieces) = self.pieces.split_at(self_count);
-        let tangle = &self.tangle;
-        out.refill(|kind, class, pairs| {
-            for piece in if class == Class::Avatar { avatar_pieces } else { self_pieces } {
-                let found = match kind {
-                    Kind::PointTriangle => &piece.point_triangle,
-                    Kind::EdgeEdge => &piece.edge_edge,
+        let exempt = &self.exempt;
+        out.refill(|pair_type, group, pairs| {
+            for piece in if group == CollisionGroup::Avatar { avatar_pieces } else { self_pieces } {
+                let found = match pair_type {
+                    PairType::PointTriangle => &piece.point_triangle,
+                    PairType::EdgeEdge => &piece.edge_edge,
                 };
-                if class == Class::Avatar || (class == Class::Garment && tangle.is_empty()) {
+                if group == CollisionGroup::Avatar || (group == CollisionGroup::Garment && exempt.is_empty()) {
                     pairs.extend_from_slice(found);
-                } else if !tangle.is_empty() {
-                    pairs.extend(found.iter().filter(|&&pair| tangle.class(kind, pair) == Some(class)));
+                } else if !exempt.is_empty() {
+                    pairs.extend(found.iter().filter(|&&pair| exempt.group(pair_type, pair) == Some(group)));
                 }
             }
         });
@@ -190,7 +187,7 @@ impl BroadPhase {
 
 /// One of the two surfaces of a search. Its vertices are numbered from `offset`.
 #[derive(Clone, Copy)]
-struct Side<'a> {
+struct Operand<'a> {
     surface: &'a Surface,
     swept: &'a SweptSurface,
     offset: u32,
@@ -199,20 +196,20 @@ struct Side<'a> {
 /// Turns close triangles into close primitives.
 #[derive(Clone, Copy)]
 struct Collector<'a> {
-    a: Side<'a>,
-    b: Side<'a>,
-    neighbours: &'a Neighbours,
+    a: Operand<'a>,
+    b: Operand<'a>,
+    one_ring: &'a OneRingPairs,
     margin: f64,
-    room: &'a Room,
+    budget: &'a PairBudget,
 }
 
 /// Pairs that a search may find, all its pieces together.
-struct Room {
+struct PairBudget {
     found: AtomicUsize,
     most: usize,
 }
 
-impl Room {
+impl PairBudget {
     /// Pairs after which a piece says how many it has.
     const STRIDE: usize = 1024;
 
@@ -241,10 +238,10 @@ impl Collector<'_> {
         let other = if SAME { None } else { Some(&b.swept.tree) };
         a.swept.tree.traverse(other, start, stack, |s, t| {
             let (s_corners, t_corners) = (a.surface.triangles[s as usize], b.surface.triangles[t as usize]);
-            if SAME && self.neighbours.has(s_corners, t_corners) {
+            if SAME && self.one_ring.has(s_corners, t_corners) {
                 return;
             }
-            if self.apart(s, s_corners, t, t_corners) || self.room.is_full() {
+            if self.has_separating_plane(s, s_corners, t, t_corners) || self.budget.is_full() {
                 return;
             }
             let before = point_triangle.len() + edge_edge.len();
@@ -278,46 +275,47 @@ impl Collector<'_> {
                     }
                 }
             }
-            self.room.count(before, point_triangle.len() + edge_edge.len());
+            self.budget.count(before, point_triangle.len() + edge_edge.len());
         });
     }
 
-    /// Fills `piece` with the close pairs of a chunk of the neighbours.
-    fn look_at_neighbours(&self, chunk: usize, piece: &mut Piece) {
+    /// Fills `piece` with the close pairs of a chunk of the one_ring.
+    fn test_one_ring(&self, chunk: usize, piece: &mut Piece) {
         let Piece { point_triangle, edge_edge, .. } = piece;
         point_triangle.clear();
         edge_edge.clear();
-        if self.room.is_full() {
+        if self.budget.is_full() {
             return;
         }
         let boxes = &self.a.swept.vertices;
         let edge = |a: u32, b: u32| boxes[a as usize].union(boxes[b as usize]);
         point_triangle.extend(
-            part_of(&self.neighbours.point_triangle, chunk)
+            part_of(&self.one_ring.point_triangle, chunk)
                 .iter()
                 .filter(|&&[v, i, j, k]| boxes[v as usize].overlaps(&edge(i, j).union(boxes[k as usize]))),
         );
         edge_edge.extend(
-            part_of(&self.neighbours.edge_edge, chunk).iter().filter(|&&[i, j, k, l]| edge(i, j).overlaps(&edge(k, l))),
+            part_of(&self.one_ring.edge_edge, chunk).iter().filter(|&&[i, j, k, l]| edge(i, j).overlaps(&edge(k, l))),
         );
-        self.room.count(0, point_triangle.len() + edge_edge.len());
+        self.budget.count(0, point_triangle.len() + edge_edge.len());
     }
 
     /// True only where the triangles `s` and `t` stay further apart than the margin, on either side of a plane along one
     /// of them.
     #[inline]
-    fn apart(&self, s: u32, s_corners: [u32; 3], t: u32, t_corners: [u32; 3]) -> bool {
+    fn has_separating_plane(&self, s: u32, s_corners: [u32; 3], t: u32, t_corners: [u32; 3]) -> bool {
         let (s_plane, t_plane) = (&self.a.swept.planes[s as usize], &self.b.swept.planes[t as usize]);
-        self.parted(s_plane, &self.b.swept.places, t_corners) || self.parted(t_plane, &self.a.swept.places, s_corners)
+        self.stays_beside(s_plane, &self.b.swept.places, t_corners)
+            || self.stays_beside(t_plane, &self.a.swept.places, s_corners)
     }
 
     /// Whether three points stay above a triangle, by the margin, or below it.
     #[inline]
-    fn parted(&self, plane: &Plane, places: &[[DVec3; 2]], [a, b, c]: [u32; 3]) -> bool {
+    fn stays_beside(&self, plane: &Plane, places: &[[DVec3; 2]], [a, b, c]: [u32; 3]) -> bool {
         let margin = self.margin + ROUNDING;
-        let [low, high] = plane.shadow;
+        let [low, high] = plane.interval;
         let points = [a, b, c].map(|v| &places[v as usize]);
-        let at = |end: usize| shadow(plane.normal, points[0][end], points[1][end], points[2][end]);
+        let at = |end: usize| interval(plane.normal, points[0][end], points[1][end], points[2][end]);
         let start = at(0);
         let above = start[0] - high[0] > margin;
         if !above && low[0] - start[1] <= margin {
@@ -330,7 +328,7 @@ impl Collector<'_> {
     }
 }
 
-impl Side<'_> {
+impl Operand<'_> {
     /// The boxes of a triangle's corners.
     #[inline]
     fn boxes(&self, [a, b, c]: [u32; 3]) -> [Aabb; 3] {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::bodies::Motion;
-use super::distance::Kind;
+use super::distance::PairType;
 use crate::memory::bytes;
 
 /// Pairs that a thread filters at once.
@@ -16,42 +16,42 @@ pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Whom the garment meets in a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
+pub enum CollisionGroup {
     /// Itself.
     Garment,
     /// The avatar.
     Avatar,
-    /// Itself, at triangles that pass through each other from the start (see [`Tangle`](super::Tangle)).
-    Tangled,
+    /// Itself, at triangles that pass through each other from the start (see [`ExemptPairs`](super::ExemptPairs)).
+    Intersecting,
 }
 
-/// What the runs of a [`CandidateSet`] hold, in order.
-const RUNS: [(Kind, Class); 6] = [
-    (Kind::PointTriangle, Class::Garment),
-    (Kind::EdgeEdge, Class::Garment),
-    (Kind::PointTriangle, Class::Avatar),
-    (Kind::EdgeEdge, Class::Avatar),
-    (Kind::PointTriangle, Class::Tangled),
-    (Kind::EdgeEdge, Class::Tangled),
+/// What the ranges of a [`CandidateSet`] hold, in order.
+const RANGES: [(PairType, CollisionGroup); 6] = [
+    (PairType::PointTriangle, CollisionGroup::Garment),
+    (PairType::EdgeEdge, CollisionGroup::Garment),
+    (PairType::PointTriangle, CollisionGroup::Avatar),
+    (PairType::EdgeEdge, CollisionGroup::Avatar),
+    (PairType::PointTriangle, CollisionGroup::Intersecting),
+    (PairType::EdgeEdge, CollisionGroup::Intersecting),
 ];
 
-/// Pairs of primitives in the combined numbering of [`Bodies`](super::Bodies), sorted into runs by kind and class.
+/// Pairs of primitives in the combined numbering of [`Bodies`](super::Bodies), sorted into ranges by pair_type and group.
 ///
 /// The four vertices of a pair differ. Of an edge-edge pair with the avatar, the first edge is the garment's.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CandidateSet {
     pairs: Vec<[u32; 4]>,
     /// Where each run ends in `pairs`.
-    ends: [usize; RUNS.len()],
+    ends: [usize; RANGES.len()],
 }
 
-/// Pairs of one kind and class.
+/// Pairs of one pair_type and group.
 #[derive(Clone, Debug)]
-pub struct Run<'a> {
-    /// The kind of all of them.
-    pub kind: Kind,
-    /// The class of all of them.
-    pub class: Class,
+pub struct PairRange<'a> {
+    /// The pair_type of all of them.
+    pub pair_type: PairType,
+    /// The group of all of them.
+    pub group: CollisionGroup,
     /// Number of the first in the whole set.
     pub first: usize,
     /// The pairs.
@@ -59,7 +59,7 @@ pub struct Run<'a> {
 }
 
 impl CandidateSet {
-    /// The set of the given pairs, nothing being tangled.
+    /// The set of the given pairs, nothing being intersecting.
     pub fn new(
         garment_point_triangle: &[[u32; 4]],
         garment_edge_edge: &[[u32; 4]],
@@ -67,8 +67,8 @@ impl CandidateSet {
         avatar_edge_edge: &[[u32; 4]],
     ) -> Self {
         let mut set = Self::default();
-        let runs = [garment_point_triangle, garment_edge_edge, avatar_point_triangle, avatar_edge_edge];
-        for (run, pairs) in runs.into_iter().enumerate() {
+        let ranges = [garment_point_triangle, garment_edge_edge, avatar_point_triangle, avatar_edge_edge];
+        for (run, pairs) in ranges.into_iter().enumerate() {
             set.pairs.extend_from_slice(pairs);
             set.ends[run..].fill(set.pairs.len());
         }
@@ -98,19 +98,19 @@ impl CandidateSet {
         &self.pairs
     }
 
-    /// The pairs of one kind and class.
-    pub fn of(&self, kind: Kind, class: Class) -> &[[u32; 4]] {
-        self.runs(0..self.len()).find(|r| r.kind == kind && r.class == class).map_or(&[], |r| r.pairs)
+    /// The pairs of one pair_type and group.
+    pub fn of(&self, pair_type: PairType, group: CollisionGroup) -> &[[u32; 4]] {
+        self.ranges(0..self.len()).find(|r| r.pair_type == pair_type && r.group == group).map_or(&[], |r| r.pairs)
     }
 
-    /// Keeps, in order, the pairs that may come within the `margin` of their class during the first `part` of `motion`.
-    pub fn retain_near(&mut self, motion: &Motion, part: f64, margin: impl Fn(Class) -> f64 + Sync) {
+    /// Keeps, in order, the pairs that may come within the `margin` of their group during the first `part` of `motion`.
+    pub fn retain_near(&mut self, motion: &Motion, part: f64, margin: impl Fn(CollisionGroup) -> f64 + Sync) {
         let mut kept = Vec::new();
-        let mut ends = [0; RUNS.len()];
-        for (run, (kind, class)) in RUNS.into_iter().enumerate() {
-            let margin = margin(class) + ROUNDING;
-            let near = |pair: &&[u32; 4]| !stays_apart(kind, **pair, motion, part, margin);
-            let chunks = self.of(kind, class).par_chunks(FILTER_CHUNK);
+        let mut ends = [0; RANGES.len()];
+        for (run, (pair_type, group)) in RANGES.into_iter().enumerate() {
+            let margin = margin(group) + ROUNDING;
+            let near = |pair: &&[u32; 4]| !stays_apart(pair_type, **pair, motion, part, margin);
+            let chunks = self.of(pair_type, group).par_chunks(FILTER_CHUNK);
             let parts: Vec<Vec<[u32; 4]>> = chunks.map(|c| c.iter().filter(near).copied().collect()).collect();
             parts.iter().for_each(|part| kept.extend_from_slice(part));
             ends[run] = kept.len();
@@ -122,39 +122,39 @@ impl CandidateSet {
     }
 
     /// Replaces all pairs: `add` is called for each run in order, with the list that its pairs are to be appended to.
-    pub(super) fn refill(&mut self, mut add: impl FnMut(Kind, Class, &mut Vec<[u32; 4]>)) {
+    pub(super) fn refill(&mut self, mut add: impl FnMut(PairType, CollisionGroup, &mut Vec<[u32; 4]>)) {
         self.pairs.clear();
-        for (run, (kind, class)) in RUNS.into_iter().enumerate() {
-            add(kind, class, &mut self.pairs);
+        for (run, (pair_type, group)) in RANGES.into_iter().enumerate() {
+            add(pair_type, group, &mut self.pairs);
             self.ends[run] = self.pairs.len();
         }
     }
 
     /// The part of each run that lies in `range`, without empty ones.
-    pub fn runs(&self, range: Range<usize>) -> impl Iterator<Item = Run<'_>> {
-        (0..RUNS.len()).filter_map(move |run| {
+    pub fn ranges(&self, range: Range<usize>) -> impl Iterator<Item = PairRange<'_>> {
+        (0..RANGES.len()).filter_map(move |run| {
             let start = if run == 0 { 0 } else { self.ends[run - 1] };
             let (first, end) = (start.max(range.start), self.ends[run].min(range.end));
-            let (kind, class) = RUNS[run];
-            (first < end).then(|| Run { kind, class, first, pairs: &self.pairs[first..end] })
+            let (pair_type, group) = RANGES[run];
+            (first < end).then(|| PairRange { pair_type, group, first, pairs: &self.pairs[first..end] })
         })
     }
 }
 
 /// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
 #[inline]
-fn stays_apart(kind: Kind, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
+fn stays_apart(pair_type: PairType, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
     let (x, v) = (motion.positions(pair), motion.displacements(pair));
-    let separation = kind.separation(&x);
+    let separation = pair_type.separation(&x);
     if separation.squared <= gap * gap {
         return false;
     }
-    // Between the planes at the beginning there is all of the distance. The gap between the shadows on n is the smallest
+    // Between the planes at the beginning there is all of the distance. The gap between the intervals on n is the smallest
     // of several differences, each linear in time: where it is wide enough at the end, too, it always is.
     let n = separation.vector / separation.squared.sqrt();
-    let shadow = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
-    let shadows = [shadow(0), shadow(1), shadow(2), shadow(3)];
-    let (first, second) = shadows.split_at(kind.first_count());
+    let interval = |i: usize| n.dot(x[i] - x[1] + part * v[i]);
+    let intervals = [interval(0), interval(1), interval(2), interval(3)];
+    let (first, second) = intervals.split_at(pair_type.first_count());
     let lowest = first.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = second.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     lowest - highest > gap

@@ -16,8 +16,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::bodies::Motion;
-use super::candidate_set::{CandidateSet, Class};
-use super::distance::Kind;
+use super::candidate_set::{CandidateSet, CollisionGroup};
+use super::distance::PairType;
 
 /// The fraction of its gap above the floor that a pair keeps in one step.
 const KEPT_GAP: f64 = 0.1;
@@ -34,24 +34,24 @@ const MAX_ADVANCES: usize = 256;
 /// Pairs a thread takes at once.
 const CHUNK: usize = 1024;
 
-/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `floor` of its class plus a
+/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `floor` of its group plus a
 /// tenth of its initial gap above it. 0 if a pair at or below the floor approaches.
 ///
 /// The same bits for any number of threads.
-pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(Class) -> f64, limit: f64) -> f64 {
+pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(CollisionGroup) -> f64, limit: f64) -> f64 {
     // The smallest answer so far, shared to cut other pairs off. A pair advances by a sequence of times that does not
     // depend on this bound and only grows towards its own answer, so it is cut off only if its own answer is not
     // below the bound. The pair with the smallest answer therefore always gets there, or finds that very number
     // already in place: the result is the minimum over all pairs, whatever the order. The bit patterns of
     // non-negative numbers are ordered as the numbers are.
     let shared = AtomicU64::new(limit.max(0.0).to_bits());
-    for run in candidates.runs(0..candidates.len()) {
-        let floor = floor(run.class);
+    for run in candidates.ranges(0..candidates.len()) {
+        let floor = floor(run.group);
         run.pairs.par_chunks(CHUNK).for_each(|chunk| {
             for &pair in chunk {
                 let bound = f64::from_bits(shared.load(Ordering::Relaxed));
                 let (x, v) = (motion.positions(pair), motion.displacements(pair));
-                let answer = pair_step(run.kind, &x, &v, floor, bound);
+                let answer = pair_step(run.pair_type, &x, &v, floor, bound);
                 if answer < bound {
                     shared.fetch_min(answer.to_bits(), Ordering::Relaxed);
                 }
@@ -62,15 +62,15 @@ pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(Class
 }
 
 /// The largest part of the motion `v`, at most `bound`, during which the pair at `x` keeps its distance.
-pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: f64) -> f64 {
+pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: f64) -> f64 {
     // Relative coordinates keep their digits where the pair is small or moves as one.
     let base = x[1];
     let x = [x[0] - base, x[1] - base, x[2] - base, x[3] - base];
     let mean = 0.25 * (v[0] + v[1] + v[2] + v[3]);
     let v = [v[0] - mean, v[1] - mean, v[2] - mean, v[3] - mean];
-    let first_count = kind.first_count();
+    let first_count = pair_type.first_count();
 
-    let mut separation = kind.separation(&x);
+    let mut separation = pair_type.separation(&x);
     let mut distance = separation.squared.sqrt();
     let target = if distance > floor {
         floor + KEPT_GAP * (distance - floor)
@@ -89,7 +89,7 @@ pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: 
     for advance in 0..MAX_ADVANCES {
         if advance > 0 {
             let moved = std::array::from_fn(|i| x[i] + time * v[i]);
-            separation = kind.separation(&moved);
+            separation = pair_type.separation(&moved);
             distance = separation.squared.sqrt();
             if distance - target <= close {
                 return time;
@@ -112,7 +112,7 @@ pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: 
         if tau <= 0.0 {
             // The gap is so small against the primitives that rounding has turned n. The distance itself is still
             // good, and so is the bound by norms.
-            tau = (distance - target) / speed_bound(kind, &v);
+            tau = (distance - target) / speed_bound(pair_type, &v);
         }
         time += tau;
         if time >= bound {
@@ -124,8 +124,8 @@ pub fn pair_step(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: 
 
 /// A bound on the relative speed of any two points of the primitives.
 #[cold]
-fn speed_bound(kind: Kind, v: &[DVec3; 4]) -> f64 {
-    let (first, second) = v.split_at(kind.first_count());
+fn speed_bound(pair_type: PairType, v: &[DVec3; 4]) -> f64 {
+    let (first, second) = v.split_at(pair_type.first_count());
     let fastest = |v: &[DVec3]| v.iter().map(|p| p.length_squared()).fold(0.0, f64::max).sqrt();
     fastest(first) + fastest(second)
 }

@@ -10,20 +10,20 @@ use crate::geometry::closest_point::segment_parameter;
 
 /// The two kinds of pairs that can touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum PairType {
     /// Vertex 0 against the triangle of vertices 1, 2, 3.
     PointTriangle,
     /// The edge of vertices 0, 1 against the edge of vertices 2, 3.
     EdgeEdge,
 }
 
-impl Kind {
+impl PairType {
     /// The closest points of the pair at `x`.
     #[inline]
     pub fn separation(self, x: &[DVec3; 4]) -> Separation {
         match self {
-            Kind::PointTriangle => point_triangle(x),
-            Kind::EdgeEdge => edge_edge(x),
+            PairType::PointTriangle => point_triangle(x),
+            PairType::EdgeEdge => edge_edge(x),
         }
     }
 
@@ -31,21 +31,21 @@ impl Kind {
     #[inline]
     pub fn first_count(self) -> usize {
         match self {
-            Kind::PointTriangle => 1,
-            Kind::EdgeEdge => 2,
+            PairType::PointTriangle => 1,
+            PairType::EdgeEdge => 2,
         }
     }
 
     /// True if the bounding boxes of the two primitives at `x` are more than `gap` apart along an axis: the
     /// distance is then above `gap`. Much cheaper than the distance.
     #[inline]
-    pub fn apart(self, x: &[DVec3; 4], gap: f64) -> bool {
+    pub fn is_beyond(self, x: &[DVec3; 4], gap: f64) -> bool {
         let (low, high) = match self {
-            Kind::PointTriangle => {
+            PairType::PointTriangle => {
                 let (min, max) = (x[1].min(x[2]).min(x[3]), x[1].max(x[2]).max(x[3]));
                 (min - x[0], x[0] - max)
             }
-            Kind::EdgeEdge => (x[2].min(x[3]) - x[0].max(x[1]), x[0].min(x[1]) - x[2].max(x[3])),
+            PairType::EdgeEdge => (x[2].min(x[3]) - x[0].max(x[1]), x[0].min(x[1]) - x[2].max(x[3])),
         };
         low.max(high).max_element() > gap
     }

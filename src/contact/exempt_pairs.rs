@@ -1,39 +1,39 @@
 //! Garment triangles that pass through each other from the start, and what may be let off the barrier for it.
 //!
 //! Two triangles that are apart can only begin to intersect where a point of one meets the other, or two of their edges
-//! meet. A pair of such primitives is *free* where every pair of triangles that it belongs to is tangled already, and
-//! guarded otherwise. So triangles that are apart have all their primitives guarded and stay apart, while tangled ones may
-//! move through each other, and come apart where nothing else is in the way. A tangle only ever gets smaller.
+//! meet. A pair of such primitives is *free* where every pair of triangles that it belongs to is intersecting already, and
+//! guarded otherwise. So triangles that are apart have all their primitives guarded and stay apart, while intersecting ones may
+//! move through each other, and come apart where nothing else is in the way. A exempt only ever gets smaller.
 //!
-//! A guarded pair that also belongs to tangled triangles lies where the surface passes through itself. It cannot be asked to
-//! keep the distance that other pairs keep, and is a class of its own ([`Class::Tangled`]).
+//! A guarded pair that also belongs to intersecting triangles lies where the surface passes through itself. It cannot be asked to
+//! keep the distance that other pairs keep, and is a group of its own ([`CollisionGroup::Intersecting`]).
 
 use std::collections::HashMap;
 
-use super::candidate_set::Class;
-use super::distance::Kind;
+use super::candidate_set::CollisionGroup;
+use super::distance::PairType;
 use super::surface::Surface;
 
-/// The tangled pairs of triangles of one surface, and its free pairs of primitives.
+/// The intersecting pairs of triangles of one surface, and its free pairs of primitives.
 #[derive(Clone, Debug, Default)]
-pub struct Tangle {
+pub struct ExemptPairs {
     /// The lower index first, in ascending order.
     triangle_pairs: Vec<[u32; 2]>,
-    /// The pairs of primitives of tangled triangles, in the form that [`canonical`] gives them; true where they are free.
+    /// The pairs of primitives of intersecting triangles, in the form that [`canonical`] gives them; true where they are free.
     held: HashMap<[u32; 4], bool>,
-    /// For each vertex, whether a tangled triangle has it.
+    /// For each vertex, whether a intersecting triangle has it.
     concerned: Vec<bool>,
 }
 
-impl Tangle {
-    /// The tangle of the given pairs of `surface`'s triangles, in any order.
+impl ExemptPairs {
+    /// The exempt of the given pairs of `surface`'s triangles, in any order.
     pub fn new(surface: &Surface, triangle_pairs: &[[u32; 2]]) -> Self {
         let mut sorted: Vec<[u32; 2]> = triangle_pairs.iter().map(|&[s, t]| [s.min(t), s.max(t)]).collect();
         sorted.sort_unstable();
         sorted.dedup();
-        let mut tangle = Self { triangle_pairs: sorted, ..Self::default() };
-        tangle.find_held(surface);
-        tangle
+        let mut exempt = Self { triangle_pairs: sorted, ..Self::default() };
+        exempt.find_held(surface);
+        exempt
     }
 
     /// True without any pair.
@@ -41,25 +41,25 @@ impl Tangle {
         self.triangle_pairs.is_empty()
     }
 
-    /// The tangled pairs of triangles, the lower index first, in ascending order.
+    /// The intersecting pairs of triangles, the lower index first, in ascending order.
     pub fn triangle_pairs(&self) -> &[[u32; 2]] {
         &self.triangle_pairs
     }
 
-    /// Whether two triangles are tangled.
+    /// Whether two triangles are intersecting.
     pub fn contains(&self, s: u32, t: u32) -> bool {
         self.triangle_pairs.binary_search(&[s.min(t), s.max(t)]).is_ok()
     }
 
-    /// The class of a pair of garment primitives, as the broad phase has it; none where it is free.
+    /// The group of a pair of garment primitives, as the broad phase has it; none where it is free.
     #[inline]
-    pub fn class(&self, kind: Kind, pair: [u32; 4]) -> Option<Class> {
+    pub fn group(&self, pair_type: PairType, pair: [u32; 4]) -> Option<CollisionGroup> {
         if self.is_empty() || !pair.iter().all(|&v| self.concerned[v as usize]) {
-            return Some(Class::Garment);
+            return Some(CollisionGroup::Garment);
         }
-        match self.held.get(&canonical(kind, pair)) {
-            None => Some(Class::Garment),
-            Some(false) => Some(Class::Tangled),
+        match self.held.get(&canonical(pair_type, pair)) {
+            None => Some(CollisionGroup::Garment),
+            Some(false) => Some(CollisionGroup::Intersecting),
             Some(true) => None,
         }
     }
@@ -69,10 +69,10 @@ impl Tangle {
         let around = Around::new(surface, self.triangle_pairs.iter().flatten().copied());
         let mut held = HashMap::new();
         for &[s, t] in &self.triangle_pairs {
-            for (kind, pair) in primitive_pairs(surface, s, t) {
+            for (pair_type, pair) in primitive_pairs(surface, s, t) {
                 pair.iter().for_each(|&v| self.concerned[v as usize] = true);
-                held.entry(canonical(kind, pair))
-                    .or_insert_with(|| around.all_triangle_pairs(surface, kind, pair, |s, t| self.contains(s, t)));
+                held.entry(canonical(pair_type, pair))
+                    .or_insert_with(|| around.all_triangle_pairs(surface, pair_type, pair, |s, t| self.contains(s, t)));
             }
         }
         self.held = held;
@@ -81,14 +81,14 @@ impl Tangle {
 
 /// The pairs of triangles of `surface` that hold any of the given pairs of primitives, the lower index first, in ascending
 /// order.
-pub fn triangle_pairs_of(surface: &Surface, pairs: &[(Kind, [u32; 4])]) -> Vec<[u32; 2]> {
+pub fn triangle_pairs_of(surface: &Surface, pairs: &[(PairType, [u32; 4])]) -> Vec<[u32; 2]> {
     if pairs.is_empty() {
         return Vec::new();
     }
     let around = Around::new(surface, 0..surface.triangles.len() as u32);
     let mut found = Vec::new();
-    for &(kind, pair) in pairs {
-        around.all_triangle_pairs(surface, kind, pair, |s, t| {
+    for &(pair_type, pair) in pairs {
+        around.all_triangle_pairs(surface, pair_type, pair, |s, t| {
             found.push([s.min(t), s.max(t)]);
             true
         });
@@ -102,14 +102,14 @@ pub fn triangle_pairs_of(surface: &Surface, pairs: &[(Kind, [u32; 4])]) -> Vec<[
 /// triangle in descending order; of two edges, each has its lower end first and the lower edge leads. The order of the last
 /// two tells the kinds apart.
 #[inline]
-fn canonical(kind: Kind, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
-    match kind {
-        Kind::PointTriangle => {
+fn canonical(pair_type: PairType, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
+    match pair_type {
+        PairType::PointTriangle => {
             let mut corners = [b, c, d];
             corners.sort_unstable();
             [a, corners[2], corners[1], corners[0]]
         }
-        Kind::EdgeEdge => {
+        PairType::EdgeEdge => {
             let (e, f) = ([a.min(b), a.max(b)], [c.min(d), c.max(d)]);
             let [[a, b], [c, d]] = if e < f { [e, f] } else { [f, e] };
             [a, b, c, d]
@@ -118,20 +118,22 @@ fn canonical(kind: Kind, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
 }
 
 /// The pairs of primitives of two triangles that have no vertex in common.
-fn primitive_pairs(surface: &Surface, s: u32, t: u32) -> Vec<(Kind, [u32; 4])> {
+fn primitive_pairs(surface: &Surface, s: u32, t: u32) -> Vec<(PairType, [u32; 4])> {
     let [p, q] = [s, t].map(|t| surface.triangles[t as usize]);
     let mut pairs = Vec::with_capacity(15);
     for (points, triangle, index) in [(p, q, t), (q, p, s)] {
         let [a, b, c] = triangle;
         if surface.ownership(index).face() {
-            pairs.extend(points.iter().filter(|v| !triangle.contains(v)).map(|&v| (Kind::PointTriangle, [v, a, b, c])));
+            pairs.extend(
+                points.iter().filter(|v| !triangle.contains(v)).map(|&v| (PairType::PointTriangle, [v, a, b, c])),
+            );
         }
     }
     for i in 0..3 {
         for j in 0..3 {
             let ([a, b], [c, d]) = ([p[i], p[(i + 1) % 3]], [q[j], q[(j + 1) % 3]]);
             if a != b && c != d && a != c && a != d && b != c && b != d {
-                pairs.push((Kind::EdgeEdge, [a, b, c, d]));
+                pairs.push((PairType::EdgeEdge, [a, b, c, d]));
             }
         }
     }
@@ -170,17 +172,17 @@ impl Around {
     fn all_triangle_pairs(
         &self,
         surface: &Surface,
-        kind: Kind,
+        pair_type: PairType,
         [a, b, c, d]: [u32; 4],
         mut test: impl FnMut(u32, u32) -> bool,
     ) -> bool {
         let corners = |t: u32| &surface.triangles[t as usize];
-        match kind {
-            Kind::PointTriangle => {
+        match pair_type {
+            PairType::PointTriangle => {
                 let faces = self.of(b).iter().filter(|&&t| corners(t).contains(&c) && corners(t).contains(&d));
                 faces.clone().all(|&t| self.of(a).iter().all(|&s| test(s, t)))
             }
-            Kind::EdgeEdge => {
+            PairType::EdgeEdge => {
                 let at = |p: u32, q: u32| self.of(p).iter().filter(move |&&t| corners(t).contains(&q));
                 at(a, b).all(|&s| at(c, d).all(|&t| test(s, t)))
             }

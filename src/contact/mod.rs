@@ -17,7 +17,7 @@ mod swept;
 
 pub use bodies::{Avatar, Bodies, Configuration, Garment, Motion, Step};
 pub use broad_phase::BroadPhase;
-pub use candidate_set::{CandidateSet, Class};
-pub use distance::Kind;
-pub use exempt_pairs::Tangle;
+pub use candidate_set::{CandidateSet, CollisionGroup};
+pub use distance::PairType;
+pub use exempt_pairs::ExemptPairs;
 pub use surface::Surface;

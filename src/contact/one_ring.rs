@@ -5,11 +5,11 @@ use super::surface::Surface;
 use crate::memory::bytes;
 
 /// A vertex with more triangles around it than these takes no part in the list, whose length grows with their square.
-const MOST_AROUND: usize = 16;
+const MAX_VALENCE: usize = 16;
 
 /// The pairs of primitives, without a vertex in common, of neighbouring triangles of one surface.
 #[derive(Clone, Debug, Default)]
-pub struct Neighbours {
+pub struct OneRingPairs {
     /// A point, then the corners of a triangle.
     pub point_triangle: Vec<[u32; 4]>,
     /// Two edges.
@@ -18,7 +18,7 @@ pub struct Neighbours {
     crowded: Vec<bool>,
 }
 
-impl Neighbours {
+impl OneRingPairs {
     /// Lists the pairs of `surface`. Each is listed by the triangles that own its primitives.
     pub fn new(surface: &Surface) -> Self {
         let mut around: Vec<Vec<u32>> = vec![Vec::new(); surface.vertex_count];
@@ -30,7 +30,7 @@ impl Neighbours {
                 }
             }
         }
-        let crowded = around.iter().map(|triangles| triangles.len() > MOST_AROUND).collect();
+        let crowded = around.iter().map(|triangles| triangles.len() > MAX_VALENCE).collect();
         let mut found = Self { crowded, ..Self::default() };
         for (v, triangles) in (0..).zip(&around) {
             for (k, &s) in triangles.iter().enumerate() {

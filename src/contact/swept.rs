@@ -17,7 +17,7 @@ pub(super) struct Plane {
     /// The unit normal, zero where the triangle has no area.
     pub normal: DVec3,
     /// The smallest coordinate of the triangle along the normal at the beginning and at the end, then the largest.
-    pub shadow: [[f64; 2]; 2],
+    pub interval: [[f64; 2]; 2],
 }
 
 /// One surface during a part of a motion.
@@ -59,8 +59,8 @@ impl SweptSurface {
             let [a, b, c] = surface.triangles[t];
             let (a, b, c) = (&places[a as usize], &places[b as usize], &places[c as usize]);
             let normal = (b[0] - a[0]).cross(c[0] - a[0]).normalize_or_zero();
-            let shadow = [0, 1].map(|end| shadow(normal, a[end], b[end], c[end]));
-            Plane { normal, shadow: [[shadow[0][0], shadow[1][0]], [shadow[0][1], shadow[1][1]]] }
+            let interval = [0, 1].map(|end| interval(normal, a[end], b[end], c[end]));
+            Plane { normal, interval: [[interval[0][0], interval[1][0]], [interval[0][1], interval[1][1]]] }
         });
         let vertices = &self.vertices;
         self.tree.refit(|t| triangle_box(vertices, surface.triangles[t as usize]));
@@ -69,7 +69,7 @@ impl SweptSurface {
 
 /// The smallest and the largest coordinate of three points along `n`.
 #[inline]
-pub(super) fn shadow(n: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
+pub(super) fn interval(n: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
     let (a, b, c) = (n.dot(a), n.dot(b), n.dot(c));
     [a.min(b).min(c), a.max(b).max(c)]
 }

@@ -13,14 +13,14 @@ use rayon::prelude::*;
 
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
-use crate::contact::{Bodies, CandidateSet, Class, Kind, mollifier};
+use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, mollifier};
 
 /// Candidates a thread takes at once.
 const CHUNK: usize = 2048;
 
-/// d-hat of tangled pairs in d-hat of the garment. Where the surface passes through itself there is no room for more. The
+/// d-hat of intersecting pairs in d-hat of the garment. Where the surface passes through itself there is no room for more. The
 /// barrier's force at a given part of d-hat grows with the cube of d-hat, so these pairs weigh more.
-const TANGLED_SHARE: f64 = 1.0 / 16.0;
+const INTERSECTING_SHARE: f64 = 1.0 / 16.0;
 
 /// The shape of the barrier. Lengths are in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +31,8 @@ pub struct BarrierSettings {
     pub dhat_avatar: f64,
     /// Distance that no pair may reach.
     pub floor: f64,
-    /// The same for tangled pairs.
-    pub tangled_floor: f64,
+    /// The same for intersecting pairs.
+    pub min_separation_intersecting: f64,
     /// Factor on the pairs with the avatar.
     pub avatar_weight: f64,
 }
@@ -48,36 +48,42 @@ pub struct Narrowing {
 
 impl Default for BarrierSettings {
     fn default() -> Self {
-        Self { dhat_self: 0.002, dhat_avatar: 0.002, floor: 1e-5, tangled_floor: 1e-5, avatar_weight: 1.0 }
+        Self {
+            dhat_self: 0.002,
+            dhat_avatar: 0.002,
+            floor: 1e-5,
+            min_separation_intersecting: 1e-5,
+            avatar_weight: 1.0,
+        }
     }
 }
 
 impl BarrierSettings {
-    /// Distance below which a class repels.
+    /// Distance below which a group repels.
     #[inline]
-    pub fn dhat(&self, class: Class) -> f64 {
-        match class {
-            Class::Garment => self.dhat_self,
-            Class::Avatar => self.dhat_avatar,
-            Class::Tangled => TANGLED_SHARE * self.dhat_self,
+    pub fn dhat(&self, group: CollisionGroup) -> f64 {
+        match group {
+            CollisionGroup::Garment => self.dhat_self,
+            CollisionGroup::Avatar => self.dhat_avatar,
+            CollisionGroup::Intersecting => INTERSECTING_SHARE * self.dhat_self,
         }
     }
 
-    /// Distance that no pair of a class may reach.
+    /// Distance that no pair of a group may reach.
     #[inline]
-    pub fn floor(&self, class: Class) -> f64 {
-        match class {
-            Class::Garment | Class::Avatar => self.floor,
-            Class::Tangled => self.tangled_floor,
+    pub fn floor(&self, group: CollisionGroup) -> f64 {
+        match group {
+            CollisionGroup::Garment | CollisionGroup::Avatar => self.floor,
+            CollisionGroup::Intersecting => self.min_separation_intersecting,
         }
     }
 
     #[inline]
-    fn weight(&self, class: Class) -> f64 {
-        match class {
-            Class::Garment => 1.0,
-            Class::Avatar => self.avatar_weight,
-            Class::Tangled => TANGLED_SHARE.powi(-3),
+    fn weight(&self, group: CollisionGroup) -> f64 {
+        match group {
+            CollisionGroup::Garment => 1.0,
+            CollisionGroup::Avatar => self.avatar_weight,
+            CollisionGroup::Intersecting => INTERSECTING_SHARE.powi(-3),
         }
     }
 }
@@ -87,12 +93,12 @@ impl BarrierSettings {
 pub struct Activity {
     /// Number of pairs closer than their d-hat.
     pub count: usize,
-    /// Smallest distance of the garment from itself but for tangled pairs, infinite if none is below d-hat.
+    /// Smallest distance of the garment from itself but for intersecting pairs, infinite if none is below d-hat.
     pub min_distance_self: f64,
     /// Smallest distance of the garment from the avatar, infinite if none is below d-hat.
     pub min_distance_avatar: f64,
-    /// Smallest distance of a tangled pair, infinite if none is below its d-hat.
-    pub min_distance_tangled: f64,
+    /// Smallest distance of a intersecting pair, infinite if none is below its d-hat.
+    pub min_distance_intersecting: f64,
 }
 
 /// The contact term: the barrier summed over a set of candidates.
@@ -146,16 +152,16 @@ impl Barrier {
     /// The speed of a pair's distance along s at constant force, negated: its component of the border, by h. With f = db/dd,
     /// `-dd/ds = (df/ds + f dln w/ds) / (df/dd)`.
     #[inline]
-    fn drift(&self, class: Class, big_d: f64, dhat: f64, floor: f64, [d, g, h]: [f64; 3]) -> f64 {
+    fn drift(&self, group: CollisionGroup, big_d: f64, dhat: f64, floor: f64, [d, g, h]: [f64; 3]) -> f64 {
         let Some(rates) = self.narrowing else { return 0.0 };
         if h <= 0.0 {
             return 0.0;
         }
-        let by_dhat = if class == Class::Avatar { rates.dhat_avatar } else { 0.0 };
+        let by_dhat = if group == CollisionGroup::Avatar { rates.dhat_avatar } else { 0.0 };
         let big_dhat = dhat * dhat - floor;
         let (q, ln) = ((big_d - big_dhat) / big_d, (big_d / big_dhat).ln());
         let slope = 2.0 * (ln + q + (big_d - big_dhat) / big_dhat);
-        let by_s = 2.0 * d * self.settings.weight(class) * slope * 2.0 * dhat * dhat * by_dhat;
+        let by_s = 2.0 * d * self.settings.weight(group) * slope * 2.0 * dhat * dhat * by_dhat;
         (by_s + g * rates.weight) / h
     }
 
@@ -166,12 +172,12 @@ impl Barrier {
     }
 
     /// The candidates that are closer than `distance` (at most d-hat) at `at`, in order.
-    pub fn nearer_than(&self, distance: f64, at: Configuration<'_>) -> Vec<(Kind, Class, [u32; 4])> {
+    pub fn nearer_than(&self, distance: f64, at: Configuration<'_>) -> Vec<(PairType, CollisionGroup, [u32; 4])> {
         let parts: Vec<Vec<_>> = self.map_chunks(|range| {
             let mut found = Vec::new();
             self.each_close(at, range, |close| {
                 if close.separation.squared < distance * distance {
-                    found.push((close.kind, close.class, close.pair));
+                    found.push((close.pair_type, close.group, close.pair));
                 }
             });
             found
@@ -189,26 +195,26 @@ impl Barrier {
         let mut count = 0;
         self.each_close(at, range, |close| {
             count += 1;
-            let nearest = &mut nearest[close.class as usize];
+            let nearest = &mut nearest[close.group as usize];
             *nearest = nearest.min(close.separation.squared);
         });
-        let [min_distance_self, min_distance_avatar, min_distance_tangled] = nearest.map(f64::sqrt);
-        Activity { count, min_distance_self, min_distance_avatar, min_distance_tangled }
+        let [min_distance_self, min_distance_avatar, min_distance_intersecting] = nearest.map(f64::sqrt);
+        Activity { count, min_distance_self, min_distance_avatar, min_distance_intersecting }
     }
 
     /// Calls `visit` with each candidate in `range` that is closer than its d-hat, in order.
     #[inline]
     fn each_close(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair)) {
-        for run in self.candidates.runs(range) {
-            let dhat = self.settings.dhat(run.class);
+        for run in self.candidates.ranges(range) {
+            let dhat = self.settings.dhat(run.group);
             for &pair in run.pairs {
                 let x = self.bodies.positions(pair, at);
-                if run.kind.apart(&x, dhat) {
+                if run.pair_type.is_beyond(&x, dhat) {
                     continue;
                 }
-                let separation = run.kind.separation(&x);
+                let separation = run.pair_type.separation(&x);
                 if separation.squared < dhat * dhat {
-                    visit(ClosePair { kind: run.kind, class: run.class, pair, x, separation });
+                    visit(ClosePair { pair_type: run.pair_type, group: run.group, pair, x, separation });
                 }
             }
         }
@@ -240,8 +246,8 @@ impl Barrier {
 
 /// A candidate closer than its d-hat.
 struct ClosePair {
-    kind: Kind,
-    class: Class,
+    pair_type: PairType,
+    group: CollisionGroup,
     pair: [u32; 4],
     x: [DVec3; 4],
     separation: Separation,
@@ -252,7 +258,7 @@ impl Activity {
         count: 0,
         min_distance_self: f64::INFINITY,
         min_distance_avatar: f64::INFINITY,
-        min_distance_tangled: f64::INFINITY,
+        min_distance_intersecting: f64::INFINITY,
     };
 
     fn merged(self, other: &Self) -> Self {
@@ -260,7 +266,7 @@ impl Activity {
             count: self.count + other.count,
             min_distance_self: self.min_distance_self.min(other.min_distance_self),
             min_distance_avatar: self.min_distance_avatar.min(other.min_distance_avatar),
-            min_distance_tangled: self.min_distance_tangled.min(other.min_distance_tangled),
+            min_distance_intersecting: self.min_distance_intersecting.min(other.min_distance_intersecting),
         }
     }
 }
@@ -290,9 +296,9 @@ impl Energy for Barrier {
     /// Infinite if a candidate is at or below the floor.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let mut sum = 0.0;
-        self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
-            let dhat = self.settings.dhat(class);
-            let floor = self.settings.floor(class).powi(2);
+        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
+            let dhat = self.settings.dhat(group);
+            let floor = self.settings.floor(group).powi(2);
             let big_d = separation.squared - floor;
             if big_d <= 0.0 {
                 // Not through the mollifier, which may be zero.
@@ -300,33 +306,33 @@ impl Energy for Barrier {
                 return;
             }
             let [b, ..] = barrier(big_d, dhat * dhat - floor);
-            let m = match kind {
-                Kind::PointTriangle => 1.0,
-                Kind::EdgeEdge => mollifier::value(&x, self.mollifier_threshold(pair)),
+            let m = match pair_type {
+                PairType::PointTriangle => 1.0,
+                PairType::EdgeEdge => mollifier::value(&x, self.mollifier_threshold(pair)),
             };
-            sum += self.settings.weight(class) * m * b;
+            sum += self.settings.weight(group) * m * b;
         });
         sum
     }
 
     /// Pairs at or below the floor, where the value is infinite, have none.
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        self.each_close(at, range, |ClosePair { kind, class, pair, x, separation, .. }| {
-            let dhat = self.settings.dhat(class);
-            let floor = self.settings.floor(class).powi(2);
+        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
+            let dhat = self.settings.dhat(group);
+            let floor = self.settings.floor(group).powi(2);
             let big_d = separation.squared - floor;
             if big_d <= 0.0 {
                 return;
             }
-            let [b, db, ddb] = barrier(big_d, dhat * dhat - floor).map(|v| self.settings.weight(class) * v);
-            let (m, slope) = match kind {
-                Kind::PointTriangle => (1.0, None),
-                Kind::EdgeEdge => mollifier::value_and_gradient(&x, self.mollifier_threshold(pair)),
+            let [b, db, ddb] = barrier(big_d, dhat * dhat - floor).map(|v| self.settings.weight(group) * v);
+            let (m, slope) = match pair_type {
+                PairType::PointTriangle => (1.0, None),
+                PairType::EdgeEdge => mollifier::value_and_gradient(&x, self.mollifier_threshold(pair)),
             };
             let d = separation.squared.sqrt();
             let normal = separation.vector / d;
             let (g, h) = (2.0 * d * db, 2.0 * db + 4.0 * separation.squared * ddb);
-            let drift = self.drift(class, big_d, dhat, floor, [d, g, h]);
+            let drift = self.drift(group, big_d, dhat, floor, [d, g, h]);
             self.emit(pair, separation.weights.map(|w| w * normal), drift, [m * g, m * h.max(0.0)], sink);
             if let Some(slope) = slope {
                 self.emit(pair, slope, 0.0, [b, 0.0], sink);

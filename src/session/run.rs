@@ -37,7 +37,7 @@ pub(super) struct Work {
     step: Step,
     field: FieldTask,
     /// Pairs of garment triangles that intersected at the start.
-    pub(super) tangled: Arc<[[u32; 2]]>,
+    pub(super) initial_intersections: Arc<[[u32; 2]]>,
     /// How often the gaps were widened.
     widened: u32,
     /// The gaps are to be widened.
@@ -96,13 +96,13 @@ impl Work {
             avatar_size: body.avatar_size(),
             projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
             separation_floor: objective.contact.floor(),
-            tangled_at_start: objective.contact.tangle().triangle_pairs().len(),
+            initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
             threads,
             ..Report::default()
         };
         report.prepare.collect(&mut newton, &mut objective, clock);
         let (problem, step) = (Arc::new(problem), Step::Inflate(Inflation::default()));
-        let tangled = objective.contact.tangle().triangle_pairs().into();
+        let initial_intersections = objective.contact.exempt_pairs().triangle_pairs().into();
         let options = inputs.options.clone();
         let (widened, is_narrow) = (0, false);
         let mut work = Self {
@@ -117,7 +117,7 @@ impl Work {
             held,
             expected,
             distance: None,
-            tangled,
+            initial_intersections,
             widened,
             is_narrow,
             report,

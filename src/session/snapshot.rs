@@ -23,7 +23,7 @@ pub(super) struct View {
     body: Arc<Body>,
     space: Space,
     /// Pairs of garment triangles that intersected at the start.
-    tangled: Arc<[[u32; 2]]>,
+    initial_intersections: Arc<[[u32; 2]]>,
     /// Welded garment vertices in the normalised space.
     x: Vec<DVec3>,
     /// Inflation parameter.
@@ -39,7 +39,7 @@ impl View {
             problem: work.problem.clone(),
             body: work.body.clone(),
             space,
-            tangled: work.tangled.clone(),
+            initial_intersections: work.initial_intersections.clone(),
             x: work.state.x.clone(),
             t: work.state.t,
             iteration: work.iterations(),
@@ -82,6 +82,6 @@ impl View {
     pub(super) fn judge(&self, precision: Precision, cancel: &Cancel) -> Result<Judgement> {
         let positions = self.x.iter().map(|&p| precision.round(self.restored(p))).collect();
         let garment = TriangleMesh { positions, triangles: self.problem.triangles.clone() };
-        Judgement::new(&garment, &self.problem.weld, &self.body, &self.tangled, cancel)
+        Judgement::new(&garment, &self.problem.weld, &self.body, &self.initial_intersections, cancel)
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct Judgement {
 }
 
 impl Judgement {
-    /// Judges the welded `garment`, of which the pairs of triangles in `tangled`, in ascending order, intersected at the
+    /// Judges the welded `garment`, of which the pairs of triangles in `initial_intersections`, in ascending order, intersected at the
     /// start.
     ///
     /// # Errors
@@ -31,13 +31,13 @@ impl Judgement {
         garment: &TriangleMesh,
         weld: &Weld,
         body: &Arc<Body>,
-        tangled: &[[u32; 2]],
+        initial_intersections: &[[u32; 2]],
         cancel: &Cancel,
     ) -> Result<Self> {
         let own = intersections_with_cancel(garment, None, usize::MAX, cancel)?;
         let avatar = intersections_with_cancel(garment, Some(&body.mesh), usize::MAX, cancel)?;
         let callers = |t: u32| weld.triangle_of[t as usize];
-        let new = own.pairs.iter().filter(|pair| tangled.binary_search(pair).is_err());
+        let new = own.pairs.iter().filter(|pair| initial_intersections.binary_search(pair).is_err());
         let new: Vec<[u32; 2]> = new.map(|pair| pair.map(callers)).collect();
         Ok(Self {
             counted: Verification {

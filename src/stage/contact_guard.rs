@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::setup::contact_distances::{Gaps, NO_DISTANCE};
 use crate::contact::exempt_pairs::triangle_pairs_of;
-use crate::contact::{Bodies, BroadPhase, Class, Configuration, Motion, Step, Tangle, ccd};
+use crate::contact::{Bodies, BroadPhase, CollisionGroup, Configuration, ExemptPairs, Motion, Step, ccd};
 use crate::control::{Cancel, Cancelled};
 use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
 use crate::error::Result;
@@ -97,23 +97,24 @@ impl ContactGuard {
         self.narrow_pairs(1.0);
     }
 
-    /// Settles at `at` for the first time: the pairs of garment triangles in `tangled` intersect there, and are let off
+    /// Settles at `at` for the first time: the pairs of garment triangles in `initial_intersections` intersect there, and are let off
     /// together with what touches within rounding. Lowers the floor below all that is guarded.
-    pub fn begin(&mut self, at: Configuration<'_>, tangled: &[[u32; 2]]) {
-        self.entangle(at, tangled.to_vec(), |_, _| true);
+    pub fn begin(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
+        self.entangle(at, initial_intersections.to_vec(), |_, _| true);
         self.fit_floors(at, [0.0; 2]);
     }
 
-    /// Goes on from `previous`, the contact of the same garment: with its tangle and its floor.
+    /// Goes on from `previous`, the contact of the same garment: with its exempt and its floor.
     pub fn take_over(&mut self, previous: &Self) {
-        self.broad_phase.set_tangle(previous.broad_phase.tangle().clone());
+        self.broad_phase.set_exempt_pairs(previous.broad_phase.exempt_pairs().clone());
         self.set_floors(previous.floors());
     }
 
     /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
     fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
         let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
-        let own = near.filter(|&(_, class, _)| class != Class::Avatar).map(|(kind, _, pair)| (kind, pair));
+        let own =
+            near.filter(|&(_, group, _)| group != CollisionGroup::Avatar).map(|(pair_type, _, pair)| (pair_type, pair));
         triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
     }
 
@@ -125,14 +126,14 @@ impl ContactGuard {
     pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.floors();
         let released = self.release(at)?;
-        if released || before[0] < self.gaps.floor || !self.tangle().is_empty() {
+        if released || before[0] < self.gaps.floor || !self.exempt_pairs().is_empty() {
             self.fit_floors(at, before);
         }
         Ok(released || self.floors() != before)
     }
 
     fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
-        let before = self.broad_phase.tangle();
+        let before = self.broad_phase.exempt_pairs();
         if before.is_empty() {
             return Ok(false);
         }
@@ -145,16 +146,16 @@ impl ContactGuard {
         let before = before.clone();
         // What is apart by no more than rounding stays let off, and nothing is let off anew.
         self.entangle(at, pairs, |s, t| before.contains(s, t));
-        Ok(self.tangle().triangle_pairs().len() < before.triangle_pairs().len())
+        Ok(self.exempt_pairs().triangle_pairs().len() < before.triangle_pairs().len())
     }
 
-    /// Makes a tangle of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
+    /// Makes a exempt of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
     fn entangle(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
         loop {
-            self.broad_phase.set_tangle(Tangle::new(&self.bodies.garment.surface, &pairs));
+            self.broad_phase.set_exempt_pairs(ExemptPairs::new(&self.bodies.garment.surface, &pairs));
             self.settle(at);
-            let tangle = self.tangle();
-            let joins = |&[s, t]: &[u32; 2]| may(s, t) && !tangle.contains(s, t);
+            let exempt = self.exempt_pairs();
+            let joins = |&[s, t]: &[u32; 2]| may(s, t) && !exempt.contains(s, t);
             let joining: Vec<[u32; 2]> = self.touching(at).into_iter().filter(joins).collect();
             if joining.is_empty() {
                 return;
@@ -167,13 +168,16 @@ impl ContactGuard {
     /// below all distances, unless something newly guarded is nearer than that.
     fn fit_floors(&mut self, at: Configuration<'_>, before: [f64; 2]) {
         let near = self.barrier.activity(at);
-        let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_tangled];
-        let wanted = [self.gaps.floor, self.gaps.floor.min(FLOOR_SHARE * self.barrier.settings().dhat(Class::Tangled))];
-        let [floor, tangled_floor] = std::array::from_fn(|k| {
+        let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_intersecting];
+        let wanted = [
+            self.gaps.floor,
+            self.gaps.floor.min(FLOOR_SHARE * self.barrier.settings().dhat(CollisionGroup::Intersecting)),
+        ];
+        let [floor, min_separation_intersecting] = std::array::from_fn(|k| {
             let fitting = (FLOOR_SHARE * nearest[k]).min(wanted[k]);
             if nearest[k] > before[k] { fitting.max(before[k].min(wanted[k])) } else { fitting }
         });
-        self.set_floors([floor, tangled_floor]);
+        self.set_floors([floor, min_separation_intersecting]);
     }
 
     /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
@@ -187,27 +191,27 @@ impl ContactGuard {
         self.gaps
     }
 
-    /// The distance that no pair falls below, but for the tangled ones.
+    /// The distance that no pair falls below, but for the initial_intersections ones.
     pub fn floor(&self) -> f64 {
         self.barrier.settings().floor
     }
 
-    /// That, and the same for the tangled pairs.
+    /// That, and the same for the initial_intersections pairs.
     fn floors(&self) -> [f64; 2] {
         let settings = self.barrier.settings();
-        [settings.floor, settings.tangled_floor]
+        [settings.floor, settings.min_separation_intersecting]
     }
 
-    fn set_floors(&mut self, [floor, tangled_floor]: [f64; 2]) {
-        let settings = BarrierSettings { floor, tangled_floor, ..*self.barrier.settings() };
+    fn set_floors(&mut self, [floor, min_separation_intersecting]: [f64; 2]) {
+        let settings = BarrierSettings { floor, min_separation_intersecting, ..*self.barrier.settings() };
         if settings != *self.barrier.settings() {
             self.barrier.set_settings(settings);
         }
     }
 
     /// The garment triangles that still pass through each other.
-    pub fn tangle(&self) -> &Tangle {
-        self.broad_phase.tangle()
+    pub fn exempt_pairs(&self) -> &ExemptPairs {
+        self.broad_phase.exempt_pairs()
     }
 
     /// Sets where the barrier towards the avatar begins. The pairs must be found again by [`Self::settle`].
@@ -244,7 +248,7 @@ impl ContactGuard {
             }
             let settings = self.barrier.settings();
             let clock = Instant::now();
-            let free = ccd::max_step(&self.motion, self.barrier.candidates(), |class| settings.floor(class), part);
+            let free = ccd::max_step(&self.motion, self.barrier.candidates(), |group| settings.floor(group), part);
             self.profile.ccd += clock.elapsed();
             if free < part || part >= longest {
                 self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
@@ -287,6 +291,6 @@ impl ContactGuard {
     /// Leaves of the pairs those that come within their d-hat during the first `part` of the motion.
     fn narrow_pairs(&mut self, part: f64) {
         let settings = *self.barrier.settings();
-        self.barrier.candidates_mut().retain_near(&self.motion, part, |class| settings.dhat(class));
+        self.barrier.candidates_mut().retain_near(&self.motion, part, |group| settings.dhat(group));
     }
 }

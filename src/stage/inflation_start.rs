@@ -11,7 +11,7 @@ use crate::options::Options;
 
 impl Problem {
     /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its separation floor is lower than the
-    /// option's where the garment is nearer to itself or the skeleton than that; its tangle holds the triangles that
+    /// option's where the garment is nearer to itself or the skeleton than that; its exempt holds the triangles that
     /// intersect or touch at the start.
     ///
     /// # Errors
@@ -32,11 +32,11 @@ impl Problem {
         };
         let bodies = self.bodies(avatar);
         let mut objective = Objective::new(self.shape.clone(), None, bodies, self.gaps, options, cancel.clone());
-        objective.contact.begin(at, &self.tangled);
-        let tangled = objective.contact.tangle().triangle_pairs();
-        report_tangle(self, tangled, options.strict, findings);
-        if options.strict && !tangled.is_empty() {
-            return Err(intersects_itself(self, tangled));
+        objective.contact.begin(at, &self.initial_intersections);
+        let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
+        report_tangle(self, initial_intersections, options.strict, findings);
+        if options.strict && !initial_intersections.is_empty() {
+            return Err(intersects_itself(self, initial_intersections));
         }
         let near = objective.contact.activity(at);
         if near.min_distance_avatar < NO_DISTANCE {
@@ -78,9 +78,13 @@ impl Problem {
 }
 
 /// The garment's triangles that intersect before anything has moved.
-fn report_tangle(problem: &Problem, tangled: &[[u32; 2]], strict: bool, findings: &mut Vec<Finding>) {
+fn report_tangle(problem: &Problem, initial_intersections: &[[u32; 2]], strict: bool, findings: &mut Vec<Finding>) {
     let finding = |pair: &[u32; 2]| {
-        let how = if problem.tangled.binary_search(pair).is_ok() { "intersect" } else { "touch within rounding" };
+        let how = if problem.initial_intersections.binary_search(pair).is_ok() {
+            "intersect"
+        } else {
+            "touch within rounding"
+        };
         let [s, t] = pair.map(|t| problem.weld.triangle_of[t as usize]);
         let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
         let (severity, fate) = match strict {
@@ -92,7 +96,12 @@ fn report_tangle(problem: &Problem, tangled: &[[u32; 2]], strict: bool, findings
         let sentence = format!("garment: triangles {s} and {t} {how} before anything has moved, {fate}");
         Finding::new(FindingKind::SelfIntersection, severity, &elements, sentence)
     };
-    describe(findings, tangled, finding, "pairs of garment triangles intersect before anything has moved");
+    describe(
+        findings,
+        initial_intersections,
+        finding,
+        "pairs of garment triangles intersect before anything has moved",
+    );
 }
 
 fn intersects_itself(problem: &Problem, pairs: &[[u32; 2]]) -> Error {

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use bespoke::contact::{
-    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface,
+    Avatar, Bodies, BroadPhase, CandidateSet, CollisionGroup, Configuration, Garment, Motion, PairType, Step, Surface,
 };
 use glam::DVec3;
 
@@ -55,19 +55,23 @@ fn boxes(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2]) -> [BTr
 
 /// The pairs of a run with garment edges in ascending order; fails on a pair that occurs twice. A face that is
 /// listed twice in the surface is two faces.
-fn sorted(set: &CandidateSet, kind: Kind, class: Class, faces_differ: bool) -> BTreeSet<[u32; 4]> {
-    let pairs = set.of(kind, class).iter().map(|&[a, b, c, d]| {
-        if kind == Kind::EdgeEdge && class == Class::Garment && [a, b] > [c, d] { [c, d, a, b] } else { [a, b, c, d] }
+fn sorted(set: &CandidateSet, kind: PairType, group: CollisionGroup, faces_differ: bool) -> BTreeSet<[u32; 4]> {
+    let pairs = set.of(kind, group).iter().map(|&[a, b, c, d]| {
+        if kind == PairType::EdgeEdge && group == CollisionGroup::Garment && [a, b] > [c, d] {
+            [c, d, a, b]
+        } else {
+            [a, b, c, d]
+        }
     });
     let unique: BTreeSet<_> = pairs.collect();
-    if faces_differ || kind == Kind::EdgeEdge {
-        assert_eq!(unique.len(), set.of(kind, class).len(), "a pair occurs twice");
+    if faces_differ || kind == PairType::EdgeEdge {
+        assert_eq!(unique.len(), set.of(kind, group).len(), "a pair occurs twice");
     }
     unique
 }
 
 /// Whether a pair is found nearer than `margin` at one of many times.
-fn comes_near(kind: Kind, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
+fn comes_near(kind: PairType, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
     let distance = |k: usize| {
         let place = pair.map(|v| motion.position(v, part * k as f64 / 40.0));
         kind.separation(&place).squared.sqrt()
@@ -83,22 +87,22 @@ fn check(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2], out: &C
     let unique_faces = |s: &Surface| s.triangles.iter().collect::<BTreeSet<_>>().len() == s.triangles.len();
     let differ = unique_faces(&bodies.garment.surface) && unique_faces(&bodies.avatar.surface);
     let mut left_out = 0;
-    for (k, (kind, class)) in RUNS.into_iter().enumerate() {
-        let found = sorted(out, kind, class, differ);
-        assert!(found.is_subset(&outside[k]), "{kind:?} {class:?}");
+    for (k, (kind, group)) in RUNS.into_iter().enumerate() {
+        let found = sorted(out, kind, group, differ);
+        assert!(found.is_subset(&outside[k]), "{kind:?} {group:?}");
         for &pair in inside[k].difference(&found) {
-            assert!(!comes_near(kind, motion, part, margins[k / 2], pair), "{kind:?} {class:?} {pair:?}");
+            assert!(!comes_near(kind, motion, part, margins[k / 2], pair), "{kind:?} {group:?} {pair:?}");
             left_out += 1;
         }
     }
     left_out
 }
 
-const RUNS: [(Kind, Class); 4] = [
-    (Kind::PointTriangle, Class::Garment),
-    (Kind::EdgeEdge, Class::Garment),
-    (Kind::PointTriangle, Class::Avatar),
-    (Kind::EdgeEdge, Class::Avatar),
+const RUNS: [(PairType, CollisionGroup); 4] = [
+    (PairType::PointTriangle, CollisionGroup::Garment),
+    (PairType::EdgeEdge, CollisionGroup::Garment),
+    (PairType::PointTriangle, CollisionGroup::Avatar),
+    (PairType::EdgeEdge, CollisionGroup::Avatar),
 ];
 
 #[test]
@@ -128,7 +132,7 @@ fn broad_phase_misses_nothing_that_brute_force_finds() {
 /// not much else does.
 #[test]
 fn narrowing_keeps_all_that_comes_near() {
-    let margin = |class: Class| if class == Class::Garment { 0.01 } else { 0.02 };
+    let margin = |group: CollisionGroup| if group == CollisionGroup::Garment { 0.01 } else { 0.02 };
     let (mut near, mut kept) = (0, 0);
     for seed in 0..6 {
         let scene = Scene::random(seed, 0.2);
@@ -139,10 +143,10 @@ fn narrowing_keeps_all_that_comes_near() {
         for part in [0.0, 0.1, 1.0] {
             let mut some = all.clone();
             some.retain_near(&motion, part, margin);
-            for (kind, class) in RUNS {
-                let mut left = some.of(kind, class).iter().copied().peekable();
-                for &pair in all.of(kind, class) {
-                    let is_near = comes_near(kind, &motion, part, margin(class), pair);
+            for (kind, group) in RUNS {
+                let mut left = some.of(kind, group).iter().copied().peekable();
+                for &pair in all.of(kind, group) {
+                    let is_near = comes_near(kind, &motion, part, margin(group), pair);
                     let is_kept = left.next_if_eq(&pair).is_some();
                     assert!(is_kept || !is_near, "{kind:?} {pair:?}");
                     near += usize::from(is_near);
@@ -188,7 +192,7 @@ fn empty_surfaces_and_no_motion() {
     let motion = Motion::new(&bodies, at, None);
     BroadPhase::new(&bodies).candidates(&bodies, &motion, 1.0, 1e-3, 1e-3, &mut out);
     check(&bodies, &motion, 1.0, [1e-3; 2], &out);
-    assert!(out.of(Kind::PointTriangle, Class::Avatar).is_empty());
+    assert!(out.of(PairType::PointTriangle, CollisionGroup::Avatar).is_empty());
 
     let (start, triangles) = grid(2);
     let bodies = Bodies {
@@ -229,16 +233,16 @@ fn runs_cover_ranges() {
     for start in 0..=9 {
         for end in start..=9 {
             let mut next = start;
-            for run in set.runs(start..end) {
+            for run in set.ranges(start..end) {
                 assert_eq!(run.first, next);
                 for (k, pair) in run.pairs.iter().enumerate() {
                     assert_eq!(set.pairs()[next + k], *pair);
-                    assert!(set.of(run.kind, run.class).contains(pair));
+                    assert!(set.of(run.pair_type, run.group).contains(pair));
                 }
                 next += run.pairs.len();
             }
             assert_eq!(next, end);
         }
     }
-    assert_eq!(set.of(Kind::EdgeEdge, Class::Avatar), [[2; 4]; 4]);
+    assert_eq!(set.of(PairType::EdgeEdge, CollisionGroup::Avatar), [[2; 4]; 4]);
 }

@@ -1,6 +1,6 @@
 use bespoke::contact::ccd::{max_step, pair_step};
 use bespoke::contact::{
-    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface,
+    Avatar, Bodies, BroadPhase, CandidateSet, CollisionGroup, Configuration, Garment, Motion, PairType, Step, Surface,
 };
 use glam::DVec3;
 
@@ -10,12 +10,12 @@ use testing::Random;
 
 const FLOOR: f64 = 1e-5;
 
-fn distance(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
+fn distance(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
     kind.separation(&std::array::from_fn(|i| x[i] + time * v[i])).squared.sqrt()
 }
 
 /// Samples the motion up to `answer` and asserts that the distance stays at the promised target.
-fn check_safe(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, answer: f64) {
+fn check_safe(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, answer: f64) {
     let first = distance(kind, x, v, 0.0);
     let target = floor + 0.1 * (first - floor);
     for k in 0..=400 {
@@ -25,7 +25,7 @@ fn check_safe(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, answer: f6
 }
 
 /// The first sampled time at which the distance is at or below the floor.
-fn time_of_impact(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64) -> Option<f64> {
+fn time_of_impact(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64) -> Option<f64> {
     (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= floor)
 }
 
@@ -147,9 +147,9 @@ fn sliding_past_each_other_costs_nothing() {
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * SIZE;
     let lift = DVec3::Z * gap;
     let cases = [
-        (Kind::PointTriangle, [p(0.1, 0.1, 0.0) + lift, p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)]),
-        (Kind::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(0., -1., 0.), p(0., 1., 0.)]),
-        (Kind::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(-1., 0., 0.), p(1., 0., 0.)]),
+        (PairType::PointTriangle, [p(0.1, 0.1, 0.0) + lift, p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)]),
+        (PairType::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(0., -1., 0.), p(0., 1., 0.)]),
+        (PairType::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(-1., 0., 0.), p(1., 0., 0.)]),
     ];
     for (kind, x) in cases {
         let slide = p(0.4, 0.3, 0.0);
@@ -175,8 +175,8 @@ fn pairs_below_the_floor_may_only_part() {
             assert_eq!(pair_step(kind, &x, &[DVec3::ZERO; 4], FLOOR, 1.0), 1.0);
         }
         let touching = match kind {
-            Kind::PointTriangle => [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ZERO],
-            Kind::EdgeEdge => [-DVec3::X, DVec3::X, -DVec3::Y, DVec3::Y],
+            PairType::PointTriangle => [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ZERO],
+            PairType::EdgeEdge => [-DVec3::X, DVec3::X, -DVec3::Y, DVec3::Y],
         };
         assert_eq!(kind.separation(&touching).squared, 0.0);
         assert_eq!(pair_step(kind, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], FLOOR, 1.0), 0.0);
@@ -186,10 +186,10 @@ fn pairs_below_the_floor_may_only_part() {
 
 /// The smallest distance over all candidates at a time of the step.
 fn smallest(motion: &Motion, set: &CandidateSet, time: f64) -> f64 {
-    let distances = set.runs(0..set.len()).flat_map(|run| {
+    let distances = set.ranges(0..set.len()).flat_map(|run| {
         run.pairs.iter().map(move |&pair| {
             let (x, v) = (motion.positions(pair), motion.displacements(pair));
-            distance(run.kind, &x, &v, time)
+            distance(run.pair_type, &x, &v, time)
         })
     });
     distances.fold(f64::INFINITY, f64::min)
@@ -206,22 +206,22 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         let motion = Motion::new(&scene.bodies, at, Some(&step));
         BroadPhase::new(&scene.bodies).candidates(&scene.bodies, &motion, 1.0, 0.01, 0.01, &mut all);
         // The soup crosses itself; keep what is apart.
-        let apart = |kind: Kind, class: Class| -> Vec<[u32; 4]> {
+        let apart = |kind: PairType, group: CollisionGroup| -> Vec<[u32; 4]> {
             let far = |pair: &&[u32; 4]| kind.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
-            all.of(kind, class).iter().filter(far).copied().collect()
+            all.of(kind, group).iter().filter(far).copied().collect()
         };
         let set = CandidateSet::new(
-            &apart(Kind::PointTriangle, Class::Garment),
-            &apart(Kind::EdgeEdge, Class::Garment),
-            &apart(Kind::PointTriangle, Class::Avatar),
-            &apart(Kind::EdgeEdge, Class::Avatar),
+            &apart(PairType::PointTriangle, CollisionGroup::Garment),
+            &apart(PairType::EdgeEdge, CollisionGroup::Garment),
+            &apart(PairType::PointTriangle, CollisionGroup::Avatar),
+            &apart(PairType::EdgeEdge, CollisionGroup::Avatar),
         );
         assert!(set.len() > 1000);
         let mut least = 1.0_f64;
-        for run in set.runs(0..set.len()) {
+        for run in set.ranges(0..set.len()) {
             for &pair in run.pairs {
                 let (x, v) = (motion.positions(pair), motion.displacements(pair));
-                least = least.min(pair_step(run.kind, &x, &v, FLOOR, 1.0));
+                least = least.min(pair_step(run.pair_type, &x, &v, FLOOR, 1.0));
             }
         }
         for threads in [1, 2, 4] {

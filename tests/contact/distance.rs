@@ -1,4 +1,4 @@
-use bespoke::contact::Kind;
+use bespoke::contact::PairType;
 use bespoke::contact::distance::Separation;
 use glam::DVec3;
 
@@ -13,10 +13,10 @@ fn point_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 }
 
 /// Squared distance by ternary search over a family of segments or points: a convex function of one parameter.
-pub fn searched(kind: Kind, x: &[DVec3; 4]) -> f64 {
+pub fn searched(kind: PairType, x: &[DVec3; 4]) -> f64 {
     let at = |s: f64| match kind {
-        Kind::PointTriangle => point_segment(x[0], x[1].lerp(x[2], s), x[1].lerp(x[3], s)),
-        Kind::EdgeEdge => point_segment(x[0].lerp(x[1], s), x[2], x[3]),
+        PairType::PointTriangle => point_segment(x[0], x[1].lerp(x[2], s), x[1].lerp(x[3], s)),
+        PairType::EdgeEdge => point_segment(x[0].lerp(x[1], s), x[2], x[3]),
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..90 {
@@ -28,7 +28,7 @@ pub fn searched(kind: Kind, x: &[DVec3; 4]) -> f64 {
 
 /// The largest lower bound on the distance that the separation proves by itself: the gap between the projections onto
 /// its direction. Relative to the distance it claims.
-fn proven(kind: Kind, x: &[DVec3; 4], separation: &Separation) -> f64 {
+fn proven(kind: PairType, x: &[DVec3; 4], separation: &Separation) -> f64 {
     let first = kind.first_count();
     let mut least = f64::INFINITY;
     for i in 0..first {
@@ -40,7 +40,7 @@ fn proven(kind: Kind, x: &[DVec3; 4], separation: &Separation) -> f64 {
 }
 
 /// The weights describe one point of each primitive, and r is the vector between them.
-fn check_consistent(kind: Kind, x: &[DVec3; 4], s: &Separation) {
+fn check_consistent(kind: PairType, x: &[DVec3; 4], s: &Separation) {
     let first = kind.first_count();
     assert!(s.squared.is_finite() && s.vector.is_finite());
     assert!((s.weights[..first].iter().sum::<f64>() - 1.0).abs() < 1e-14);
@@ -78,8 +78,8 @@ fn small_gaps_keep_their_digits() {
         for k in 0..4000 {
             let gap = 10f64.powi(-2 - k % 6);
             let x = interior(kind, gap, &mut random);
-            let u = if kind == Kind::PointTriangle { x[2] - x[1] } else { x[1] - x[0] };
-            let v = if kind == Kind::PointTriangle { x[3] - x[1] } else { x[3] - x[2] };
+            let u = if kind == PairType::PointTriangle { x[2] - x[1] } else { x[1] - x[0] };
+            let v = if kind == PairType::PointTriangle { x[3] - x[1] } else { x[3] - x[2] };
             if u.cross(v).length() < 0.05 * u.length() * v.length() {
                 continue;
             }
@@ -123,15 +123,15 @@ fn exactly_known_distances() {
     let p = DVec3::new;
     let cases = [
         // Above the face, beyond an edge, beyond a corner.
-        (Kind::PointTriangle, [p(0.2, 0.2, 0.5), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 0.25),
-        (Kind::PointTriangle, [p(0.5, -2., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 4.0),
-        (Kind::PointTriangle, [p(4., -4., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 25.0),
-        (Kind::PointTriangle, [p(1., 1., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 0.5),
+        (PairType::PointTriangle, [p(0.2, 0.2, 0.5), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 0.25),
+        (PairType::PointTriangle, [p(0.5, -2., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 4.0),
+        (PairType::PointTriangle, [p(4., -4., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 25.0),
+        (PairType::PointTriangle, [p(1., 1., 0.), p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)], 0.5),
         // Crossing, parallel side by side, parallel apart, two points.
-        (Kind::EdgeEdge, [p(-1., 0., 1.), p(1., 0., 1.), p(0., -1., 0.), p(0., 1., 0.)], 1.0),
-        (Kind::EdgeEdge, [p(0., 0., 0.), p(2., 0., 0.), p(1., 3., 0.), p(5., 3., 0.)], 9.0),
-        (Kind::EdgeEdge, [p(0., 0., 0.), p(1., 0., 0.), p(4., 4., 0.), p(6., 4., 0.)], 25.0),
-        (Kind::EdgeEdge, [p(1., 1., 1.), p(1., 1., 1.), p(1., 1., 3.), p(1., 1., 3.)], 4.0),
+        (PairType::EdgeEdge, [p(-1., 0., 1.), p(1., 0., 1.), p(0., -1., 0.), p(0., 1., 0.)], 1.0),
+        (PairType::EdgeEdge, [p(0., 0., 0.), p(2., 0., 0.), p(1., 3., 0.), p(5., 3., 0.)], 9.0),
+        (PairType::EdgeEdge, [p(0., 0., 0.), p(1., 0., 0.), p(4., 4., 0.), p(6., 4., 0.)], 25.0),
+        (PairType::EdgeEdge, [p(1., 1., 1.), p(1., 1., 1.), p(1., 1., 3.), p(1., 1., 3.)], 4.0),
     ];
     for (kind, x, squared) in cases {
         assert!((kind.separation(&x).squared - squared).abs() < 1e-14, "{kind:?} {x:?}");
@@ -185,7 +185,7 @@ fn boxes_that_are_apart_prove_the_distance() {
         for _ in 0..5000 {
             let x = generic(&mut random);
             let gap = SIZE * random.unit();
-            if kind.apart(&x, gap) {
+            if kind.is_beyond(&x, gap) {
                 assert!(kind.separation(&x).squared > gap * gap);
                 apart += 1;
             } else {

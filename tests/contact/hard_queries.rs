@@ -1,7 +1,7 @@
 //! The queries that continuous collision detection is known to get wrong, judged by a distance found by search and by exact
 //! predicates on densely sampled positions: neither shares anything with the answer.
 
-use bespoke::contact::Kind;
+use bespoke::contact::PairType;
 use bespoke::contact::ccd::pair_step;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
@@ -17,14 +17,14 @@ fn moved(x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> [DVec3; 4] {
     std::array::from_fn(|i| x[i] + time * v[i])
 }
 
-fn distance(kind: Kind, x: &[DVec3; 4]) -> f64 {
+fn distance(kind: PairType, x: &[DVec3; 4]) -> f64 {
     // The search wants its own place near 0: it subtracts nothing.
     let base = x[1];
     searched(kind, &x.map(|p| p - base)).sqrt()
 }
 
 /// Whether the primitives touch, exactly; points and edges are triangles without area.
-fn touch(kind: Kind, x: &[DVec3; 4]) -> bool {
+fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
     let first = kind.first_count() as u32;
     let mesh = |corners| TriangleMesh { positions: x.to_vec(), triangles: vec![corners] };
     let second = if first == 1 { [1, 2, 3] } else { [2, 3, 3] };
@@ -33,7 +33,7 @@ fn touch(kind: Kind, x: &[DVec3; 4]) -> bool {
 
 /// Asserts that the pair keeps its target and never touches up to the answer, which is returned. Coordinates are rounded to
 /// `ulp`.
-fn judge(kind: Kind, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, ulp: f64, tally: &mut Tally) -> f64 {
+fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, ulp: f64, tally: &mut Tally) -> f64 {
     let answer = pair_step(kind, x, v, floor, 1.0);
     let what = || format!("{kind:?} {x:?} {v:?} floor {floor:e}, answer {answer:e}");
     let first = distance(kind, x);
@@ -97,7 +97,7 @@ fn nearly_parallel_edges_slide() {
         let slide = turn * DVec3::new(4.0 * SIZE * random.signed(), 1e-3 * SIZE * random.signed(), closing);
         let twist = turn * (DVec3::Z * 0.2 * closing.abs() * random.signed());
         let v = [slide, slide + twist, DVec3::ZERO, DVec3::ZERO];
-        judge(Kind::EdgeEdge, &x, &v, FLOOR, 1e-17, &mut tally);
+        judge(PairType::EdgeEdge, &x, &v, FLOOR, 1e-17, &mut tally);
     }
     tally.check(300, 100);
 }
@@ -117,7 +117,7 @@ fn edges_that_turn_through_the_parallel_position() {
         let fall = sink * DVec3::Z;
         let v = [2.0 * swing + fall, -2.0 * swing + fall, DVec3::ZERO, DVec3::ZERO];
         let turn = rotation(&mut random);
-        let answer = judge(Kind::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), FLOOR, 1e-17, &mut tally);
+        let answer = judge(PairType::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), FLOOR, 1e-17, &mut tally);
         assert!(sink != 0.0 || answer == 1.0, "no motion towards each other: {answer}");
     }
     tally.check(300, 100);
@@ -141,13 +141,13 @@ fn a_point_in_the_plane_of_its_triangle() {
             3.0 * flat(&mut random)
         };
         let x = [point, corners[0], corners[1], corners[2]].map(|p| turn * p);
-        if distance(Kind::PointTriangle, &x) <= 1.01 * FLOOR {
+        if distance(PairType::PointTriangle, &x) <= 1.01 * FLOOR {
             continue;
         }
         let v = [4.0 * flat(&mut random), 0.1 * flat(&mut random), DVec3::ZERO, DVec3::ZERO].map(|p| turn * p);
-        let answer = judge(Kind::PointTriangle, &x, &v, FLOOR, 1e-17, &mut tally);
+        let answer = judge(PairType::PointTriangle, &x, &v, FLOOR, 1e-17, &mut tally);
         // In the plane, the dense samples alone tell whether it hits.
-        let met = (0..=500).any(|k| distance(Kind::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= FLOOR);
+        let met = (0..=500).any(|k| distance(PairType::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= FLOOR);
         assert!(!met || answer < 1.0);
         hits += usize::from(met);
     }
@@ -168,12 +168,12 @@ fn primitives_without_extent_meet_as_what_they_are() {
         // A point against an edge, against a point, and in both forms of a pair; the gap is closed at half time, and
         // nine tenths of it may be.
         let cases = [
-            (Kind::EdgeEdge, [p, p, a, b], 2),
-            (Kind::EdgeEdge, [p + a, p + b, DVec3::ZERO, DVec3::ZERO], 2),
-            (Kind::EdgeEdge, [p, p, DVec3::ZERO, DVec3::ZERO], 2),
-            (Kind::PointTriangle, [p, a, b, a], 1),
-            (Kind::PointTriangle, [p, a, b, a.lerp(b, random.unit())], 1),
-            (Kind::PointTriangle, [p, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], 1),
+            (PairType::EdgeEdge, [p, p, a, b], 2),
+            (PairType::EdgeEdge, [p + a, p + b, DVec3::ZERO, DVec3::ZERO], 2),
+            (PairType::EdgeEdge, [p, p, DVec3::ZERO, DVec3::ZERO], 2),
+            (PairType::PointTriangle, [p, a, b, a], 1),
+            (PairType::PointTriangle, [p, a, b, a.lerp(b, random.unit())], 1),
+            (PairType::PointTriangle, [p, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], 1),
         ];
         for (kind, x, falling) in cases {
             let v = std::array::from_fn(|i| if i < falling { fall } else { DVec3::ZERO });
@@ -196,8 +196,8 @@ fn gaps_of_a_thousandth_of_a_millionth_and_less() {
                 let centre = place.iter().sum::<DVec3>() / 4.0;
                 let mut x = place.map(|p| p - centre);
                 let n = match kind {
-                    Kind::PointTriangle => (x[2] - x[1]).cross(x[3] - x[1]),
-                    Kind::EdgeEdge => (x[1] - x[0]).cross(x[3] - x[2]),
+                    PairType::PointTriangle => (x[2] - x[1]).cross(x[3] - x[1]),
+                    PairType::EdgeEdge => (x[1] - x[0]).cross(x[3] - x[2]),
                 };
                 let lift = gap * n.normalize();
                 x[..kind.first_count()].iter_mut().for_each(|p| *p += lift);

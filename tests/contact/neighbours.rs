@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use bespoke::contact::Surface;
-use bespoke::contact::one_ring::Neighbours;
+use bespoke::contact::one_ring::OneRingPairs;
 
 use crate::scene::{grid, soup, sphere};
 use testing::Random;
@@ -12,7 +12,7 @@ fn ordered([a, b, c, d]: [u32; 4]) -> [u32; 4] {
 }
 
 /// What the triangles that own two primitives and are listed as neighbours make of them, all against all.
-fn brute(surface: &Surface, list: &Neighbours) -> (Vec<[u32; 4]>, Vec<[u32; 4]>) {
+fn brute(surface: &Surface, list: &OneRingPairs) -> (Vec<[u32; 4]>, Vec<[u32; 4]>) {
     let (mut point_triangle, mut edge_edge) = (Vec::new(), Vec::new());
     for s in 0..surface.triangles.len() {
         for t in 0..surface.triangles.len() {
@@ -40,7 +40,7 @@ fn brute(surface: &Surface, list: &Neighbours) -> (Vec<[u32; 4]>, Vec<[u32; 4]>)
 }
 
 fn check(surface: &Surface) -> usize {
-    let list = Neighbours::new(surface);
+    let list = OneRingPairs::new(surface);
     let mut point_triangle = list.point_triangle.clone();
     let mut edge_edge: Vec<_> = list.edge_edge.iter().copied().map(ordered).collect();
     point_triangle.sort_unstable();
@@ -55,7 +55,7 @@ fn every_pair_of_neighbours_is_listed_once() {
     let (positions, triangles) = grid(6);
     let surface = Surface::new(positions.len(), triangles);
     assert!(check(&surface) > 200);
-    let list = Neighbours::new(&surface);
+    let list = OneRingPairs::new(&surface);
     for p in &surface.triangles {
         for q in &surface.triangles {
             assert_eq!(list.has(*p, *q), p.iter().any(|v| q.contains(v)));
@@ -74,7 +74,7 @@ fn a_crowded_vertex_does_not_fill_the_list() {
     let (positions, triangles) = sphere(40);
     check(&Surface::new(positions.len(), triangles));
     let fan: Vec<[u32; 3]> = (1..5000).map(|k| [0, k, k + 1]).collect();
-    let list = Neighbours::new(&Surface::new(5001, fan));
+    let list = OneRingPairs::new(&Surface::new(5001, fan));
     assert!(list.point_triangle.len() + list.edge_edge.len() < 50_000);
     assert!(list.has([0, 1, 2], [0, 2, 3]) && !list.has([0, 1, 2], [0, 3, 4]));
 }

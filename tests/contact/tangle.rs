@@ -3,7 +3,8 @@
 use bespoke::contact::ccd::max_step;
 use bespoke::contact::exempt_pairs::triangle_pairs_of;
 use bespoke::contact::{
-    Avatar, Bodies, BroadPhase, CandidateSet, Class, Configuration, Garment, Kind, Motion, Step, Surface, Tangle,
+    Avatar, Bodies, BroadPhase, CandidateSet, CollisionGroup, Configuration, ExemptPairs, Garment, Motion, PairType,
+    Step, Surface,
 };
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::{intersecting, intersections};
@@ -13,14 +14,14 @@ use crate::scene::{Scene, grid, soup};
 use testing::Random;
 
 /// All the pairs of triangles that hold a pair of primitives, by looking at every triangle.
-fn holders(surface: &Surface, kind: Kind, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
+fn holders(surface: &Surface, kind: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
     let with = |vertices: &[u32]| -> Vec<u32> {
         let count = surface.triangles.len() as u32;
         (0..count).filter(|&t| vertices.iter().all(|v| surface.triangles[t as usize].contains(v))).collect()
     };
     let (first, second) = match kind {
-        Kind::PointTriangle => (with(&[a]), with(&[b, c, d])),
-        Kind::EdgeEdge => (with(&[a, b]), with(&[c, d])),
+        PairType::PointTriangle => (with(&[a]), with(&[b, c, d])),
+        PairType::EdgeEdge => (with(&[a, b]), with(&[c, d])),
     };
     let mut pairs: Vec<[u32; 2]> =
         first.iter().flat_map(|&s| second.iter().map(move |&t| [s.min(t), s.max(t)])).collect();
@@ -47,33 +48,33 @@ fn a_pair_has_the_class_that_its_triangles_give_it() {
                 }
             }
         }
-        let tangle = Tangle::new(&surface, &pairs);
+        let tangle = ExemptPairs::new(&surface, &pairs);
         let tangled = |[s, t]: &[u32; 2]| pairs.contains(&[*s, *t]) || pairs.contains(&[*t, *s]);
 
         let apart = |p: &[u32], q: &[u32]| p.iter().all(|v| !q.contains(v));
-        let mut judge = |kind: Kind, pair: [u32; 4]| {
+        let mut judge = |kind: PairType, pair: [u32; 4]| {
             let held = triangle_pairs_of(&surface, &[(kind, pair)]);
             assert_eq!(held, holders(&surface, kind, pair), "{kind:?} {pair:?}");
             let (expected, count) = match held.iter().filter(|pair| tangled(pair)).count() {
-                0 => (Some(Class::Garment), 0),
-                n if n < held.len() => (Some(Class::Tangled), 1),
+                0 => (Some(CollisionGroup::Garment), 0),
+                n if n < held.len() => (Some(CollisionGroup::Intersecting), 1),
                 _ => (None, 2),
             };
-            assert_eq!(tangle.class(kind, pair), expected, "seed {seed}, {kind:?} {pair:?}");
+            assert_eq!(tangle.group(kind, pair), expected, "seed {seed}, {kind:?} {pair:?}");
             counts[count] += 1;
         };
         for (t, &[a, b, c]) in surface.triangles.iter().enumerate() {
             if surface.ownership(t as u32).face() {
                 let used = |v: &u32| surface.triangles.iter().any(|t| t.contains(v));
                 (0..40).filter(used).filter(|v| apart(&[*v], &[a, b, c])).for_each(|v| {
-                    judge(Kind::PointTriangle, [v, c, a, b]);
+                    judge(PairType::PointTriangle, [v, c, a, b]);
                 });
             }
         }
         for (k, &[a, b]) in surface.edges.iter().enumerate() {
             for &[c, d] in &surface.edges[k + 1..] {
                 if apart(&[a, b], &[c, d]) {
-                    judge(Kind::EdgeEdge, [d, c, a, b]);
+                    judge(PairType::EdgeEdge, [d, c, a, b]);
                 }
             }
         }
@@ -85,9 +86,9 @@ fn a_pair_has_the_class_that_its_triangles_give_it() {
 #[test]
 fn an_empty_tangle_frees_nothing() {
     let surface = soup(20, 20, &mut Random::new(5));
-    let tangle = Tangle::new(&surface, &[]);
+    let tangle = ExemptPairs::new(&surface, &[]);
     assert!(tangle.is_empty() && !tangle.contains(0, 1));
-    assert_eq!(tangle.class(Kind::EdgeEdge, [0, 1, 2, 3]), Some(Class::Garment));
+    assert_eq!(tangle.group(PairType::EdgeEdge, [0, 1, 2, 3]), Some(CollisionGroup::Garment));
 }
 
 #[test]
@@ -98,23 +99,23 @@ fn free_pairs_are_left_out_and_no_others() {
         let mesh =
             TriangleMesh { positions: scene.x.clone(), triangles: scene.bodies.garment.surface.triangles.clone() };
         let tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
-        let tangle = Tangle::new(&scene.bodies.garment.surface, &tangled);
+        let tangle = ExemptPairs::new(&scene.bodies.garment.surface, &tangled);
         let (mut all, mut guarded) = (CandidateSet::default(), CandidateSet::default());
         let mut broad_phase = BroadPhase::new(&scene.bodies);
         let motion = Motion::new(&scene.bodies, at, None);
         broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut all);
-        broad_phase.set_tangle(tangle.clone());
+        broad_phase.set_exempt_pairs(tangle.clone());
         broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut guarded);
         let (mut found, mut kept) = (0, 0);
-        for kind in [Kind::PointTriangle, Kind::EdgeEdge] {
-            for class in [Class::Garment, Class::Tangled] {
-                let of_class = |pair: &&[u32; 4]| tangle.class(kind, **pair) == Some(class);
-                let expected: Vec<_> = all.of(kind, Class::Garment).iter().filter(of_class).copied().collect();
-                assert_eq!(guarded.of(kind, class), expected);
+        for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
+            for group in [CollisionGroup::Garment, CollisionGroup::Intersecting] {
+                let of_class = |pair: &&[u32; 4]| tangle.group(kind, **pair) == Some(group);
+                let expected: Vec<_> = all.of(kind, CollisionGroup::Garment).iter().filter(of_class).copied().collect();
+                assert_eq!(guarded.of(kind, group), expected);
                 kept += expected.len();
             }
-            found += all.of(kind, Class::Garment).len();
-            assert_eq!(guarded.of(kind, Class::Avatar), all.of(kind, Class::Avatar));
+            found += all.of(kind, CollisionGroup::Garment).len();
+            assert_eq!(guarded.of(kind, CollisionGroup::Avatar), all.of(kind, CollisionGroup::Avatar));
         }
         assert!(kept < found, "seed {seed}");
     }
@@ -151,7 +152,7 @@ fn a_tangle_only_shrinks() {
         let mut broad_phase = BroadPhase::new(&bodies);
         let mut near = CandidateSet::default();
         for round in 0..60 {
-            broad_phase.set_tangle(Tangle::new(&bodies.garment.surface, &tangled));
+            broad_phase.set_exempt_pairs(ExemptPairs::new(&bodies.garment.surface, &tangled));
             // Half of the motions pull the second sheet out of the first.
             let dx: Vec<DVec3> = (0..x.len())
                 .map(|v| {

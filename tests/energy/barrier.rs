@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use bespoke::contact::distance::Separation;
-use bespoke::contact::{Avatar, Bodies, CandidateSet, Garment, Kind, Surface, mollifier};
+use bespoke::contact::{Avatar, Bodies, CandidateSet, Garment, PairType, Surface, mollifier};
 use bespoke::energy::barrier::{Barrier, BarrierSettings, Narrowing};
 use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use glam::DVec3;
@@ -12,8 +12,13 @@ use testing::Random;
 
 const SIZE: f64 = 0.03;
 const T: f64 = 0.6;
-const SETTINGS: BarrierSettings =
-    BarrierSettings { dhat_self: 0.004, dhat_avatar: 0.008, floor: 1e-5, tangled_floor: 1e-6, avatar_weight: 0.3 };
+const SETTINGS: BarrierSettings = BarrierSettings {
+    dhat_self: 0.004,
+    dhat_avatar: 0.008,
+    floor: 1e-5,
+    min_separation_intersecting: 1e-6,
+    avatar_weight: 0.3,
+};
 
 /// Who owns the two primitives of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,13 +33,13 @@ struct Case {
     barrier: Barrier,
     x: Vec<DVec3>,
     pair: [u32; 4],
-    kind: Kind,
+    kind: PairType,
     garment_class: bool,
 }
 
 impl Case {
     /// The pair at `positions` when t = T, with the rest shape `rest` for its vertices.
-    fn new(kind: Kind, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
+    fn new(kind: PairType, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
         let first = kind.first_count();
         let on_garment = |i: usize| match sides {
             Sides::Garment => true,
@@ -59,10 +64,10 @@ impl Case {
         let one = [pair];
         let (none, garment) = (&[][..], sides == Sides::Garment);
         *barrier.candidates_mut() = match (kind, garment) {
-            (Kind::PointTriangle, true) => CandidateSet::new(&one, none, none, none),
-            (Kind::EdgeEdge, true) => CandidateSet::new(none, &one, none, none),
-            (Kind::PointTriangle, false) => CandidateSet::new(none, none, &one, none),
-            (Kind::EdgeEdge, false) => CandidateSet::new(none, none, none, &one),
+            (PairType::PointTriangle, true) => CandidateSet::new(&one, none, none, none),
+            (PairType::EdgeEdge, true) => CandidateSet::new(none, &one, none, none),
+            (PairType::PointTriangle, false) => CandidateSet::new(none, none, &one, none),
+            (PairType::EdgeEdge, false) => CandidateSet::new(none, none, none, &one),
         };
         let x = own.iter().map(|&i| positions[i]).collect();
         Self { barrier, x, pair, kind, garment_class: garment }
@@ -86,7 +91,7 @@ impl Case {
 }
 
 /// Moves the first primitive so that the pair is at `distance`.
-fn placed(kind: Kind, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
+fn placed(kind: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
     let r = kind.separation(&x).vector;
     for p in &mut x[..kind.first_count()] {
         *p += (distance / r.length() - 1.0) * r;
@@ -97,12 +102,12 @@ fn placed(kind: Kind, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
 /// All kinds and sides, at a distance between floor and d-hat given by `fraction`; nearly parallel edges on request.
 fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &mut Random)) {
     let mut random = Random::new(seed);
-    for kind in [Kind::PointTriangle, Kind::EdgeEdge] {
-        if parallel && kind == Kind::PointTriangle {
+    for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
+        if parallel && kind == PairType::PointTriangle {
             continue;
         }
         for sides in [Sides::Garment, Sides::GarmentThenAvatar, Sides::AvatarThenGarment] {
-            if kind == Kind::EdgeEdge && sides == Sides::AvatarThenGarment {
+            if kind == PairType::EdgeEdge && sides == Sides::AvatarThenGarment {
                 continue;
             }
             for _ in 0..30 {
@@ -222,8 +227,8 @@ fn hessian_is_that_of_the_frozen_pair() {
         cases(seed, fraction, parallel, |case, random| {
             let x = case.positions();
             let m = match case.kind {
-                Kind::PointTriangle => 1.0,
-                Kind::EdgeEdge => {
+                PairType::PointTriangle => 1.0,
+                PairType::EdgeEdge => {
                     let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
                     mollifier::value(&x, mollifier::threshold(&rest))
                 }
@@ -253,7 +258,7 @@ fn vertices_without_weight_are_left_out() {
     // The point is closest to a corner, to an edge, to the face.
     for (point, count) in [(p(-0.05, -0.05, 0.0), 2), (p(0.5, -0.05, 0.0), 3), (p(0.2, 0.2, 0.05), 4)] {
         let x = [point, p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)];
-        let case = Case::new(Kind::PointTriangle, Sides::Garment, x, x);
+        let case = Case::new(PairType::PointTriangle, Sides::Garment, x, x);
         let mut sink = Count(vec![]);
         case.barrier.derivatives(case.at(), 0..1, &mut sink);
         assert_eq!(sink.0, [count]);
@@ -281,7 +286,7 @@ fn two_edges_exactly_parallel_at_the_floor_are_still_refused() {
     let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
     let lift = DVec3::Z * 0.5 * SETTINGS.floor;
     let x = [p(0., 0., 0.) + lift, p(1., 0., 0.) + lift, p(-1., 0., 0.), p(2., 0., 0.)];
-    let case = Case::new(Kind::EdgeEdge, Sides::Garment, x, x);
+    let case = Case::new(PairType::EdgeEdge, Sides::Garment, x, x);
     assert_eq!(mollifier::value(&x, mollifier::threshold(&x)), 0.0);
     assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
 }
@@ -361,7 +366,8 @@ fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
     for (seed, fraction) in [(8, 0.3), (9, 0.6), (10, 0.95)] {
         cases(seed, fraction, false, |mut case, _| {
             let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
-            if case.kind == Kind::EdgeEdge && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0 {
+            if case.kind == PairType::EdgeEdge && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0
+            {
                 return;
             }
             let n = 3 * case.x.len();

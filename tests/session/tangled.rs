@@ -81,7 +81,7 @@ fn what_intersects_from_the_start_never_gets_more() {
         session.set_garment(garment.clone(), Precision::F64).unwrap();
         session.prepare().unwrap();
         assert_eq!(named(session.findings(), FindingKind::SelfIntersection), start);
-        assert_eq!(session.report().tangled_at_start, start.len());
+        assert_eq!(session.report().initial_self_intersections, start.len());
         let mut last = start.clone();
         while session.step(Budget { iterations: 1, milliseconds: 0 }).unwrap() != Stage::Done {
             let now = pairs(session.garment_positions().unwrap(), &garment.triangles);
@@ -118,7 +118,7 @@ fn what_has_come_apart_stays_apart() {
     let options = Options::default();
     let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new()).unwrap();
     assert_eq!(
-        objective.contact.tangle().triangle_pairs().len(),
+        objective.contact.exempt_pairs().triangle_pairs().len(),
         count as usize,
         "all triangles at the tip pass through one"
     );
@@ -139,7 +139,7 @@ fn what_has_come_apart_stays_apart() {
     );
     x[tip] += 0.003 * out;
     assert!(objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
-    assert!(objective.contact.tangle().is_empty());
+    assert!(objective.contact.exempt_pairs().is_empty());
     let kept =
         objective.max_feasible_step(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.003), 0.0, 1.0).unwrap().unwrap();
     assert!(kept > 0.1 && kept < 1.0 / 3.0, "the tip stops before the wall, a thousandth away: {kept}");

@@ -82,7 +82,7 @@ pub struct Problem {
     /// The clearance to aim at beside the designed one.
     pub offset: f64,
     /// Pairs of garment triangles that intersect at the start, the lower index first.
-    pub tangled: Vec<[u32; 2]>,
+    pub initial_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
     pub gaps: Gaps,
 }
@@ -107,7 +107,7 @@ impl Problem {
         if gaps != Gaps::of(options) {
             findings.push(coarse_coordinates(&gaps));
         }
-        let tangled = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
+        let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
         let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, findings)?;
@@ -143,7 +143,7 @@ impl Problem {
             fit_weights,
             source_body,
             offset,
-            tangled,
+            initial_intersections,
             gaps,
         })
     }
