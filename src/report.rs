@@ -77,7 +77,7 @@ pub struct Report {
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
-    /// The separation floor in force: lower than the option's where the garment is nearer to something than that, higher
+    /// The minimum separation in force: lower than the option's where the garment is nearer to something than that, higher
     /// where the coordinates of the result are coarse.
     pub separation_floor: f64,
     /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.

@@ -1,4 +1,4 @@
-//! Continuous collision detection by conservative advancement with a separation floor, after the additive CCD of
+//! Continuous collision detection by conservative advancement with a minimum separation, after the additive CCD of
 //! Li et al. 2021 ("Codimensional Incremental Potential Contact", section 5.2).
 //!
 //! Additive CCD advances by `(d - target) / l`, where l bounds the relative speed of the pair by the norms of its
@@ -19,13 +19,13 @@ use super::bodies::Motion;
 use super::candidate_set::{CandidateSet, CollisionGroup};
 use super::distance::PairType;
 
-/// The fraction of its gap above the floor that a pair keeps in one step.
+/// The fraction of its gap above the min_separation that a pair keeps in one step.
 const KEPT_GAP: f64 = 0.1;
 
 /// Advancing ends where less than this fraction of the way from the first distance to the target is left.
 const TOLERANCE: f64 = 0.02;
 
-/// Below the floor, a pair that does not approach may still lose this fraction of its distance.
+/// Below the min_separation, a pair that does not approach may still lose this fraction of its distance.
 const SLACK_BELOW_FLOOR: f64 = 0.1;
 
 /// Most evaluations of the distance of one pair. What was found safe by then is the answer.
@@ -34,11 +34,16 @@ const MAX_ADVANCES: usize = 256;
 /// Pairs a thread takes at once.
 const CHUNK: usize = 1024;
 
-/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `floor` of its group plus a
-/// tenth of its initial gap above it. 0 if a pair at or below the floor approaches.
+/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `min_separation` of its group plus a
+/// tenth of its initial gap above it. 0 if a pair at or below the min_separation approaches.
 ///
 /// The same bits for any number of threads.
-pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(CollisionGroup) -> f64, limit: f64) -> f64 {
+pub fn max_step(
+    motion: &Motion,
+    candidates: &CandidateSet,
+    min_separation: impl Fn(CollisionGroup) -> f64,
+    limit: f64,
+) -> f64 {
     // The smallest answer so far, shared to cut other pairs off. A pair advances by a sequence of times that does not
     // depend on this bound and only grows towards its own answer, so it is cut off only if its own answer is not
     // below the bound. The pair with the smallest answer therefore always gets there, or finds that very number
@@ -46,12 +51,12 @@ pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(Colli
     // non-negative numbers are ordered as the numbers are.
     let shared = AtomicU64::new(limit.max(0.0).to_bits());
     for run in candidates.ranges(0..candidates.len()) {
-        let floor = floor(run.group);
+        let min_separation = min_separation(run.group);
         run.pairs.par_chunks(CHUNK).for_each(|chunk| {
             for &pair in chunk {
                 let bound = f64::from_bits(shared.load(Ordering::Relaxed));
                 let (x, v) = (motion.positions(pair), motion.displacements(pair));
-                let answer = pair_step(run.pair_type, &x, &v, floor, bound);
+                let answer = pair_step(run.pair_type, &x, &v, min_separation, bound);
                 if answer < bound {
                     shared.fetch_min(answer.to_bits(), Ordering::Relaxed);
                 }
@@ -62,7 +67,7 @@ pub fn max_step(motion: &Motion, candidates: &CandidateSet, floor: impl Fn(Colli
 }
 
 /// The largest part of the motion `v`, at most `bound`, during which the pair at `x` keeps its distance.
-pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, bound: f64) -> f64 {
+pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, bound: f64) -> f64 {
     // Relative coordinates keep their digits where the pair is small or moves as one.
     let base = x[1];
     let x = [x[0] - base, x[1] - base, x[2] - base, x[3] - base];
@@ -72,8 +77,8 @@ pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64
 
     let mut separation = pair_type.separation(&x);
     let mut distance = separation.squared.sqrt();
-    let target = if distance > floor {
-        floor + KEPT_GAP * (distance - floor)
+    let target = if distance > min_separation {
+        min_separation + KEPT_GAP * (distance - min_separation)
     } else {
         let w = separation.weights;
         let closing: f64 = (0..4).map(|i| w[i] * separation.vector.dot(v[i])).sum();

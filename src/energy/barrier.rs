@@ -1,7 +1,7 @@
-//! Contact (Eq. 1 of the paper): IPC's barrier on squared distances (Li et al. 2020), above a separation floor.
+//! Contact (Eq. 1 of the paper): IPC's barrier on squared distances (Li et al. 2020), above a minimum separation.
 //!
-//! With `D = d^2 - floor^2` and `Dhat = dhat^2 - floor^2`, a pair at distance d costs
-//! `b = -(D - Dhat)^2 ln(D / Dhat)` for `0 < D < Dhat`, nothing beyond, and infinity at the floor. Edge-edge pairs are
+//! With `D = d^2 - min_separation^2` and `Dhat = dhat^2 - min_separation^2`, a pair at distance d costs
+//! `b = -(D - Dhat)^2 ln(D / Dhat)` for `0 < D < Dhat`, nothing beyond, and infinity at the min_separation. Edge-edge pairs are
 //! weighed by the mollifier m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are
 //! `g = m db/dd` and `h = m max(0, d2b/dd2)`, and the mollifier adds `b grad m` to the gradient.
 
@@ -25,12 +25,12 @@ const INTERSECTING_SHARE: f64 = 1.0 / 16.0;
 /// The shape of the barrier. Lengths are in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarrierSettings {
-    /// Distance below which the garment repels itself. Above `floor`.
+    /// Distance below which the garment repels itself. Above `min_separation`.
     pub dhat_self: f64,
-    /// Distance below which the avatar repels the garment. Above `floor`.
+    /// Distance below which the avatar repels the garment. Above `min_separation`.
     pub dhat_avatar: f64,
     /// Distance that no pair may reach.
-    pub floor: f64,
+    pub min_separation: f64,
     /// The same for intersecting pairs.
     pub min_separation_intersecting: f64,
     /// Factor on the pairs with the avatar.
@@ -39,7 +39,7 @@ pub struct BarrierSettings {
 
 /// How the barrier changes along a path in a parameter s: logarithmic rates per unit of s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Narrowing {
+pub struct BarrierPathRates {
     /// Rate of `dhat_avatar`.
     pub dhat_avatar: f64,
     /// Rate of the weight by which the whole term is multiplied.
@@ -51,7 +51,7 @@ impl Default for BarrierSettings {
         Self {
             dhat_self: 0.002,
             dhat_avatar: 0.002,
-            floor: 1e-5,
+            min_separation: 1e-5,
             min_separation_intersecting: 1e-5,
             avatar_weight: 1.0,
         }
@@ -71,9 +71,9 @@ impl BarrierSettings {
 
     /// Distance that no pair of a group may reach.
     #[inline]
-    pub fn floor(&self, group: CollisionGroup) -> f64 {
+    pub fn min_separation(&self, group: CollisionGroup) -> f64 {
         match group {
-            CollisionGroup::Garment | CollisionGroup::Avatar => self.floor,
+            CollisionGroup::Garment | CollisionGroup::Avatar => self.min_separation,
             CollisionGroup::Intersecting => self.min_separation_intersecting,
         }
     }
@@ -109,13 +109,13 @@ pub struct Barrier {
     bodies: Arc<Bodies>,
     candidates: CandidateSet,
     settings: BarrierSettings,
-    narrowing: Option<Narrowing>,
+    path: Option<BarrierPathRates>,
 }
 
 impl Barrier {
     /// A barrier without candidates.
     pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
-        Self { bodies, candidates: CandidateSet::default(), settings, narrowing: None }
+        Self { bodies, candidates: CandidateSet::default(), settings, path: None }
     }
 
     /// The bodies in contact.
@@ -145,20 +145,27 @@ impl Barrier {
 
     /// From now on the border of the Hessian is not that of t, which must stand still, but that of s: the mixed
     /// derivatives by the vertices and s. `None` makes it that of t again.
-    pub fn set_narrowing(&mut self, narrowing: Option<Narrowing>) {
-        self.narrowing = narrowing;
+    pub fn set_barrier_path(&mut self, path: Option<BarrierPathRates>) {
+        self.path = path;
     }
 
     /// The speed of a pair's distance along s at constant force, negated: its component of the border, by h. With f = db/dd,
     /// `-dd/ds = (df/ds + f dln w/ds) / (df/dd)`.
     #[inline]
-    fn drift(&self, group: CollisionGroup, big_d: f64, dhat: f64, floor: f64, [d, g, h]: [f64; 3]) -> f64 {
-        let Some(rates) = self.narrowing else { return 0.0 };
+    fn path_tangent(
+        &self,
+        group: CollisionGroup,
+        big_d: f64,
+        dhat: f64,
+        min_separation: f64,
+        [d, g, h]: [f64; 3],
+    ) -> f64 {
+        let Some(rates) = self.path else { return 0.0 };
         if h <= 0.0 {
             return 0.0;
         }
         let by_dhat = if group == CollisionGroup::Avatar { rates.dhat_avatar } else { 0.0 };
-        let big_dhat = dhat * dhat - floor;
+        let big_dhat = dhat * dhat - min_separation;
         let (q, ln) = ((big_d - big_dhat) / big_d, (big_d / big_dhat).ln());
         let slope = 2.0 * (ln + q + (big_d - big_dhat) / big_dhat);
         let by_s = 2.0 * d * self.settings.weight(group) * slope * 2.0 * dhat * dhat * by_dhat;
@@ -226,11 +233,11 @@ impl Barrier {
     }
 
     /// Hands on `g a` and `h a a^T`, where `a` has the given component at each vertex of the pair: zero components are
-    /// left out, and those of the avatar are turned into one along t, to which `drift` is added.
+    /// left out, and those of the avatar are turned into one along t, to which `path_tangent` is added.
     #[inline]
-    fn emit(&self, pair: [u32; 4], components: [DVec3; 4], drift: f64, [g, h]: [f64; 2], sink: &mut dyn Sink) {
+    fn emit(&self, pair: [u32; 4], components: [DVec3; 4], path_tangent: f64, [g, h]: [f64; 2], sink: &mut dyn Sink) {
         let n = self.bodies.garment_count();
-        let (mut vertices, mut kept, mut count, mut t) = ([0; 4], [DVec3::ZERO; 4], 0, drift);
+        let (mut vertices, mut kept, mut count, mut t) = ([0; 4], [DVec3::ZERO; 4], 0, path_tangent);
         for (i, c) in pair.into_iter().zip(components) {
             if i as usize >= n {
                 t += c.dot(self.bodies.avatar.motion[i as usize - n]);
@@ -271,7 +278,7 @@ impl Activity {
     }
 }
 
-/// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and above the squared floor.
+/// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and above the squared min_separation.
 #[inline]
 fn barrier(big_d: f64, dhat: f64) -> [f64; 3] {
     let (e, ln) = (big_d - dhat, (big_d / dhat).ln());
@@ -293,19 +300,19 @@ impl Energy for Barrier {
         self.candidates.memory()
     }
 
-    /// Infinite if a candidate is at or below the floor.
+    /// Infinite if a candidate is at or below the min_separation.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let mut sum = 0.0;
         self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
             let dhat = self.settings.dhat(group);
-            let floor = self.settings.floor(group).powi(2);
-            let big_d = separation.squared - floor;
+            let min_separation = self.settings.min_separation(group).powi(2);
+            let big_d = separation.squared - min_separation;
             if big_d <= 0.0 {
                 // Not through the mollifier, which may be zero.
                 sum = f64::INFINITY;
                 return;
             }
-            let [b, ..] = barrier(big_d, dhat * dhat - floor);
+            let [b, ..] = barrier(big_d, dhat * dhat - min_separation);
             let m = match pair_type {
                 PairType::PointTriangle => 1.0,
                 PairType::EdgeEdge => mollifier::value(&x, self.mollifier_threshold(pair)),
@@ -315,16 +322,16 @@ impl Energy for Barrier {
         sum
     }
 
-    /// Pairs at or below the floor, where the value is infinite, have none.
+    /// Pairs at or below the min_separation, where the value is infinite, have none.
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
             let dhat = self.settings.dhat(group);
-            let floor = self.settings.floor(group).powi(2);
-            let big_d = separation.squared - floor;
+            let min_separation = self.settings.min_separation(group).powi(2);
+            let big_d = separation.squared - min_separation;
             if big_d <= 0.0 {
                 return;
             }
-            let [b, db, ddb] = barrier(big_d, dhat * dhat - floor).map(|v| self.settings.weight(group) * v);
+            let [b, db, ddb] = barrier(big_d, dhat * dhat - min_separation).map(|v| self.settings.weight(group) * v);
             let (m, slope) = match pair_type {
                 PairType::PointTriangle => (1.0, None),
                 PairType::EdgeEdge => mollifier::value_and_gradient(&x, self.mollifier_threshold(pair)),
@@ -332,8 +339,8 @@ impl Energy for Barrier {
             let d = separation.squared.sqrt();
             let normal = separation.vector / d;
             let (g, h) = (2.0 * d * db, 2.0 * db + 4.0 * separation.squared * ddb);
-            let drift = self.drift(group, big_d, dhat, floor, [d, g, h]);
-            self.emit(pair, separation.weights.map(|w| w * normal), drift, [m * g, m * h.max(0.0)], sink);
+            let path_tangent = self.path_tangent(group, big_d, dhat, min_separation, [d, g, h]);
+            self.emit(pair, separation.weights.map(|w| w * normal), path_tangent, [m * g, m * h.max(0.0)], sink);
             if let Some(slope) = slope {
                 self.emit(pair, slope, 0.0, [b, 0.0], sink);
             }

@@ -75,7 +75,7 @@ pub enum FindingKind {
     LoosePiece,
     /// Two garment triangles that pass through each other, or touch, before anything has moved.
     SelfIntersection,
-    /// Parts of the garment, or garment and skeleton, that are so near at the start that the separation floor is lowered.
+    /// Parts of the garment, or garment and skeleton, that are so near at the start that the minimum separation is lowered.
     NearContact,
     /// The shrunk avatar passes through the garment at the start.
     AvatarPokes,

@@ -95,7 +95,7 @@ impl Work {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: body.avatar_size(),
             projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
-            separation_floor: objective.contact.floor(),
+            separation_floor: objective.contact.min_separation(),
             initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
             threads,
             ..Report::default()
@@ -246,7 +246,7 @@ impl Work {
         report.min_distance_self = contact.min_distance_self;
         report.min_distance_avatar = contact.min_distance_avatar;
         report.gradient_norm = self.newton.gradient_norm();
-        report.separation_floor = self.objective.contact.floor();
+        report.separation_floor = self.objective.contact.min_separation();
         report.t = self.state.t;
         let terms = self.objective.terms();
         let values = self.newton.values(&terms, at);

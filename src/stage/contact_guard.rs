@@ -10,15 +10,15 @@ use super::setup::contact_distances::{Gaps, NO_DISTANCE};
 use crate::contact::exempt_pairs::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, CollisionGroup, Configuration, ExemptPairs, Motion, Step, ccd};
 use crate::control::{Cancel, Cancelled};
-use crate::energy::barrier::{Activity, Barrier, BarrierSettings, Narrowing};
+use crate::energy::barrier::{Activity, Barrier, BarrierPathRates, BarrierSettings};
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::memory::MemoryLimit;
 use crate::solver::profile::Profile;
 use crate::verify::intersecting;
 
-/// Where something is nearer than the separation floor, the floor becomes this fraction of its distance.
-const FLOOR_SHARE: f64 = 0.25;
+/// Where something is nearer than the minimum separation, the min_separation becomes this fraction of its distance.
+const SEPARATION_SHARE: f64 = 0.25;
 
 /// What is searched at first is as long as this multiple of what was free of the last step, and at least
 /// [`SHORTEST_LOOK`] of it.
@@ -45,9 +45,9 @@ impl ContactGuard {
     /// `limit`.
     pub fn new(bodies: Arc<Bodies>, gaps: Gaps, limit: MemoryLimit, cancel: Cancel) -> Self {
         let settings = BarrierSettings {
-            dhat_self: gaps.own_dhat,
+            dhat_self: gaps.dhat_self,
             dhat_avatar: gaps.inflation_dhat,
-            floor: gaps.floor,
+            min_separation: gaps.min_separation,
             ..BarrierSettings::default()
         };
         let mut guard = Self {
@@ -98,16 +98,16 @@ impl ContactGuard {
     }
 
     /// Settles at `at` for the first time: the pairs of garment triangles in `initial_intersections` intersect there, and are let off
-    /// together with what touches within rounding. Lowers the floor below all that is guarded.
+    /// together with what touches within rounding. Lowers the min_separation below all that is guarded.
     pub fn begin(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
         self.entangle(at, initial_intersections.to_vec(), |_, _| true);
-        self.fit_floors(at, [0.0; 2]);
+        self.update_min_separation(at, [0.0; 2]);
     }
 
-    /// Goes on from `previous`, the contact of the same garment: with its exempt and its floor.
+    /// Goes on from `previous`, the contact of the same garment: with its exempt and its min_separation.
     pub fn take_over(&mut self, previous: &Self) {
         self.broad_phase.set_exempt_pairs(previous.broad_phase.exempt_pairs().clone());
-        self.set_floors(previous.floors());
+        self.set_min_separations(previous.min_separations());
     }
 
     /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
@@ -118,18 +118,18 @@ impl ContactGuard {
         triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
     }
 
-    /// What has come apart is guarded from now on, and the floors follow the smallest distances, up to that of the gaps. To be
+    /// What has come apart is guarded from now on, and the min_separations follow the smallest distances, up to that of the gaps. To be
     /// called after each accepted step. True where the barrier has changed.
     ///
     /// # Errors
     /// `InvalidMesh` where a vertex is not finite.
     pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
-        let before = self.floors();
+        let before = self.min_separations();
         let released = self.release(at)?;
-        if released || before[0] < self.gaps.floor || !self.exempt_pairs().is_empty() {
-            self.fit_floors(at, before);
+        if released || before[0] < self.gaps.min_separation || !self.exempt_pairs().is_empty() {
+            self.update_min_separation(at, before);
         }
-        Ok(released || self.floors() != before)
+        Ok(released || self.min_separations() != before)
     }
 
     fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
@@ -164,26 +164,26 @@ impl ContactGuard {
         }
     }
 
-    /// Sets the floors as high as the gaps ask for and what is guarded at `at` allows; but not below `before`, which was
+    /// Sets the min_separations as high as the gaps ask for and what is guarded at `at` allows; but not below `before`, which was
     /// below all distances, unless something newly guarded is nearer than that.
-    fn fit_floors(&mut self, at: Configuration<'_>, before: [f64; 2]) {
+    fn update_min_separation(&mut self, at: Configuration<'_>, before: [f64; 2]) {
         let near = self.barrier.activity(at);
         let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_intersecting];
         let wanted = [
-            self.gaps.floor,
-            self.gaps.floor.min(FLOOR_SHARE * self.barrier.settings().dhat(CollisionGroup::Intersecting)),
+            self.gaps.min_separation,
+            self.gaps.min_separation.min(SEPARATION_SHARE * self.barrier.settings().dhat(CollisionGroup::Intersecting)),
         ];
-        let [floor, min_separation_intersecting] = std::array::from_fn(|k| {
-            let fitting = (FLOOR_SHARE * nearest[k]).min(wanted[k]);
+        let [min_separation, min_separation_intersecting] = std::array::from_fn(|k| {
+            let fitting = (SEPARATION_SHARE * nearest[k]).min(wanted[k]);
             if nearest[k] > before[k] { fitting.max(before[k].min(wanted[k])) } else { fitting }
         });
-        self.set_floors([floor, min_separation_intersecting]);
+        self.set_min_separations([min_separation, min_separation_intersecting]);
     }
 
     /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
     pub fn widen(&mut self) {
         self.gaps = self.gaps.doubled();
-        self.barrier.set_settings(BarrierSettings { dhat_self: self.gaps.own_dhat, ..*self.barrier.settings() });
+        self.barrier.set_settings(BarrierSettings { dhat_self: self.gaps.dhat_self, ..*self.barrier.settings() });
     }
 
     /// The gaps that contact keeps.
@@ -192,18 +192,18 @@ impl ContactGuard {
     }
 
     /// The distance that no pair falls below, but for the initial_intersections ones.
-    pub fn floor(&self) -> f64 {
-        self.barrier.settings().floor
+    pub fn min_separation(&self) -> f64 {
+        self.barrier.settings().min_separation
     }
 
     /// That, and the same for the initial_intersections pairs.
-    fn floors(&self) -> [f64; 2] {
+    fn min_separations(&self) -> [f64; 2] {
         let settings = self.barrier.settings();
-        [settings.floor, settings.min_separation_intersecting]
+        [settings.min_separation, settings.min_separation_intersecting]
     }
 
-    fn set_floors(&mut self, [floor, min_separation_intersecting]: [f64; 2]) {
-        let settings = BarrierSettings { floor, min_separation_intersecting, ..*self.barrier.settings() };
+    fn set_min_separations(&mut self, [min_separation, min_separation_intersecting]: [f64; 2]) {
+        let settings = BarrierSettings { min_separation, min_separation_intersecting, ..*self.barrier.settings() };
         if settings != *self.barrier.settings() {
             self.barrier.set_settings(settings);
         }
@@ -219,9 +219,9 @@ impl ContactGuard {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
     }
 
-    /// Makes the border of the linear system that of a narrowing barrier (see [`Barrier::set_narrowing`]), or that of t.
-    pub fn set_narrowing(&mut self, narrowing: Option<Narrowing>) {
-        self.barrier.set_narrowing(narrowing);
+    /// Makes the border of the linear system that of a rates barrier (see [`Barrier::set_barrier_path`]), or that of t.
+    pub fn set_barrier_path(&mut self, rates: Option<BarrierPathRates>) {
+        self.barrier.set_barrier_path(rates);
     }
 
     /// Makes the pairs valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at most
@@ -248,7 +248,8 @@ impl ContactGuard {
             }
             let settings = self.barrier.settings();
             let clock = Instant::now();
-            let free = ccd::max_step(&self.motion, self.barrier.candidates(), |group| settings.floor(group), part);
+            let free =
+                ccd::max_step(&self.motion, self.barrier.candidates(), |group| settings.min_separation(group), part);
             self.profile.ccd += clock.elapsed();
             if free < part || part >= longest {
                 self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);

@@ -11,7 +11,7 @@
 //! move with the barrier and stay in contact. (Narrowed at once, the barrier loses them, and finds each again by
 //! running into it.) Newton's method at s = 1 has the last word.
 
-use crate::energy::barrier::Narrowing;
+use crate::energy::barrier::BarrierPathRates;
 use crate::error::Result;
 use crate::options::Options;
 use crate::solver::newton::{Newton, State};
@@ -71,9 +71,9 @@ impl Path {
         objective.contact.settle(state.configuration());
     }
 
-    fn rates(&self) -> Narrowing {
+    fn rates(&self) -> BarrierPathRates {
         let rate = |[from, to]: [f64; 2]| (to / from).ln();
-        Narrowing { dhat_avatar: rate(self.dhat), weight: rate(self.weight) }
+        BarrierPathRates { dhat_avatar: rate(self.dhat), weight: rate(self.weight) }
     }
 }
 
@@ -107,10 +107,10 @@ impl Settling {
             }
             Phase::Narrow { s, advance } => {
                 let path = Path::new(objective, options);
-                objective.contact.set_narrowing(Some(path.rates()));
+                objective.contact.set_barrier_path(Some(path.rates()));
                 let ds = advance.min(1.0 - *s);
                 let taken = newton.continue_barrier(objective, state, ds);
-                objective.contact.set_narrowing(None);
+                objective.contact.set_barrier_path(None);
                 let taken = taken?;
                 *s += taken * ds;
                 if taken >= 0.99 {

@@ -10,7 +10,7 @@ use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject,
 use crate::options::Options;
 
 impl Problem {
-    /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its separation floor is lower than the
+    /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its minimum separation is lower than the
     /// option's where the garment is nearer to itself or the skeleton than that; its exempt holds the triangles that
     /// intersect or touch at the start.
     ///
@@ -49,7 +49,7 @@ impl Problem {
                 ),
             ));
         }
-        if objective.contact.floor() < self.gaps.floor {
+        if objective.contact.min_separation() < self.gaps.min_separation {
             let vertices: Vec<Element> = objective
                 .contact
                 .nearest(at)
@@ -65,10 +65,10 @@ impl Problem {
                     &vertices,
                     format!(
                         "garment: at the start it is within {:.1e} of itself and {:.1e} of the shrunk avatar, so that the \
-                         separation floor begins at {:.1e} and rises as they part",
+                         minimum separation begins at {:.1e} and rises as they part",
                         near.min_distance_self,
                         near.min_distance_avatar,
-                        objective.contact.floor()
+                        objective.contact.min_separation()
                     ),
                 )
             });

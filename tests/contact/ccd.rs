@@ -8,25 +8,25 @@ use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
 use crate::scene::{Scene, sphere};
 use testing::Random;
 
-const FLOOR: f64 = 1e-5;
+const MIN_SEPARATION: f64 = 1e-5;
 
 fn distance(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
     kind.separation(&std::array::from_fn(|i| x[i] + time * v[i])).squared.sqrt()
 }
 
 /// Samples the motion up to `answer` and asserts that the distance stays at the promised target.
-fn check_safe(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, answer: f64) {
+fn check_safe(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, answer: f64) {
     let first = distance(kind, x, v, 0.0);
-    let target = floor + 0.1 * (first - floor);
+    let target = min_separation + 0.1 * (first - min_separation);
     for k in 0..=400 {
         let d = distance(kind, x, v, answer * k as f64 / 400.0);
-        assert!(d >= target - 1e-15 - 1e-9 * (target - floor), "{kind:?} {x:?} {v:?}: {d:e} < {target:e}");
+        assert!(d >= target - 1e-15 - 1e-9 * (target - min_separation), "{kind:?} {x:?} {v:?}: {d:e} < {target:e}");
     }
 }
 
-/// The first sampled time at which the distance is at or below the floor.
-fn time_of_impact(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64) -> Option<f64> {
-    (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= floor)
+/// The first sampled time at which the distance is at or below the min_separation.
+fn time_of_impact(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64) -> Option<f64> {
+    (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= min_separation)
 }
 
 #[test]
@@ -38,15 +38,15 @@ fn generic_motions_stop_late_but_not_too_late() {
             let x = generic(&mut random);
             let v: [DVec3; 4] = std::array::from_fn(|_| 3.0 * SIZE * random.vector());
             let first = distance(kind, &x, &v, 0.0);
-            if first <= FLOOR {
+            if first <= MIN_SEPARATION {
                 continue;
             }
-            let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
-            check_safe(kind, &x, &v, FLOOR, answer);
+            let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
+            check_safe(kind, &x, &v, MIN_SEPARATION, answer);
             if answer < 1.0 {
                 // It stops only where the target is all but reached.
-                let left = distance(kind, &x, &v, answer) - (FLOOR + 0.1 * (first - FLOOR));
-                assert!(left <= 0.02 * (first - FLOOR), "{kind:?} {x:?} {v:?}: {left:e}");
+                let left = distance(kind, &x, &v, answer) - (MIN_SEPARATION + 0.1 * (first - MIN_SEPARATION));
+                assert!(left <= 0.02 * (first - MIN_SEPARATION), "{kind:?} {x:?} {v:?}: {left:e}");
                 stopped += 1;
             }
             // Every hit is sampled within this width; the target is farther out.
@@ -70,14 +70,14 @@ fn head_on_motion_reaches_nine_tenths() {
     for kind in KINDS {
         for gap in [1e-2, 1e-3, 1e-4, 1e-6] {
             for _ in 0..200 {
-                let x = interior(kind, gap + FLOOR, &mut random);
+                let x = interior(kind, gap + MIN_SEPARATION, &mut random);
                 let first = kind.separation(&x);
                 let direction = first.vector.normalize();
                 // The first primitive goes straight through the second, with all the rest along for the ride.
                 let ride = 10.0 * random.vector();
                 let count = kind.first_count();
                 let v = std::array::from_fn(|i| if i < count { ride - 2.0 * gap * direction } else { ride });
-                let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
+                let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
                 // The large common motion costs a few digits of the small relative one.
                 assert!((answer - 0.45).abs() < 1e-3 + 1e-14 / gap, "{kind:?} {gap:e} {answer}");
             }
@@ -101,7 +101,7 @@ fn hard_motions_are_safe() {
                     v = std::array::from_fn(|i| if i < kind.first_count() { a } else { b });
                 }
                 let separation = kind.separation(&x);
-                if separation.squared.sqrt() <= FLOOR {
+                if separation.squared.sqrt() <= MIN_SEPARATION {
                     continue;
                 }
                 if k % 2 == 0 {
@@ -110,9 +110,9 @@ fn hard_motions_are_safe() {
                         *p -= 1.5 * separation.vector;
                     }
                 }
-                let answer = pair_step(kind, &x, &v, FLOOR, 1.0);
+                let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
                 assert!(answer > 0.0 && answer <= 1.0);
-                check_safe(kind, &x, &v, FLOOR, answer);
+                check_safe(kind, &x, &v, MIN_SEPARATION, answer);
                 stopped += usize::from(answer < 1.0);
             }
         }
@@ -124,16 +124,16 @@ fn hard_motions_are_safe() {
 fn tiny_gaps_are_kept() {
     let mut random = Random::new(4);
     for kind in KINDS {
-        for floor in [0.0, FLOOR] {
+        for min_separation in [0.0, MIN_SEPARATION] {
             for k in 0..1000 {
                 let gap = 10f64.powi(-3 - k % 7);
-                let x = interior(kind, floor + gap, &mut random);
+                let x = interior(kind, min_separation + gap, &mut random);
                 let v: [DVec3; 4] = std::array::from_fn(|_| 10f64.powi(-(k % 4)) * SIZE * random.vector());
-                let answer = pair_step(kind, &x, &v, floor, 1.0);
+                let answer = pair_step(kind, &x, &v, min_separation, 1.0);
                 assert!(answer > 0.0, "{kind:?} {gap:e}");
                 for k in 0..=1000 {
                     let d = distance(kind, &x, &v, answer * k as f64 / 1000.0);
-                    assert!(d > floor + 0.09 * gap - 1e-15, "{kind:?} {gap:e} {d:e}");
+                    assert!(d > min_separation + 0.09 * gap - 1e-15, "{kind:?} {gap:e} {d:e}");
                 }
             }
         }
@@ -142,8 +142,8 @@ fn tiny_gaps_are_kept() {
 
 #[test]
 fn sliding_past_each_other_costs_nothing() {
-    // Grazing at a millionth above the floor, over the whole size of the primitives.
-    let gap = FLOOR + 1e-6;
+    // Grazing at a millionth above the min_separation, over the whole size of the primitives.
+    let gap = MIN_SEPARATION + 1e-6;
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * SIZE;
     let lift = DVec3::Z * gap;
     let cases = [
@@ -154,9 +154,9 @@ fn sliding_past_each_other_costs_nothing() {
     for (kind, x) in cases {
         let slide = p(0.4, 0.3, 0.0);
         let v = std::array::from_fn(|i| if i < kind.first_count() { slide } else { DVec3::ZERO });
-        assert_eq!(pair_step(kind, &x, &v, FLOOR, 1.0), 1.0);
+        assert_eq!(pair_step(kind, &x, &v, MIN_SEPARATION, 1.0), 1.0);
         // Everything as one: no relative motion, however large.
-        assert_eq!(pair_step(kind, &x, &[100.0 * slide; 4], FLOOR, 1.0), 1.0);
+        assert_eq!(pair_step(kind, &x, &[100.0 * slide; 4], MIN_SEPARATION, 1.0), 1.0);
     }
 }
 
@@ -165,22 +165,22 @@ fn pairs_below_the_floor_may_only_part() {
     let mut random = Random::new(5);
     for kind in KINDS {
         for _ in 0..300 {
-            let x = interior(kind, 0.5 * FLOOR, &mut random);
+            let x = interior(kind, 0.5 * MIN_SEPARATION, &mut random);
             let direction = kind.separation(&x).vector.normalize();
             let toward = |s: f64| -> [DVec3; 4] {
                 std::array::from_fn(|i| if i < kind.first_count() { s * direction } else { DVec3::ZERO })
             };
-            assert_eq!(pair_step(kind, &x, &toward(-1e-3), FLOOR, 1.0), 0.0);
-            assert_eq!(pair_step(kind, &x, &toward(1e-3), FLOOR, 1.0), 1.0);
-            assert_eq!(pair_step(kind, &x, &[DVec3::ZERO; 4], FLOOR, 1.0), 1.0);
+            assert_eq!(pair_step(kind, &x, &toward(-1e-3), MIN_SEPARATION, 1.0), 0.0);
+            assert_eq!(pair_step(kind, &x, &toward(1e-3), MIN_SEPARATION, 1.0), 1.0);
+            assert_eq!(pair_step(kind, &x, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
         }
         let touching = match kind {
             PairType::PointTriangle => [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ZERO],
             PairType::EdgeEdge => [-DVec3::X, DVec3::X, -DVec3::Y, DVec3::Y],
         };
         assert_eq!(kind.separation(&touching).squared, 0.0);
-        assert_eq!(pair_step(kind, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], FLOOR, 1.0), 0.0);
-        assert_eq!(pair_step(kind, &touching, &[DVec3::ZERO; 4], FLOOR, 1.0), 1.0);
+        assert_eq!(pair_step(kind, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], MIN_SEPARATION, 1.0), 0.0);
+        assert_eq!(pair_step(kind, &touching, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
     }
 }
 
@@ -221,20 +221,20 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         for run in set.ranges(0..set.len()) {
             for &pair in run.pairs {
                 let (x, v) = (motion.positions(pair), motion.displacements(pair));
-                least = least.min(pair_step(run.pair_type, &x, &v, FLOOR, 1.0));
+                least = least.min(pair_step(run.pair_type, &x, &v, MIN_SEPARATION, 1.0));
             }
         }
         for threads in [1, 2, 4] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             for _ in 0..5 {
-                let answer = pool.install(|| max_step(&motion, &set, |_| FLOOR, 1.0));
+                let answer = pool.install(|| max_step(&motion, &set, |_| MIN_SEPARATION, 1.0));
                 assert_eq!(answer.to_bits(), least.to_bits());
             }
         }
-        assert_eq!(max_step(&motion, &set, |_| FLOOR, 0.5 * least), 0.5 * least);
+        assert_eq!(max_step(&motion, &set, |_| MIN_SEPARATION, 0.5 * least), 0.5 * least);
         cut += usize::from(least < 1.0);
         for k in 0..=50 {
-            assert!(smallest(&motion, &set, least * k as f64 / 50.0) > FLOOR);
+            assert!(smallest(&motion, &set, least * k as f64 / 50.0) > MIN_SEPARATION);
         }
     }
     assert!(cut >= 6);
@@ -242,7 +242,7 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
     let at = Configuration { x: &scene.x, t: 0.0 };
     let step = Step { dx: &scene.dx, dt: 0.0 };
     let motion = Motion::new(&scene.bodies, at, Some(&step));
-    assert_eq!(max_step(&motion, &CandidateSet::default(), |_| FLOOR, 0.7), 0.7);
+    assert_eq!(max_step(&motion, &CandidateSet::default(), |_| MIN_SEPARATION, 0.7), 0.7);
 }
 
 #[test]
@@ -265,7 +265,7 @@ fn inflating_sphere_stops_inside_the_shell() {
     let mut broad_phase = BroadPhase::new(&bodies);
     let motion = Motion::new(&bodies, at, Some(&step));
     broad_phase.candidates(&bodies, &motion, 1.0, 1e-3, 1e-3, &mut out);
-    let answer = max_step(&motion, &out, |_| FLOOR, 1.0);
+    let answer = max_step(&motion, &out, |_| MIN_SEPARATION, 1.0);
     // The vertices of both meet at 0.4; a tenth of the gap is kept.
     assert!(answer > 0.35 && answer < 0.4, "{answer}");
     let there = Motion::new(&bodies, Configuration { x: &shell, t: answer }, None);

@@ -11,7 +11,7 @@ use crate::distance::searched;
 use crate::pairs::{KINDS, SIZE, interior};
 use testing::Random;
 
-const FLOOR: f64 = 1e-5;
+const MIN_SEPARATION: f64 = 1e-5;
 
 fn moved(x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> [DVec3; 4] {
     std::array::from_fn(|i| x[i] + time * v[i])
@@ -33,12 +33,12 @@ fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
 
 /// Asserts that the pair keeps its target and never touches up to the answer, which is returned. Coordinates are rounded to
 /// `ulp`.
-fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, ulp: f64, tally: &mut Tally) -> f64 {
-    let answer = pair_step(kind, x, v, floor, 1.0);
-    let what = || format!("{kind:?} {x:?} {v:?} floor {floor:e}, answer {answer:e}");
+fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, ulp: f64, tally: &mut Tally) -> f64 {
+    let answer = pair_step(kind, x, v, min_separation, 1.0);
+    let what = || format!("{kind:?} {x:?} {v:?} min_separation {min_separation:e}, answer {answer:e}");
     let first = distance(kind, x);
-    let target = floor + 0.1 * (first - floor);
-    let slack = 4.0 * ulp + 1e-6 * (target - floor);
+    let target = min_separation + 0.1 * (first - min_separation);
+    let slack = 4.0 * ulp + 1e-6 * (target - min_separation);
     assert!(answer > 0.0 && answer <= 1.0, "{}", what());
     let mut last = first;
     for k in 1..=60 {
@@ -49,7 +49,7 @@ fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], floor: f64, ulp: f64, t
     }
     if answer == 1.0 {
         tally.free += 1;
-    } else if last <= target + 0.025 * (first - floor) + slack {
+    } else if last <= target + 0.025 * (first - min_separation) + slack {
         tally.stopped += 1;
     } else {
         tally.early += 1;
@@ -86,7 +86,7 @@ fn nearly_parallel_edges_slide() {
     let mut tally = Tally::default();
     for k in 0..1500 {
         let turn = rotation(&mut random);
-        let gap = FLOOR + 10f64.powi(-3 - k % 6);
+        let gap = MIN_SEPARATION + 10f64.powi(-3 - k % 6);
         let angle = if k % 7 == 0 { 0.0 } else { 10f64.powi(-1 - k % 13) };
         let offset = 2.0 * SIZE * random.signed();
         let end = SIZE * DVec3::new(1.0, angle * random.signed(), 0.0);
@@ -97,7 +97,7 @@ fn nearly_parallel_edges_slide() {
         let slide = turn * DVec3::new(4.0 * SIZE * random.signed(), 1e-3 * SIZE * random.signed(), closing);
         let twist = turn * (DVec3::Z * 0.2 * closing.abs() * random.signed());
         let v = [slide, slide + twist, DVec3::ZERO, DVec3::ZERO];
-        judge(PairType::EdgeEdge, &x, &v, FLOOR, 1e-17, &mut tally);
+        judge(PairType::EdgeEdge, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
     }
     tally.check(300, 100);
 }
@@ -107,7 +107,7 @@ fn edges_that_turn_through_the_parallel_position() {
     let mut random = Random::new(22);
     let mut tally = Tally::default();
     for k in 0..600 {
-        let gap = FLOOR + 10f64.powi(-3 - k % 5);
+        let gap = MIN_SEPARATION + 10f64.powi(-3 - k % 5);
         // From one side of parallel to the other, at one height, or sinking onto the edge below.
         let sink = if k % 2 == 0 { 0.0 } else { -2.0 * gap * random.unit() };
         let swing = SIZE * DVec3::Y * (0.5 + random.unit());
@@ -117,7 +117,8 @@ fn edges_that_turn_through_the_parallel_position() {
         let fall = sink * DVec3::Z;
         let v = [2.0 * swing + fall, -2.0 * swing + fall, DVec3::ZERO, DVec3::ZERO];
         let turn = rotation(&mut random);
-        let answer = judge(PairType::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), FLOOR, 1e-17, &mut tally);
+        let answer =
+            judge(PairType::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), MIN_SEPARATION, 1e-17, &mut tally);
         assert!(sink != 0.0 || answer == 1.0, "no motion towards each other: {answer}");
     }
     tally.check(300, 100);
@@ -136,18 +137,19 @@ fn a_point_in_the_plane_of_its_triangle() {
             // Just beside an edge.
             let side = (corners[1] - corners[0]).cross(DVec3::Z).normalize();
             let inward = side.dot(corners[2] - corners[0]).signum();
-            corners[0].lerp(corners[1], random.unit()) - inward * side * (FLOOR + 10f64.powi(-4 - k % 6))
+            corners[0].lerp(corners[1], random.unit()) - inward * side * (MIN_SEPARATION + 10f64.powi(-4 - k % 6))
         } else {
             3.0 * flat(&mut random)
         };
         let x = [point, corners[0], corners[1], corners[2]].map(|p| turn * p);
-        if distance(PairType::PointTriangle, &x) <= 1.01 * FLOOR {
+        if distance(PairType::PointTriangle, &x) <= 1.01 * MIN_SEPARATION {
             continue;
         }
         let v = [4.0 * flat(&mut random), 0.1 * flat(&mut random), DVec3::ZERO, DVec3::ZERO].map(|p| turn * p);
-        let answer = judge(PairType::PointTriangle, &x, &v, FLOOR, 1e-17, &mut tally);
+        let answer = judge(PairType::PointTriangle, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
         // In the plane, the dense samples alone tell whether it hits.
-        let met = (0..=500).any(|k| distance(PairType::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= FLOOR);
+        let met = (0..=500)
+            .any(|k| distance(PairType::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= MIN_SEPARATION);
         assert!(!met || answer < 1.0);
         hits += usize::from(met);
     }
@@ -163,7 +165,7 @@ fn primitives_without_extent_meet_as_what_they_are() {
         let gap = 10f64.powi(-2 - k % 5);
         let (s, d) = (0.2 + 0.6 * random.unit(), turn * DVec3::Z);
         let [a, b] = [turn * (-s * SIZE * DVec3::X), turn * ((1.0 - s) * SIZE * DVec3::X)];
-        let p = (FLOOR + gap) * d;
+        let p = (MIN_SEPARATION + gap) * d;
         let fall = -2.0 * gap * d;
         // A point against an edge, against a point, and in both forms of a pair; the gap is closed at half time, and
         // nine tenths of it may be.
@@ -177,7 +179,7 @@ fn primitives_without_extent_meet_as_what_they_are() {
         ];
         for (kind, x, falling) in cases {
             let v = std::array::from_fn(|i| if i < falling { fall } else { DVec3::ZERO });
-            let answer = judge(kind, &x, &v, FLOOR, 1e-17, &mut tally);
+            let answer = judge(kind, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
             assert!((answer - 0.45).abs() < 0.011, "{kind:?} {x:?}: {answer}");
         }
     }
@@ -191,7 +193,7 @@ fn gaps_of_a_thousandth_of_a_millionth_and_less() {
     for kind in KINDS {
         for gap in [1e-9, 1e-10, 1e-11, 1e-12] {
             for k in 0..150 {
-                // Near 0, where the coordinates have digits for such a gap, and with a floor as low as the gap makes it.
+                // Near 0, where the coordinates have digits for such a gap, and with a min_separation as low as the gap makes it.
                 let place = interior(kind, 0.0, &mut random);
                 let centre = place.iter().sum::<DVec3>() / 4.0;
                 let mut x = place.map(|p| p - centre);
@@ -201,14 +203,14 @@ fn gaps_of_a_thousandth_of_a_millionth_and_less() {
                 };
                 let lift = gap * n.normalize();
                 x[..kind.first_count()].iter_mut().for_each(|p| *p += lift);
-                let floor = 0.25 * gap * f64::from(k % 2);
+                let min_separation = 0.25 * gap * f64::from(k % 2);
                 let first = distance(kind, &x);
                 if first < 0.5 * gap {
                     continue;
                 }
                 let speed = if k % 3 == 0 { SIZE } else { 3.0 * gap };
                 let v: [DVec3; 4] = std::array::from_fn(|_| speed * random.vector());
-                judge(kind, &x, &v, floor, 1e-17, &mut tally);
+                judge(kind, &x, &v, min_separation, 1e-17, &mut tally);
             }
         }
     }
@@ -224,12 +226,12 @@ fn large_coordinates_cost_digits_but_no_safety() {
             let ulp = away * f64::EPSILON;
             for k in 0..200 {
                 let shift = away * random.vector();
-                let gap = FLOOR + (1e4 * ulp).max(10f64.powi(-3 - k % 4));
+                let gap = MIN_SEPARATION + (1e4 * ulp).max(10f64.powi(-3 - k % 4));
                 let place = interior(kind, gap, &mut random);
                 let x = place.map(|p| p + shift);
                 let ride = if k % 2 == 0 { 100.0 * random.vector() } else { DVec3::ZERO };
                 let v: [DVec3; 4] = std::array::from_fn(|_| ride + 0.2 * SIZE * random.vector());
-                judge(kind, &x, &v, FLOOR, ulp.max(1e-14), &mut tally);
+                judge(kind, &x, &v, MIN_SEPARATION, ulp.max(1e-14), &mut tally);
             }
         }
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use bespoke::contact::distance::Separation;
 use bespoke::contact::{Avatar, Bodies, CandidateSet, Garment, PairType, Surface, mollifier};
-use bespoke::energy::barrier::{Barrier, BarrierSettings, Narrowing};
+use bespoke::energy::barrier::{Barrier, BarrierPathRates, BarrierSettings};
 use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ const T: f64 = 0.6;
 const SETTINGS: BarrierSettings = BarrierSettings {
     dhat_self: 0.004,
     dhat_avatar: 0.008,
-    floor: 1e-5,
+    min_separation: 1e-5,
     min_separation_intersecting: 1e-6,
     avatar_weight: 0.3,
 };
@@ -99,7 +99,7 @@ fn placed(kind: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
     x
 }
 
-/// All kinds and sides, at a distance between floor and d-hat given by `fraction`; nearly parallel edges on request.
+/// All kinds and sides, at a distance between min_separation and d-hat given by `fraction`; nearly parallel edges on request.
 fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &mut Random)) {
     let mut random = Random::new(seed);
     for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
@@ -116,7 +116,7 @@ fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &m
                 if parallel {
                     x[3] = x[2] + 0.8 * (x[1] - x[0]) + 0.008 * SIZE * random.vector();
                 }
-                let x = placed(kind, x, SETTINGS.floor + fraction * (dhat - SETTINGS.floor));
+                let x = placed(kind, x, SETTINGS.min_separation + fraction * (dhat - SETTINGS.min_separation));
                 let rest = x.map(|p| p + 0.2 * SIZE * random.vector());
                 let case = Case::new(kind, sides, x, rest);
                 each(case, &mut random);
@@ -165,13 +165,13 @@ struct Frozen<'a> {
 
 impl Frozen<'_> {
     fn barrier(&self, d: f64) -> f64 {
-        let (d, f, hat) = (d * d, SETTINGS.floor.powi(2), self.case.dhat().powi(2));
+        let (d, f, hat) = (d * d, SETTINGS.min_separation.powi(2), self.case.dhat().powi(2));
         -self.m * (d - hat).powi(2) * ((d - f) / (hat - f)).ln()
     }
 
-    /// First and second derivative, by differences that shrink towards the floor.
+    /// First and second derivative, by differences that shrink towards the min_separation.
     fn slopes(&self, d: f64) -> (f64, f64) {
-        let h = 1e-3 * (d - SETTINGS.floor);
+        let h = 1e-3 * (d - SETTINGS.min_separation);
         let b = |k: f64| self.barrier(d + k * h);
         let first = (8.0 * (b(1.0) - b(-1.0)) - (b(2.0) - b(-2.0))) / (12.0 * h);
         let second = (16.0 * (b(1.0) + b(-1.0)) - (b(2.0) + b(-2.0)) - 30.0 * b(0.0)) / (12.0 * h * h);
@@ -269,7 +269,7 @@ fn vertices_without_weight_are_left_out() {
 fn value_is_infinite_at_the_floor_and_zero_beyond_dhat() {
     for (parallel, seed) in [(false, 10), (true, 11)] {
         cases(seed, -0.0005, parallel, |case, _| {
-            assert!(case.kind.separation(&case.positions()).squared.sqrt() < SETTINGS.floor);
+            assert!(case.kind.separation(&case.positions()).squared.sqrt() < SETTINGS.min_separation);
             assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
         });
         cases(seed, 1.01, parallel, |case, _| {
@@ -284,7 +284,7 @@ fn value_is_infinite_at_the_floor_and_zero_beyond_dhat() {
 #[test]
 fn two_edges_exactly_parallel_at_the_floor_are_still_refused() {
     let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
-    let lift = DVec3::Z * 0.5 * SETTINGS.floor;
+    let lift = DVec3::Z * 0.5 * SETTINGS.min_separation;
     let x = [p(0., 0., 0.) + lift, p(1., 0., 0.) + lift, p(-1., 0., 0.), p(2., 0., 0.)];
     let case = Case::new(PairType::EdgeEdge, Sides::Garment, x, x);
     assert_eq!(mollifier::value(&x, mollifier::threshold(&x)), 0.0);
@@ -358,10 +358,10 @@ fn pattern_and_statistics_follow_what_is_active_and_ranges_add_up() {
     assert_eq!(pattern(&barrier).len(), barrier.activity(at).count);
 }
 
-/// The border of a narrowing barrier against differences of the gradient along s.
+/// The border of a rates barrier against differences of the gradient along s.
 #[test]
 fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
-    let rates = Narrowing { dhat_avatar: -1.6, weight: 3.0 };
+    let rates = BarrierPathRates { dhat_avatar: -1.6, weight: 3.0 };
     let mut compared = 0;
     for (seed, fraction) in [(8, 0.3), (9, 0.6), (10, 0.95)] {
         cases(seed, fraction, false, |mut case, _| {
@@ -382,7 +382,7 @@ fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
             case.barrier.set_settings(SETTINGS);
             // The part of t, which stands still on that path, is in both.
             let of_t = dense(&case.barrier, &case.x, T).hessian;
-            case.barrier.set_narrowing(Some(rates));
+            case.barrier.set_barrier_path(Some(rates));
             let both = dense(&case.barrier, &case.x, T).hessian;
             let numeric: Vec<f64> = (0..n).map(|i| (after[i] - before[i]) / (2.0 * step)).collect();
             let scale = numeric.iter().fold(0.0_f64, |m, v| m.max(v.abs()));

@@ -138,7 +138,7 @@ fn no_iterate_of_the_inflation_intersects() {
     let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
     let problem = problem(&garment);
     let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut findings).unwrap();
-    assert!(findings.is_empty() && objective.contact.floor() == options.separation_floor, "{findings:?}");
+    assert!(findings.is_empty() && objective.contact.min_separation() == options.separation_floor, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut inflation = Inflation::default();
@@ -215,7 +215,7 @@ fn a_garment_far_beside_its_skeleton_is_refused() {
     }
 }
 
-/// Two layers nearer than the separation floor: the floor gives way, the promise does not.
+/// Two layers nearer than the minimum separation: the min_separation gives way, the promise does not.
 #[test]
 fn layers_nearer_than_the_floor_stay_apart() {
     let mut garment = sleeve();

@@ -8,11 +8,11 @@ use glam::DVec3;
 #[test]
 fn weights_fall_from_one_to_nothing_between_the_reach_and_twice_that() {
     let corners = [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]];
-    let floor = TriangleMesh {
+    let min_separation = TriangleMesh {
         positions: corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect(),
         triangles: vec![[0, 1, 2]],
     };
-    let body = ClosestPoint::new(&floor);
+    let body = ClosestPoint::new(&min_separation);
     let heights: Vec<f64> = (0..=40).map(|k| 0.01 * f64::from(k)).collect();
     let points: Vec<DVec3> = heights.iter().map(|&z| DVec3::new(0.1, 0.2, -z)).collect();
     let weights = fit_region(&points, &body, 0.1);

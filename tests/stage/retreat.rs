@@ -113,7 +113,7 @@ impl Case {
             edge_crossings(&problem.rest, &problem.triangles, &problem.projected.start, &problem.projected.triangles);
         assert_eq!(crossings, 0);
         let objective = problem.inflation_objective(&Options::default(), &Cancel::new(), &mut Vec::new()).unwrap();
-        assert_eq!(objective.contact.floor(), Options::default().separation_floor);
+        assert_eq!(objective.contact.min_separation(), Options::default().separation_floor);
         // The pieces still tile the avatar at the end, and know what they are pieces of.
         let area = |p: &[DVec3], t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| p[v as usize]);

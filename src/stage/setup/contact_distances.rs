@@ -1,21 +1,21 @@
 //! The gap that survives the rounding of the result to the coordinates in which it is read.
 //!
-//! Rounding moves each vertex by at most a `shift`. Two primitives that are more than two shifts apart are then apart
+//! Rounding moves each vertex by at most a `quantisation`. Two primitives that are more than two shifts apart are then apart
 //! after rounding as well: along the straight way of their vertices to the rounded places, their distance falls by two
-//! shifts at most. So a separation floor above two shifts makes the promise survive.
+//! shifts at most. So a minimum separation above two shifts makes the promise survive.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::options::Options;
 
-/// The floor in shifts: the two that are needed, and half as much again.
-const FLOOR_IN_SHIFTS: f64 = 3.0;
-/// The floor as a part of d-hat, at most: the barrier needs room above it.
-const FLOOR_IN_DHAT: f64 = 0.25;
+/// The min_separation in shifts: the two that are needed, and half as much again.
+const SEPARATION_IN_ERRORS: f64 = 3.0;
+/// The min_separation as a part of d-hat, at most: the barrier needs room above it.
+const SEPARATION_IN_DHAT: f64 = 0.25;
 /// The garment's distance to itself as a part of its median edge, at most: neighbours are not to repel each other.
-const OWN_DHAT_IN_EDGES: f64 = 0.25;
-/// A shift above this, in a space in which the skeleton is 2 long, leaves no room for a fit.
-const LARGEST_SHIFT: f64 = 0.01;
+const DHAT_SELF_IN_EDGES: f64 = 0.25;
+/// A quantisation above this, in a space in which the skeleton is 2 long, leaves no room for a fit.
+const MAX_QUANTISATION_ERROR: f64 = 0.01;
 
 /// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
 pub const NO_DISTANCE: f64 = 1e-12;
@@ -24,20 +24,20 @@ pub const NO_DISTANCE: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaps {
     /// Where the barrier of the garment towards itself begins.
-    pub own_dhat: f64,
+    pub dhat_self: f64,
     /// Where that towards the avatar begins.
     pub dhat: f64,
     /// The same while the avatar grows.
     pub inflation_dhat: f64,
     /// What no distance falls below.
-    pub floor: f64,
+    pub min_separation: f64,
 }
 
 impl Gaps {
     /// The gaps that `options` ask for.
     pub fn of(options: &Options) -> Self {
-        let Options { dhat, inflation_dhat, separation_floor: floor, .. } = *options;
-        Self { own_dhat: dhat, dhat, inflation_dhat, floor }
+        let Options { dhat, inflation_dhat, separation_floor: min_separation, .. } = *options;
+        Self { dhat_self: dhat, dhat, inflation_dhat, min_separation }
     }
 
     /// Gaps that survive a rounding which moves no coordinate by more than `error`; the same where they are wide enough.
@@ -47,38 +47,38 @@ impl Gaps {
     /// # Errors
     /// `InvalidMesh` where the coordinates are too coarse for any fit.
     pub fn widened(self, error: f64, garment: &TriangleMesh) -> Result<Self> {
-        let shift = error * 3.0_f64.sqrt();
-        let floor = FLOOR_IN_SHIFTS * shift;
-        if floor <= self.floor {
+        let quantisation = error * 3.0_f64.sqrt();
+        let min_separation = SEPARATION_IN_ERRORS * quantisation;
+        if min_separation <= self.min_separation {
             return Ok(self);
         }
-        if shift > LARGEST_SHIFT {
+        if quantisation > MAX_QUANTISATION_ERROR {
             return Err(Error::new(
                 ErrorKind::InvalidMesh,
                 format!(
                     "target avatar: it is so far from the origin that the coordinates in which the garment is read move a \
-                     vertex by up to {shift:.1e}, in units in which the skeleton is 2 long; move it nearer to the origin, or \
+                     vertex by up to {quantisation:.1e}, in units in which the skeleton is 2 long; move it nearer to the origin, or \
                      set the garment in 64 bits"
                 ),
             ));
         }
-        let dhat = self.dhat.max(floor / FLOOR_IN_DHAT);
-        let own_dhat = self.own_dhat.max(dhat.min(OWN_DHAT_IN_EDGES * median_edge(garment)));
+        let dhat = self.dhat.max(min_separation / SEPARATION_IN_DHAT);
+        let dhat_self = self.dhat_self.max(dhat.min(DHAT_SELF_IN_EDGES * median_edge(garment)));
         Ok(Self {
-            own_dhat,
+            dhat_self,
             dhat,
             inflation_dhat: self.inflation_dhat.max(dhat),
-            floor: self.floor.max(floor.min(FLOOR_IN_DHAT * own_dhat)),
+            min_separation: self.min_separation.max(min_separation.min(SEPARATION_IN_DHAT * dhat_self)),
         })
     }
 
     /// All gaps twice as wide.
     pub fn doubled(self) -> Self {
         Self {
-            own_dhat: 2.0 * self.own_dhat,
+            dhat_self: 2.0 * self.dhat_self,
             dhat: 2.0 * self.dhat,
             inflation_dhat: 2.0 * self.inflation_dhat,
-            floor: 2.0 * self.floor,
+            min_separation: 2.0 * self.min_separation,
         }
     }
 }

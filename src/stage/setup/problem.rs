@@ -231,7 +231,7 @@ fn gather_unused(mesh: &mut TriangleMesh) {
 
 fn coarse_coordinates(gaps: &Gaps) -> Finding {
     Finding {
-        distance: gaps.floor,
+        distance: gaps.min_separation,
         ..Finding::new(
             FindingKind::CoarseCoordinates,
             Severity::Warning,
@@ -240,7 +240,7 @@ fn coarse_coordinates(gaps: &Gaps) -> Finding {
                 "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
                  distance of {:.1e} at least, in units in which the skeleton is 2 long; a place nearer to the origin or 64 bits \
                  allow a closer fit",
-                gaps.floor
+                gaps.min_separation
             ),
         )
     }
