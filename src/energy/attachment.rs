@@ -19,7 +19,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::triangle_frame::{Carried, least_squares};
+use super::triangle_frame::{BoundVertex, least_squares};
 use super::{Configuration, Energy, Sink};
 use crate::memory::bytes;
 
@@ -39,7 +39,7 @@ pub struct Hold {
 /// A held vertex and the triangle that holds it.
 #[derive(Clone, Copy, Debug)]
 struct Element {
-    carried: Carried,
+    bound: BoundVertex,
     weight: f64,
 }
 
@@ -61,10 +61,10 @@ impl Element {
         let &Hold { vertex: v, triangle: [a, b, c], distance, area } = hold;
         let [pa, pb, pc] = [a, b, c].map(|i| rest[i as usize]);
         let (e1, e2) = (pb - pa, pc - pa);
-        let carried = Carried::new(rest, [a, b, c, v])?;
+        let bound = BoundVertex::new(rest, [a, b, c, v])?;
         let square = (e1.length_squared() + e2.length_squared() + (e2 - e1).length_squared()) / 3.0;
         let weight = area / (square + distance * distance);
-        weight.is_finite().then_some(Self { carried, weight })
+        weight.is_finite().then_some(Self { bound, weight })
     }
 }
 
@@ -82,17 +82,17 @@ impl Energy for Attachment {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        self.elements[range].iter().map(|k| k.weight * k.carried.at(at.x).residual().length_squared()).sum()
+        self.elements[range].iter().map(|k| k.weight * k.bound.at(at.x).residual().length_squared()).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for k in &self.elements[range] {
-            let now = k.carried.at(at.x);
-            least_squares(sink, &k.carried.vertices, &now.jacobian(), now.residual(), k.weight);
+            let now = k.bound.at(at.x);
+            least_squares(sink, &k.bound.vertices, &now.jacobian(), now.residual(), k.weight);
         }
     }
 
     fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.elements.iter().for_each(|k| visit(&k.carried.vertices));
+        self.elements.iter().for_each(|k| visit(&k.bound.vertices));
     }
 }

@@ -4,7 +4,7 @@
 //! L = sum l_v (w(x_v, t) - w_v)^2,   w(x, t) = (x - A) . (B - A) / |B - A|^2
 //! ```
 //!
-//! A and B are the ends of the vertex's [`Guide`] at t, `w_v` is the coordinate of the rest vertex on the guide
+//! A and B are the ends of the vertex's [`MovingAxis`] at t, `w_v` is the coordinate of the rest vertex on the guide
 //! at t = 0, and `l_v` the mean rest length of the edges at v. The guide moves with t, so w depends on t too.
 
 use std::ops::Range;
@@ -16,7 +16,7 @@ use crate::memory::bytes;
 
 /// An axis between two points that move with the inflation parameter t.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guide {
+pub struct MovingAxis {
     /// Both ends at t = 0, from the source skeleton.
     pub start: [DVec3; 2],
     /// Both ends at t = 1, from the target skeleton.
@@ -46,7 +46,7 @@ struct Axis {
 
 impl Axis {
     #[inline]
-    fn new(guide: &Guide, t: f64) -> Option<Self> {
+    fn new(guide: &MovingAxis, t: f64) -> Option<Self> {
         let [a, b] = [0, 1].map(|k| guide.start[k].lerp(guide.end[k], t));
         let [a_rate, b_rate] = [0, 1].map(|k| guide.end[k] - guide.start[k]);
         let span = b - a;
@@ -77,29 +77,29 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Position {
     constraints: Vec<Constraint>,
-    guides: Vec<Guide>,
+    axes: Vec<MovingAxis>,
 }
 
 impl Position {
     /// The term for a garment with vertices `rest`.
     ///
-    /// `constraints` are pairs of a vertex and an index into `guides`; `weights` holds one value for each
+    /// `constraints` are pairs of a vertex and an index into `axes`; `weights` holds one value for each
     /// vertex of the garment, the mean rest length of its edges. A guide without length at t = 0 constrains nothing.
-    pub fn new(rest: &[DVec3], constraints: &[(u32, u32)], guides: Vec<Guide>, weights: &[f64]) -> Self {
+    pub fn new(rest: &[DVec3], constraints: &[(u32, u32)], axes: Vec<MovingAxis>, weights: &[f64]) -> Self {
         let constraints = constraints
             .iter()
             .filter_map(|&(vertex, guide)| {
-                let axis = Axis::new(&guides[guide as usize], 0.0)?;
+                let axis = Axis::new(&axes[guide as usize], 0.0)?;
                 let coordinate = axis.coordinate(rest[vertex as usize]);
                 Some(Constraint { vertex, guide, coordinate, weight: weights[vertex as usize] })
             })
             .collect();
-        Self { constraints, guides }
+        Self { constraints, axes }
     }
 
     #[inline]
     fn axis(&self, k: &Constraint, t: f64) -> Option<Axis> {
-        Axis::new(&self.guides[k.guide as usize], t)
+        Axis::new(&self.axes[k.guide as usize], t)
     }
 }
 
@@ -113,7 +113,7 @@ impl Energy for Position {
     }
 
     fn memory(&self) -> u64 {
-        bytes(&self.constraints) + bytes(&self.guides)
+        bytes(&self.constraints) + bytes(&self.axes)
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {

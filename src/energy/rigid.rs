@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::triangle_frame::{Carried, least_squares};
+use super::triangle_frame::{BoundVertex, least_squares};
 use super::{Configuration, Energy, Row, Sink};
 use crate::memory::bytes;
 
@@ -30,7 +30,7 @@ enum Element {
     /// Two anchors, their squared distance at rest, and m.
     Distance { vertices: [u32; 2], square: f64, weight: f64 },
     /// A vertex in the frame of three anchors, with 1 / s^2.
-    InFrame { carried: Carried, weight: f64 },
+    InFrame { bound: BoundVertex, weight: f64 },
     /// `[a, b, v]` on one line, the place of v along it, with 1 / s^2.
     OnLine { vertices: [u32; 3], along: f64, weight: f64 },
 }
@@ -106,8 +106,8 @@ impl Group {
             [a, b, c] => {
                 let edges = [[a, b], [a, c], [b, c]];
                 let weight = 1.0 / edges.map(square).into_iter().fold(0.0, f64::max);
-                let carried = others().filter_map(|v| Carried::new(rest, [a, b, c, v]));
-                let framed = carried.map(|carried| Element::InFrame { carried, weight });
+                let bound = others().filter_map(|v| BoundVertex::new(rest, [a, b, c, v]));
+                let framed = bound.map(|bound| Element::InFrame { bound, weight });
                 edges.map(held).into_iter().chain(framed).collect()
             }
             [a, b] => {
@@ -147,7 +147,7 @@ impl Element {
                 let strain = (x[*v as usize].distance_squared(x[*w as usize]) - square) / (2.0 * square);
                 weight * strain * strain
             }
-            Self::InFrame { carried, weight } => weight * carried.at(x).residual().length_squared(),
+            Self::InFrame { bound, weight } => weight * bound.at(x).residual().length_squared(),
             Self::OnLine { vertices, along, weight } => weight * on_line(x, *vertices, *along).length_squared(),
         }
     }
@@ -162,9 +162,9 @@ impl Element {
                 let row = Row { components, t: 0.0, g: 2.0 * weight * strain, h: 2.0 * weight };
                 sink.low_rank(&[*v, *w], &[row]);
             }
-            Self::InFrame { carried, weight } => {
-                let now = carried.at(x);
-                least_squares(sink, &carried.vertices, &now.jacobian(), now.residual(), *weight);
+            Self::InFrame { bound, weight } => {
+                let now = bound.at(x);
+                least_squares(sink, &bound.vertices, &now.jacobian(), now.residual(), *weight);
             }
             Self::OnLine { vertices, along, weight } => {
                 let residual = on_line(x, *vertices, *along);
@@ -211,7 +211,7 @@ impl Energy for Rigid {
         for element in &self.elements {
             match element {
                 Element::Distance { vertices, .. } => visit(vertices),
-                Element::InFrame { carried, .. } => visit(&carried.vertices),
+                Element::InFrame { bound, .. } => visit(&bound.vertices),
                 Element::OnLine { vertices, .. } => visit(vertices),
             }
         }

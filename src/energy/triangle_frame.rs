@@ -1,5 +1,5 @@
 //! The frame of a triangle, two edges and a normal, by which a term follows how the triangle deforms; and a vertex that is
-//! carried by one.
+//! bound by one.
 
 use glam::{DMat3, DVec3};
 
@@ -63,14 +63,14 @@ pub(super) fn coefficients(x: DVec3, a: DVec3, b: DVec3, normal: &Normal) -> Opt
 ///
 /// with the coefficients for which r is zero at rest, and so wherever a similarity moves all four.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Carried {
+pub(super) struct BoundVertex {
     /// `[a, b, c, v]`.
     pub vertices: [u32; 4],
     /// Factors of `e1`, `e2` and the normal.
     factors: [f64; 3],
 }
 
-impl Carried {
+impl BoundVertex {
     /// None for a triangle without area.
     pub fn new(rest: &[DVec3], vertices: [u32; 4]) -> Option<Self> {
         let [a, b, c, v] = vertices.map(|i| rest[i as usize]);
@@ -89,7 +89,7 @@ impl Carried {
     }
 }
 
-/// A [`Carried`] as it is now.
+/// A [`BoundVertex`] as it is now.
 pub(super) struct CarriedNow {
     factors: [f64; 3],
     e1: DVec3,

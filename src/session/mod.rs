@@ -196,7 +196,7 @@ impl Session {
     }
 
     /// The exact verifier has the last word, on the values as the caller will read them. Where it objects, the fit goes on
-    /// with wider gaps, a few times.
+    /// with wider distances, a few times.
     fn finish(&mut self) -> Result<Stage> {
         let clock = Instant::now();
         let precision = self.inputs.garment.as_ref().map_or(Precision::F32, |g| g.1);

@@ -17,13 +17,13 @@ use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
 use crate::stage::finish;
-use crate::stage::fit::Settling;
+use crate::stage::fit::FitStage;
 use crate::stage::inflate::Inflation;
 use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
 
-/// How often the fit goes on with wider gaps where rounding has broken its result.
-const MOST_WIDENINGS: u32 = 2;
+/// How often the fit goes on with wider distances where rounding has broken its result.
+const MAX_DISTANCE_DOUBLINGS: u32 = 2;
 
 /// What exists between `prepare` and `reset`.
 pub(super) struct Work {
@@ -38,9 +38,9 @@ pub(super) struct Work {
     field: FieldTask,
     /// Pairs of garment triangles that intersected at the start.
     pub(super) initial_intersections: Arc<[[u32; 2]]>,
-    /// How often the gaps were widened.
+    /// How often the distances were widened.
     widened: u32,
-    /// The gaps are to be widened.
+    /// The distances are to be widened.
     is_narrow: bool,
     /// What was measured so far.
     pub(super) report: Report,
@@ -60,7 +60,7 @@ pub(super) struct Work {
 /// The step of the paper that is under way.
 enum Step {
     Inflate(Inflation),
-    Fit(Settling),
+    Fit(FitStage),
 }
 
 impl Work {
@@ -143,9 +143,9 @@ impl Work {
         Fault::Worker.at(self.context.fault);
         let clock = Instant::now();
         if std::mem::take(&mut self.is_narrow) {
-            self.objective.contact.widen();
+            self.objective.contact.double_distances();
             self.newton.forget_values();
-            self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, &self.options));
+            self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
         }
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
@@ -154,17 +154,17 @@ impl Work {
                 let ended = inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state)?;
                 (Stage::Inflate, ended)
             }
-            Step::Fit(settling) => {
-                let converged = settling.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
+            Step::Fit(fit) => {
+                let converged = fit.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
                 self.report.converged = converged;
-                (Stage::Fit, converged || settling.iterations >= options.max_iterations)
+                (Stage::Fit, converged || fit.iterations >= options.max_iterations)
             }
         };
         if stage == Stage::Fit && ended {
             self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state)?;
             self.newton.forget_values();
         }
-        if self.objective.contact.review(self.state.configuration())? {
+        if self.objective.contact.update_exemptions(self.state.configuration())? {
             self.newton.forget_values();
         }
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
@@ -183,9 +183,9 @@ impl Work {
         }
     }
 
-    /// Step 3 is to go on with wider gaps. False where that was done often enough.
+    /// Step 3 is to go on with wider distances. False where that was done often enough.
     pub(super) fn widen(&mut self) -> bool {
-        self.is_narrow = self.widened < MOST_WIDENINGS;
+        self.is_narrow = self.widened < MAX_DISTANCE_DOUBLINGS;
         self.widened += 1;
         self.is_narrow
     }
@@ -200,13 +200,13 @@ impl Work {
         self.distance = Some(field.clone());
         let stop = &self.context.stop;
         let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
-        objective.contact.take_over(&self.objective.contact);
+        objective.contact.inherit_state(&self.objective.contact);
         self.objective = objective;
         stop.check()?;
         let room = self.room().beside(self.objective.memory());
         self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), room, stop.clone())?;
         self.objective.contact.limit_pairs(self.room().beside(self.newton.memory()));
-        self.step = Step::Fit(Settling::begin(&mut self.objective, &self.state, options));
+        self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
     }
@@ -231,7 +231,7 @@ impl Work {
             Part { what: "contacts of the garment", bytes: contacts },
         ];
         limit.check(&parts)?;
-        if self.objective.contact.lacks_room() {
+        if self.objective.contact.exceeds_pair_budget() {
             return Err(limit.lacking("contacts of the garment, more pairs than there is room for"));
         }
         self.objective.contact.limit_pairs(limit.beside(system));

@@ -75,7 +75,7 @@ impl View {
     }
 
     fn restored(&self, p: DVec3) -> DVec3 {
-        self.space.position_from_ours(self.problem.target_frame.restore(p))
+        self.space.position_from_ours(self.problem.target_normalization.restore(p))
     }
 
     /// Judges the garment as it is read in `precision`.

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use super::setup::contact_distances::{Gaps, NO_DISTANCE};
+use super::setup::contact_distances::{ContactDistances, TOUCHING};
 use crate::contact::exempt_pairs::triangle_pairs_of;
 use crate::contact::{Bodies, BroadPhase, CollisionGroup, Configuration, ExemptPairs, Motion, Step, ccd};
 use crate::control::{Cancel, Cancelled};
@@ -34,20 +34,20 @@ pub struct ContactGuard {
     motion: Motion,
     /// The part of the next step that is searched at first.
     look_ahead: f64,
-    gaps: Gaps,
+    distances: ContactDistances,
     cancel: Cancel,
     /// Time in contact since it was last taken.
     profile: Profile,
 }
 
 impl ContactGuard {
-    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by [`Self::settle`], and keep to
+    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by [`Self::rebuild_candidates`], and keep to
     /// `limit`.
-    pub fn new(bodies: Arc<Bodies>, gaps: Gaps, limit: MemoryLimit, cancel: Cancel) -> Self {
+    pub fn new(bodies: Arc<Bodies>, distances: ContactDistances, limit: MemoryLimit, cancel: Cancel) -> Self {
         let settings = BarrierSettings {
-            dhat_self: gaps.dhat_self,
-            dhat_avatar: gaps.inflation_dhat,
-            min_separation: gaps.min_separation,
+            dhat_self: distances.dhat_self,
+            dhat_avatar: distances.inflation_dhat,
+            min_separation: distances.min_separation,
             ..BarrierSettings::default()
         };
         let mut guard = Self {
@@ -56,7 +56,7 @@ impl ContactGuard {
             motion: Motion::default(),
             look_ahead: 1.0,
             bodies,
-            gaps,
+            distances,
             cancel,
             profile: Profile::default(),
         };
@@ -76,7 +76,7 @@ impl ContactGuard {
     }
 
     /// Whether the last search for pairs ended for want of room. What was computed since is worth nothing.
-    pub fn lacks_room(&self) -> bool {
+    pub fn exceeds_pair_budget(&self) -> bool {
         self.broad_phase.is_incomplete()
     }
 
@@ -91,48 +91,48 @@ impl ContactGuard {
     }
 
     /// Finds the pairs that are near at `at`, where nothing moves.
-    pub fn settle(&mut self, at: Configuration<'_>) {
+    pub fn rebuild_candidates(&mut self, at: Configuration<'_>) {
         self.motion.set(&self.bodies, at, None);
-        self.find_pairs(1.0);
-        self.narrow_pairs(1.0);
+        self.find_candidates(1.0);
+        self.keep_near_candidates(1.0);
     }
 
     /// Settles at `at` for the first time: the pairs of garment triangles in `initial_intersections` intersect there, and are let off
     /// together with what touches within rounding. Lowers the min_separation below all that is guarded.
-    pub fn begin(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
-        self.entangle(at, initial_intersections.to_vec(), |_, _| true);
+    pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
+        self.exempt_intersecting(at, initial_intersections.to_vec(), |_, _| true);
         self.update_min_separation(at, [0.0; 2]);
     }
 
     /// Goes on from `previous`, the contact of the same garment: with its exempt and its min_separation.
-    pub fn take_over(&mut self, previous: &Self) {
+    pub fn inherit_state(&mut self, previous: &Self) {
         self.broad_phase.set_exempt_pairs(previous.broad_phase.exempt_pairs().clone());
         self.set_min_separations(previous.min_separations());
     }
 
     /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
     fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
-        let near = self.barrier.nearer_than(NO_DISTANCE, at).into_iter();
+        let near = self.barrier.nearer_than(TOUCHING, at).into_iter();
         let own =
             near.filter(|&(_, group, _)| group != CollisionGroup::Avatar).map(|(pair_type, _, pair)| (pair_type, pair));
         triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
     }
 
-    /// What has come apart is guarded from now on, and the min_separations follow the smallest distances, up to that of the gaps. To be
+    /// What has come apart is guarded from now on, and the min_separations follow the smallest distances, up to that of the distances. To be
     /// called after each accepted step. True where the barrier has changed.
     ///
     /// # Errors
     /// `InvalidMesh` where a vertex is not finite.
-    pub fn review(&mut self, at: Configuration<'_>) -> Result<bool> {
+    pub fn update_exemptions(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.min_separations();
-        let released = self.release(at)?;
-        if released || before[0] < self.gaps.min_separation || !self.exempt_pairs().is_empty() {
+        let released = self.reinstate_separated(at)?;
+        if released || before[0] < self.distances.min_separation || !self.exempt_pairs().is_empty() {
             self.update_min_separation(at, before);
         }
         Ok(released || self.min_separations() != before)
     }
 
-    fn release(&mut self, at: Configuration<'_>) -> Result<bool> {
+    fn reinstate_separated(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.broad_phase.exempt_pairs();
         if before.is_empty() {
             return Ok(false);
@@ -145,15 +145,15 @@ impl ContactGuard {
         }
         let before = before.clone();
         // What is apart by no more than rounding stays let off, and nothing is let off anew.
-        self.entangle(at, pairs, |s, t| before.contains(s, t));
+        self.exempt_intersecting(at, pairs, |s, t| before.contains(s, t));
         Ok(self.exempt_pairs().triangle_pairs().len() < before.triangle_pairs().len())
     }
 
     /// Makes a exempt of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
-    fn entangle(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
+    fn exempt_intersecting(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
         loop {
             self.broad_phase.set_exempt_pairs(ExemptPairs::new(&self.bodies.garment.surface, &pairs));
-            self.settle(at);
+            self.rebuild_candidates(at);
             let exempt = self.exempt_pairs();
             let joins = |&[s, t]: &[u32; 2]| may(s, t) && !exempt.contains(s, t);
             let joining: Vec<[u32; 2]> = self.touching(at).into_iter().filter(joins).collect();
@@ -164,14 +164,16 @@ impl ContactGuard {
         }
     }
 
-    /// Sets the min_separations as high as the gaps ask for and what is guarded at `at` allows; but not below `before`, which was
+    /// Sets the min_separations as high as the distances ask for and what is guarded at `at` allows; but not below `before`, which was
     /// below all distances, unless something newly guarded is nearer than that.
     fn update_min_separation(&mut self, at: Configuration<'_>, before: [f64; 2]) {
         let near = self.barrier.activity(at);
         let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_intersecting];
         let wanted = [
-            self.gaps.min_separation,
-            self.gaps.min_separation.min(SEPARATION_SHARE * self.barrier.settings().dhat(CollisionGroup::Intersecting)),
+            self.distances.min_separation,
+            self.distances
+                .min_separation
+                .min(SEPARATION_SHARE * self.barrier.settings().dhat(CollisionGroup::Intersecting)),
         ];
         let [min_separation, min_separation_intersecting] = std::array::from_fn(|k| {
             let fitting = (SEPARATION_SHARE * nearest[k]).min(wanted[k]);
@@ -180,15 +182,15 @@ impl ContactGuard {
         self.set_min_separations([min_separation, min_separation_intersecting]);
     }
 
-    /// Doubles the gaps. The pairs must be found again by [`Self::settle`].
-    pub fn widen(&mut self) {
-        self.gaps = self.gaps.doubled();
-        self.barrier.set_settings(BarrierSettings { dhat_self: self.gaps.dhat_self, ..*self.barrier.settings() });
+    /// Doubles the distances. The pairs must be found again by [`Self::rebuild_candidates`].
+    pub fn double_distances(&mut self) {
+        self.distances = self.distances.doubled();
+        self.barrier.set_settings(BarrierSettings { dhat_self: self.distances.dhat_self, ..*self.barrier.settings() });
     }
 
-    /// The gaps that contact keeps.
-    pub fn gaps(&self) -> Gaps {
-        self.gaps
+    /// The distances that contact keeps.
+    pub fn distances(&self) -> ContactDistances {
+        self.distances
     }
 
     /// The distance that no pair falls below, but for the initial_intersections ones.
@@ -214,7 +216,7 @@ impl ContactGuard {
         self.broad_phase.exempt_pairs()
     }
 
-    /// Sets where the barrier towards the avatar begins. The pairs must be found again by [`Self::settle`].
+    /// Sets where the barrier towards the avatar begins. The pairs must be found again by [`Self::rebuild_candidates`].
     pub fn set_dhat_avatar(&mut self, dhat_avatar: f64) {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
     }
@@ -226,7 +228,7 @@ impl ContactGuard {
 
     /// Makes the pairs valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at most
     /// `longest`, along which nothing intersects and no distance falls below the minimum separation. `None` where the pairs
-    /// have no room: see [`Self::lacks_room`].
+    /// have no room: see [`Self::exceeds_pair_budget`].
     ///
     /// # Errors
     /// [`Cancelled`]; the token is looked at after each search for pairs and in the end.
@@ -241,9 +243,9 @@ impl ContactGuard {
         // The pairs that only the far part of a long step meets are many, and mostly the step ends before.
         let mut part = longest.min(self.look_ahead);
         loop {
-            self.find_pairs(part);
+            self.find_candidates(part);
             self.cancel.check()?;
-            if self.lacks_room() {
+            if self.exceeds_pair_budget() {
                 return Ok(None);
             }
             let settings = self.barrier.settings();
@@ -253,7 +255,7 @@ impl ContactGuard {
             self.profile.ccd += clock.elapsed();
             if free < part || part >= longest {
                 self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
-                self.narrow_pairs(free);
+                self.keep_near_candidates(free);
                 self.cancel.check()?;
                 return Ok(Some(free));
             }
@@ -281,7 +283,7 @@ impl ContactGuard {
     }
 
     /// Finds the pairs that come within their d-hat during the first `part` of the motion.
-    fn find_pairs(&mut self, part: f64) {
+    fn find_candidates(&mut self, part: f64) {
         let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();
         let clock = Instant::now();
         let pairs = self.barrier.candidates_mut();
@@ -290,7 +292,7 @@ impl ContactGuard {
     }
 
     /// Leaves of the pairs those that come within their d-hat during the first `part` of the motion.
-    fn narrow_pairs(&mut self, part: f64) {
+    fn keep_near_candidates(&mut self, part: f64) {
         let settings = *self.barrier.settings();
         self.barrier.candidates_mut().retain_near(&self.motion, part, |group| settings.dhat(group));
     }

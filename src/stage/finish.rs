@@ -83,7 +83,7 @@ fn report_bent(problem: &Problem, groups: &[Group], x: &[DVec3], findings: &mut 
 }
 
 fn report_missed(problem: &Problem, objective: &Objective, x: &[DVec3], findings: &mut Vec<Finding>) {
-    let away = AWAY * objective.contact.gaps().dhat;
+    let away = AWAY * objective.contact.distances().dhat;
     let distances = objective.pins().pins().iter().map(|pin| (pin.vertex, x[pin.vertex as usize].distance(pin.end)));
     let missed: Vec<(u32, f64)> = distances.filter(|(_, distance)| *distance > away).collect();
     let finding = |&(v, distance): &(u32, f64)| {

@@ -19,14 +19,14 @@ use crate::solver::newton::{Newton, State};
 use super::objective::Objective;
 
 /// The iterations that must pass the test one after the other.
-const CALM: u32 = 2;
+const CONVERGED_STEPS: u32 = 2;
 /// An objective below this is none: the garment is as it was designed, and every fraction of the objective is rounding.
-const NOTHING: f64 = 1e-9;
+const NO_OBJECTIVE: f64 = 1e-9;
 /// The weight of the barrier at s = 0 as a fraction of Step 2's.
 const SOFTNESS: f64 = 0.1;
 /// The path begins where the squared Newton decrement is below this fraction of the objective, or after so many steps.
-const EASED: f64 = 0.02;
-const PATIENCE: u32 = 12;
+const RELAXED: f64 = 0.02;
+const MAX_RELAX_STEPS: u32 = 12;
 /// The first advance along the path, and the largest.
 const FIRST_ADVANCE: f64 = 0.25;
 const LARGEST_ADVANCE: f64 = 0.5;
@@ -34,7 +34,7 @@ const LARGEST_ADVANCE: f64 = 0.5;
 const SMALLEST_ADVANCE: f64 = 1e-3;
 
 /// The state of the descent.
-pub struct Settling {
+pub struct FitStage {
     phase: Phase,
     /// Iterations so far.
     pub iterations: u32,
@@ -42,11 +42,11 @@ pub struct Settling {
 
 enum Phase {
     /// Newton's method with the barrier at s = 0, for so many steps.
-    Ease(u32),
+    Relax(u32),
     /// Along the path.
-    Narrow { s: f64, advance: f64 },
+    Continue { s: f64, advance: f64 },
     /// Newton's method with the barrier at s = 1; so many steps have passed the test.
-    Settle(u32),
+    Converge(u32),
 }
 
 /// The ends of the path: d-hat towards the avatar and weight of the barrier.
@@ -57,9 +57,9 @@ struct Path {
 
 impl Path {
     fn new(objective: &Objective, options: &Options) -> Self {
-        let gaps = objective.contact.gaps();
+        let distances = objective.contact.distances();
         Self {
-            dhat: [gaps.inflation_dhat, gaps.dhat],
+            dhat: [distances.inflation_dhat, distances.dhat],
             weight: [SOFTNESS * options.inflation_barrier_weight, options.barrier_weight],
         }
     }
@@ -68,7 +68,7 @@ impl Path {
     fn set(&self, s: f64, objective: &mut Objective, state: &State) {
         let between = |[from, to]: [f64; 2]| if s == 1.0 { to } else { from * (to / from).powf(s) };
         objective.set_contact(between(self.dhat), between(self.weight));
-        objective.contact.settle(state.configuration());
+        objective.contact.rebuild_candidates(state.configuration());
     }
 
     fn rates(&self) -> BarrierPathRates {
@@ -77,15 +77,15 @@ impl Path {
     }
 }
 
-impl Settling {
+impl FitStage {
     /// Begins where Step 2 ended.
     pub fn begin(objective: &mut Objective, state: &State, options: &Options) -> Self {
         Path::new(objective, options).set(0.0, objective, state);
-        Self { phase: Phase::Ease(0), iterations: 0 }
+        Self { phase: Phase::Relax(0), iterations: 0 }
     }
 
     /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
-    /// model still promises, is below the tolerance times the objective (or [`NOTHING`]); or no step decreases it any more.
+    /// model still promises, is below the tolerance times the objective (or [`NO_OBJECTIVE`]); or no step decreases it any more.
     ///
     /// # Errors
     /// `Internal`, `MemoryLimit` and `Cancelled` from the solver.
@@ -98,14 +98,15 @@ impl Settling {
     ) -> Result<bool> {
         self.iterations += 1;
         match &mut self.phase {
-            Phase::Ease(steps) => {
+            Phase::Relax(steps) => {
                 *steps += 1;
                 let step = newton.newton_step(objective, state, false)?;
-                if *steps >= PATIENCE || step.is_none_or(|s| s.decrement <= EASED * s.after.max(NOTHING)) {
-                    self.phase = Phase::Narrow { s: 0.0, advance: FIRST_ADVANCE };
+                if *steps >= MAX_RELAX_STEPS || step.is_none_or(|s| s.decrement <= RELAXED * s.after.max(NO_OBJECTIVE))
+                {
+                    self.phase = Phase::Continue { s: 0.0, advance: FIRST_ADVANCE };
                 }
             }
-            Phase::Narrow { s, advance } => {
+            Phase::Continue { s, advance } => {
                 let path = Path::new(objective, options);
                 objective.contact.set_barrier_path(Some(path.rates()));
                 let ds = advance.min(1.0 - *s);
@@ -125,18 +126,18 @@ impl Settling {
                 path.set(at, objective, state);
                 newton.forget_values();
                 if at == 1.0 {
-                    self.phase = Phase::Settle(0);
+                    self.phase = Phase::Converge(0);
                 }
             }
-            Phase::Settle(calm) => {
+            Phase::Converge(converged) => {
                 let step = newton.newton_step(objective, state, false)?;
                 let Some(step) = step else { return Ok(true) };
-                *calm = if !step.damped && step.decrement <= options.tolerance * step.after.max(NOTHING) {
-                    *calm + 1
+                *converged = if !step.damped && step.decrement <= options.tolerance * step.after.max(NO_OBJECTIVE) {
+                    *converged + 1
                 } else {
                     0
                 };
-                return Ok(*calm >= CALM);
+                return Ok(*converged >= CONVERGED_STEPS);
             }
         }
         Ok(false)

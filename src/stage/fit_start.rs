@@ -51,6 +51,6 @@ impl Problem {
             fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;
         }
         let bodies = self.bodies(avatar);
-        Ok(Objective::new(self.shape.clone(), Some(fit), bodies, self.gaps, options, cancel.clone()))
+        Ok(Objective::new(self.shape.clone(), Some(fit), bodies, self.distances, options, cancel.clone()))
     }
 }

@@ -18,19 +18,19 @@ const LARGEST_ADVANCE: f64 = 0.2;
 /// An advance that would be shorter than this is no advance.
 const SMALLEST_ADVANCE: f64 = 1e-6;
 /// Below this fraction of an accepted step, the garment is brought back to balance.
-const CRAMPED: f64 = 0.1;
-/// Newton steps at fixed t after a cramped advance.
+const SHORT_ADVANCE: f64 = 0.1;
+/// Newton steps at fixed t after a short_advances advance.
 const CORRECTIONS: u32 = 3;
 /// Cramped advances without a free one between them, after which the garment counts as wedged.
-const WEDGED: u32 = 12;
+const MAX_SHORT_ADVANCES: u32 = 12;
 /// The jump to t = 1 is tried from here on: further away its swept volume is large and its hope small.
-const SNAP_FROM: f64 = 0.7;
+const FULL_INFLATION_FROM: f64 = 0.7;
 /// Steps of the augmented Lagrangian before its multipliers are updated, at most.
 const INNER_STEPS: u32 = 12;
 /// An inner solve ends where the squared Newton decrement is below this fraction of the objective.
 const INNER_TOLERANCE: f64 = 0.01;
 /// Penalty at which the augmented Lagrangian gives up: thirty doublings.
-const STRONGEST_DRIVE: f64 = 1e9;
+const MAX_PENALTY: f64 = 1e9;
 
 /// The state of Step 2.
 pub struct Inflation {
@@ -40,13 +40,13 @@ pub struct Inflation {
 }
 
 enum Form {
-    Path { advance: f64, corrections: u32, cramped: u32 },
+    Path { advance: f64, corrections: u32, short_advances: u32 },
     Lagrangian { inner: u32 },
 }
 
 impl Default for Inflation {
     fn default() -> Self {
-        Self { form: Form::Path { advance: FIRST_ADVANCE, corrections: 0, cramped: 0 }, iterations: 0 }
+        Self { form: Form::Path { advance: FIRST_ADVANCE, corrections: 0, short_advances: 0 }, iterations: 0 }
     }
 }
 
@@ -64,10 +64,10 @@ impl Inflation {
                     *corrections = 0;
                 }
             }
-            Form::Path { .. } => self.follow(objective, newton, state)?,
-            Form::Lagrangian { .. } => self.push(objective, newton, state)?,
+            Form::Path { .. } => self.continuation_step(objective, newton, state)?,
+            Form::Lagrangian { .. } => self.augmented_lagrangian_step(objective, newton, state)?,
         }
-        if state.t < 1.0 && !snap(objective, state)? {
+        if state.t < 1.0 && !try_full_inflation(objective, state)? {
             return Ok(false);
         }
         newton.forget_values();
@@ -75,20 +75,20 @@ impl Inflation {
     }
 
     /// One advance along the path.
-    fn follow(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
-        let Form::Path { advance, corrections, cramped } = &mut self.form else { return Ok(()) };
+    fn continuation_step(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
+        let Form::Path { advance, corrections, short_advances } = &mut self.form else { return Ok(()) };
         let taken = newton.continue_t(objective, state, advance.min(1.0 - state.t))?;
         if taken >= 0.99 {
             *advance = (2.0 * *advance).min(LARGEST_ADVANCE);
-            *cramped = 0;
+            *short_advances = 0;
         } else if taken < 0.5 {
             *advance *= 0.5;
         }
-        if taken < CRAMPED {
-            *cramped += 1;
+        if taken < SHORT_ADVANCE {
+            *short_advances += 1;
             *corrections = CORRECTIONS;
         }
-        if *advance < SMALLEST_ADVANCE || *cramped > WEDGED {
+        if *advance < SMALLEST_ADVANCE || *short_advances > MAX_SHORT_ADVANCES {
             // A drive as strong as the resistance that stopped the path.
             let multiplier = newton.t_gradient().max(0.0);
             objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));
@@ -99,7 +99,12 @@ impl Inflation {
     }
 
     /// One Newton step on garment and t together.
-    fn push(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
+    fn augmented_lagrangian_step(
+        &mut self,
+        objective: &mut Objective,
+        newton: &mut Newton,
+        state: &mut State,
+    ) -> Result<()> {
         let Form::Lagrangian { inner } = &mut self.form else { return Ok(()) };
         *inner += 1;
         let step = newton.newton_step(objective, state, true)?;
@@ -109,7 +114,7 @@ impl Inflation {
         }
         *inner = 0;
         let Some(mut drive) = objective.inflation().copied() else { return Ok(()) };
-        if drive.penalty() > STRONGEST_DRIVE {
+        if drive.penalty() > MAX_PENALTY {
             return Err(Error::new(
                 ErrorKind::InflationStalled,
                 format!(
@@ -129,8 +134,8 @@ impl Inflation {
 }
 
 /// Jumps to t = 1 with the garment at rest, where nothing is in the way.
-fn snap(objective: &mut Objective, state: &mut State) -> Result<bool> {
-    if state.t < SNAP_FROM {
+fn try_full_inflation(objective: &mut Objective, state: &mut State) -> Result<bool> {
+    if state.t < FULL_INFLATION_FROM {
         return Ok(false);
     }
     let feasible = objective.max_feasible_inflation(state.configuration(), 1.0 - state.t)?;
@@ -139,7 +144,7 @@ fn snap(objective: &mut Objective, state: &mut State) -> Result<bool> {
     if free {
         state.t = 1.0;
     } else {
-        objective.contact.settle(state.configuration());
+        objective.contact.rebuild_candidates(state.configuration());
     }
     Ok(free)
 }

@@ -1,7 +1,7 @@
 //! The objective with which the inflation begins, and what is told of a garment that touches itself or the shrunk avatar.
 
 use super::objective::Objective;
-use super::setup::contact_distances::NO_DISTANCE;
+use super::setup::contact_distances::TOUCHING;
 use super::setup::problem::Problem;
 use crate::contact::{Avatar, Configuration, Surface};
 use crate::control::Cancel;
@@ -31,25 +31,25 @@ impl Problem {
             motion,
         };
         let bodies = self.bodies(avatar);
-        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.gaps, options, cancel.clone());
-        objective.contact.begin(at, &self.initial_intersections);
+        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
+        objective.contact.initialise(at, &self.initial_intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
         report_tangle(self, initial_intersections, options.strict, findings);
         if options.strict && !initial_intersections.is_empty() {
             return Err(intersects_itself(self, initial_intersections));
         }
         let near = objective.contact.activity(at);
-        if near.min_distance_avatar < NO_DISTANCE {
+        if near.min_distance_avatar < TOUCHING {
             return Err(Error::new(
                 ErrorKind::NotEnclosed,
                 format!(
                     "garment: at the start it is within {:e} of the shrunk avatar, in units in which the skeleton is 2 long; \
-                     that is as good as touching. Move garment or skeleton by at least {NO_DISTANCE:e}",
+                     that is as good as touching. Move garment or skeleton by at least {TOUCHING:e}",
                     near.min_distance_avatar
                 ),
             ));
         }
-        if objective.contact.min_separation() < self.gaps.min_separation {
+        if objective.contact.min_separation() < self.distances.min_separation {
             let vertices: Vec<Element> = objective
                 .contact
                 .nearest(at)

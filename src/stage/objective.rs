@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::contact_guard::ContactGuard;
-use super::setup::contact_distances::Gaps;
+use super::setup::contact_distances::ContactDistances;
 use super::setup::shape::Shape;
 use crate::contact::{Bodies, Configuration};
 use crate::control::{Cancel, Cancelled};
@@ -40,7 +40,7 @@ impl Objective {
         shape: Arc<Shape>,
         fit: Option<Fit>,
         bodies: Arc<Bodies>,
-        gaps: Gaps,
+        distances: ContactDistances,
         weights: &Options,
         cancel: Cancel,
     ) -> Self {
@@ -48,7 +48,7 @@ impl Objective {
             shape,
             fit,
             inflation: None,
-            contact: ContactGuard::new(bodies, gaps, MemoryLimit::new(weights.memory_limit), cancel),
+            contact: ContactGuard::new(bodies, distances, MemoryLimit::new(weights.memory_limit), cancel),
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
         }
@@ -60,7 +60,7 @@ impl Objective {
     }
 
     /// Sets where the barrier towards the avatar begins, and the weight of the barrier as a whole. The pairs must be found
-    /// again by [`ContactGuard::settle`].
+    /// again by [`ContactGuard::rebuild_candidates`].
     pub fn set_contact(&mut self, dhat_avatar: f64, weight: f64) {
         self.contact.set_dhat_avatar(dhat_avatar);
         self.barrier_weight = weight;

@@ -1,6 +1,6 @@
 //! Position term.
 
-use bespoke::energy::position::{Guide, Position};
+use bespoke::energy::position::{MovingAxis, Position};
 use bespoke::energy::{Configuration, Energy};
 use glam::DVec3;
 
@@ -12,28 +12,28 @@ fn value(energy: &Position, x: &[DVec3], t: f64) -> f64 {
     energy.value(Configuration { x, t }, 0..energy.len())
 }
 
-/// Two guides that turn, move and grow between t = 0 and t = 1.
-fn guides(random: &mut Random) -> Vec<Guide> {
+/// Two axes that turn, move and grow between t = 0 and t = 1.
+fn axes(random: &mut Random) -> Vec<MovingAxis> {
     let mut guide = |axis: DVec3| {
         let start = [random.vector(), random.vector() + 3.0 * axis];
-        Guide { start, end: start.map(|p| 1.4 * p + 0.5 * random.vector()) }
+        MovingAxis { start, end: start.map(|p| 1.4 * p + 0.5 * random.vector()) }
     };
     vec![guide(DVec3::X), guide(DVec3::Z)]
 }
 
-fn sample(random: &mut Random) -> (Vec<DVec3>, Position, Vec<Guide>) {
+fn sample(random: &mut Random) -> (Vec<DVec3>, Position, Vec<MovingAxis>) {
     let rest: Vec<DVec3> = (0..6).map(|_| 2.0 * random.vector()).collect();
     let weights: Vec<f64> = rest.iter().map(|_| 0.1 + random.unit()).collect();
-    let guides = guides(random);
+    let axes = axes(random);
     let constraints = [(0, 0), (1, 1), (3, 0), (3, 1), (5, 1)];
-    let energy = Position::new(&rest, &constraints, guides.clone(), &weights);
-    (rest, energy, guides)
+    let energy = Position::new(&rest, &constraints, axes.clone(), &weights);
+    (rest, energy, axes)
 }
 
 #[test]
 fn agrees_with_the_definition() {
     let mut random = Random::new(21);
-    let guide = guides(&mut random)[0];
+    let guide = axes(&mut random)[0];
     let (rest, x, t) = ([random.vector()], [random.vector()], 0.35);
     let energy = Position::new(&rest, &[(0, 0)], vec![guide], &[0.7]);
     let coordinate = |p: DVec3, [a, b]: [DVec3; 2]| (p - a).dot(b - a) / (b - a).dot(b - a);
@@ -72,7 +72,7 @@ fn carried_along_with_the_guide_costs_nothing() {
         let (turn, shift, scale) = (rotation(&mut random), random.vector(), 0.5 + random.unit());
         let carry = |p: DVec3| turn * (scale * p) + shift;
         let constraints: Vec<(u32, u32)> = (0..5).map(|v| (v, 0)).collect();
-        let guide = Guide { start, end: start.map(carry) };
+        let guide = MovingAxis { start, end: start.map(carry) };
         let energy = Position::new(&rest, &constraints, vec![guide], &[1.0; 5]);
         let carried: Vec<DVec3> = rest.iter().copied().map(carry).collect();
         assert!(value(&energy, &carried, 1.0) < 1e-24);
@@ -88,11 +88,11 @@ fn carried_along_with_the_guide_costs_nothing() {
 fn a_guide_without_length_has_no_say() {
     let point = [DVec3::ONE; 2];
     let rest = [DVec3::ZERO];
-    let nothing = Position::new(&rest, &[(0, 0)], vec![Guide { start: point, end: point }], &[1.0]);
+    let nothing = Position::new(&rest, &[(0, 0)], vec![MovingAxis { start: point, end: point }], &[1.0]);
     assert!(nothing.is_empty());
     // A guide that turns inside out has no length half-way.
     let start = [-DVec3::X, DVec3::X];
-    let turned = Position::new(&rest, &[(0, 0)], vec![Guide { start, end: [DVec3::X, -DVec3::X] }], &[1.0]);
+    let turned = Position::new(&rest, &[(0, 0)], vec![MovingAxis { start, end: [DVec3::X, -DVec3::X] }], &[1.0]);
     assert_eq!(value(&turned, &[DVec3::ONE], 0.5), 0.0);
     assert!(dense(&turned, &[DVec3::ONE], 0.5).gradient.iter().all(|&g| g == 0.0));
     assert!(value(&turned, &[DVec3::ONE], 0.4) > 0.0);

@@ -205,7 +205,7 @@ fn ranges_add_up_and_stencils_cover_the_hessian() {
 }
 
 /// A strip of long cells below the line y = 0, of short cells above it: every other vertex of the line lies inside an
-/// edge of the lower strip. With `caps` these gaps hold a triangle, without, the lower strip is split there.
+/// edge of the lower strip. With `caps` these distances hold a triangle, without, the lower strip is split there.
 fn t_junctions(caps: bool) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     const CELLS: u32 = 3;
     let columns = 2 * CELLS + 1;

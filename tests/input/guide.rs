@@ -1,9 +1,9 @@
 //! The bones that boundary loops follow.
 
-use bespoke::energy::position::Guide;
+use bespoke::energy::position::MovingAxis;
 use bespoke::geometry::mesh::{BoundaryLoop, Topology};
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::setup::loop_axis::{LoopGuide, choose_guides};
+use bespoke::stage::setup::loop_axis::{LoopAxis, choose_loop_axes};
 use glam::DVec3;
 
 use testing::obj::{assets, read_mesh, read_skeleton};
@@ -47,9 +47,9 @@ fn hem(height: f64, width: f64) -> Vec<DVec3> {
     ellipse(DVec3::Z * height, DVec3::X * width, DVec3::Y * 0.15)
 }
 
-fn choose(points: &[DVec3], source: &Skeleton, target: &Skeleton) -> Option<LoopGuide> {
+fn choose(points: &[DVec3], source: &Skeleton, target: &Skeleton) -> Option<LoopAxis> {
     let boundary = BoundaryLoop { vertices: (0..points.len() as u32).collect() };
-    choose_guides(points, &[boundary], source, target).remove(0)
+    choose_loop_axes(points, &[boundary], source, target).remove(0)
 }
 
 /// The pairs of joints of the bones chosen for a loop, each pair in ascending order.
@@ -87,32 +87,32 @@ fn a_hem_around_both_legs_follows_their_mean() {
 
     let mut target = person.clone();
     target.joints[10] += DVec3::new(0.4, 0.2, 0.0);
-    let guide = choose(&mini, &person, &target).unwrap().guide;
+    let axis = choose(&mini, &person, &target).unwrap().axis;
     let (hip, knee) = (DVec3::Z * 0.9, DVec3::Z * 0.5);
     let is_near = |a: [DVec3; 2], b: [DVec3; 2]| a.iter().zip(b).all(|(a, b)| a.distance(b) < 1e-12);
     let shift = DVec3::new(0.2, 0.1, 0.0);
-    let down = is_near(guide.start, [hip, knee]) && is_near(guide.end, [hip, knee + shift]);
-    let up = is_near(guide.start, [knee, hip]) && is_near(guide.end, [knee + shift, hip]);
-    assert!(down || up, "{guide:?}");
+    let down = is_near(axis.start, [hip, knee]) && is_near(axis.end, [hip, knee + shift]);
+    let up = is_near(axis.start, [knee, hip]) && is_near(axis.end, [knee + shift, hip]);
+    assert!(down || up, "{axis:?}");
 }
 
 #[test]
 fn the_mean_does_not_depend_on_how_loop_and_bones_are_listed() {
     let person = person();
     let points = hem(0.7, 0.22);
-    let expected = choose(&points, &person, &person).unwrap().guide;
-    let flipped = |g: Guide| Guide { start: [g.start[1], g.start[0]], end: [g.end[1], g.end[0]] };
-    let is_near = |a: &Guide, b: &Guide| {
-        let ends = |g: &Guide| [g.start[0], g.start[1], g.end[0], g.end[1]];
+    let expected = choose(&points, &person, &person).unwrap().axis;
+    let flipped = |g: MovingAxis| MovingAxis { start: [g.start[1], g.start[0]], end: [g.end[1], g.end[0]] };
+    let is_near = |a: &MovingAxis, b: &MovingAxis| {
+        let ends = |g: &MovingAxis| [g.start[0], g.start[1], g.end[0], g.end[1]];
         ends(a).iter().zip(ends(b)).all(|(a, b)| a.distance(b) < 1e-12)
     };
     let reversed: Vec<DVec3> = points.iter().rev().copied().collect();
-    assert!(is_near(&choose(&reversed, &person, &person).unwrap().guide, &flipped(expected)));
+    assert!(is_near(&choose(&reversed, &person, &person).unwrap().axis, &flipped(expected)));
     for turned in 0..person.bones.len() {
         let mut other = person.clone();
         other.bones[turned].swap(0, 1);
-        let guide = choose(&points, &other, &person).unwrap().guide;
-        assert!(is_near(&guide, &expected));
+        let axis = choose(&points, &other, &person).unwrap().axis;
+        assert!(is_near(&axis, &expected));
     }
 }
 
@@ -160,7 +160,7 @@ fn bones_of(garment: &str) -> Option<Vec<Vec<[u32; 2]>>> {
         let [a, b] = skeleton.bones[*bone as usize];
         [a.min(b), a.max(b)]
     };
-    let choices = choose_guides(&mesh.positions, &loops, &skeleton, &skeleton);
+    let choices = choose_loop_axes(&mesh.positions, &loops, &skeleton, &skeleton);
     let mut pairs: Vec<Vec<[u32; 2]>> =
         choices.into_iter().map(|choice| choice.unwrap().bones.iter().map(name).collect()).collect();
     pairs.sort();

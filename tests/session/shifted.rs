@@ -4,7 +4,7 @@ use bespoke::control::Stage;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
-use bespoke::stage::setup::normalization::{Frame, SIDE};
+use bespoke::stage::setup::normalization::{Normalization, SIDE};
 use glam::{DQuat, DVec3};
 
 use testing::obj::{assets, read_mesh, read_skeleton};
@@ -14,7 +14,7 @@ fn dress(garment: &str, avatar: &str, shift: DVec3, axis: DVec3, degrees: f64) {
     let Some(folder) = assets() else { return };
     let (garment, avatar) = (folder.join("garments").join(garment), folder.join("avatars").join(avatar));
     let source = read_skeleton(&garment.join("skeleton.obj"));
-    let frame = Frame::of(&source, "source skeleton").unwrap();
+    let frame = Normalization::of(&source, "source skeleton").unwrap();
     let turn = DQuat::from_axis_angle(axis, degrees.to_radians());
     let cloth = read_mesh(&garment.join("garment.obj"));
     let place = |&p: &DVec3| frame.restore(turn * frame.normalise(p) + SIDE * shift);

@@ -138,12 +138,12 @@ fn what_has_come_apart_stays_apart() {
         Ok(Some(1.0))
     );
     x[tip] += 0.003 * out;
-    assert!(objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
+    assert!(objective.contact.update_exemptions(Configuration { x: &x, t: 0.0 }).unwrap(), "the barrier has changed");
     assert!(objective.contact.exempt_pairs().is_empty());
     let kept =
         objective.max_feasible_step(Configuration { x: &x, t: 0.0 }, &inward(&x, 0.003), 0.0, 1.0).unwrap().unwrap();
     assert!(kept > 0.1 && kept < 1.0 / 3.0, "the tip stops before the wall, a thousandth away: {kept}");
-    assert!(!objective.contact.review(Configuration { x: &x, t: 0.0 }).unwrap(), "nothing is new");
+    assert!(!objective.contact.update_exemptions(Configuration { x: &x, t: 0.0 }).unwrap(), "nothing is new");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use bespoke::error::ErrorKind;
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::setup::normalization::{Frame, SIDE};
+use bespoke::stage::setup::normalization::{Normalization, SIDE};
 use glam::DVec3;
 
 use testing::Random;
@@ -15,7 +15,7 @@ fn a_skeleton_is_centred_and_its_longest_side_is_two() {
         let away = 1e4 * random.vector();
         let joints: Vec<DVec3> = (0..6).map(|_| away + scale * random.vector()).collect();
         let skeleton = Skeleton { joints: joints.clone(), bones: vec![] };
-        let frame = Frame::of(&skeleton, "skeleton").unwrap();
+        let frame = Normalization::of(&skeleton, "skeleton").unwrap();
         let normalised: Vec<DVec3> = joints.iter().map(|&p| frame.normalise(p)).collect();
         let mean = normalised.iter().sum::<DVec3>() / 6.0;
         let low = normalised.iter().copied().reduce(DVec3::min).unwrap();
@@ -30,7 +30,7 @@ fn a_skeleton_is_centred_and_its_longest_side_is_two() {
 #[test]
 fn a_skeleton_without_size_is_refused() {
     let skeleton = Skeleton { joints: vec![DVec3::ONE; 3], bones: vec![[0, 1], [1, 2]] };
-    let error = Frame::of(&skeleton, "target skeleton").unwrap_err();
+    let error = Normalization::of(&skeleton, "target skeleton").unwrap_err();
     assert_eq!(error.kind, ErrorKind::InvalidSkeleton);
     assert!(error.message.starts_with("target skeleton"), "{error}");
 }

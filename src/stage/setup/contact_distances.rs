@@ -18,11 +18,11 @@ const DHAT_SELF_IN_EDGES: f64 = 0.25;
 const MAX_QUANTISATION_ERROR: f64 = 0.01;
 
 /// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
-pub const NO_DISTANCE: f64 = 1e-12;
+pub const TOUCHING: f64 = 1e-12;
 
 /// The distances that contact keeps, in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gaps {
+pub struct ContactDistances {
     /// Where the barrier of the garment towards itself begins.
     pub dhat_self: f64,
     /// Where that towards the avatar begins.
@@ -33,14 +33,14 @@ pub struct Gaps {
     pub min_separation: f64,
 }
 
-impl Gaps {
-    /// The gaps that `options` ask for.
+impl ContactDistances {
+    /// The distances that `options` ask for.
     pub fn of(options: &Options) -> Self {
         let Options { dhat, inflation_dhat, separation_floor: min_separation, .. } = *options;
         Self { dhat_self: dhat, dhat, inflation_dhat, min_separation }
     }
 
-    /// Gaps that survive a rounding which moves no coordinate by more than `error`; the same where they are wide enough.
+    /// ContactDistances that survive a rounding which moves no coordinate by more than `error`; the same where they are wide enough.
     /// `garment` is the garment at rest. Where it is so fine that its neighbouring parts would repel each other, its gap to
     /// itself stays narrower than that, and only the verifier can tell.
     ///
@@ -72,7 +72,7 @@ impl Gaps {
         })
     }
 
-    /// All gaps twice as wide.
+    /// All distances twice as wide.
     pub fn doubled(self) -> Self {
         Self {
             dhat_self: 2.0 * self.dhat_self,

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::energy::position::Guide;
+use crate::energy::position::MovingAxis;
 use crate::geometry::mesh::BoundaryLoop;
 use crate::input::skeleton::Skeleton;
 
@@ -24,11 +24,11 @@ const SLIT: f64 = 1e-6;
 
 /// The bones that a loop follows, and their mean.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LoopGuide {
+pub struct LoopAxis {
     /// Indices of the bones in the source skeleton, ascending; at least one.
     pub bones: Vec<u32>,
     /// The axis: the bone, or the mean of the bones, all taken from the same side of the loop's plane.
-    pub guide: Guide,
+    pub axis: MovingAxis,
 }
 
 /// Chooses what each of `loops` follows; none only for a loop without vertices or a skeleton without length.
@@ -38,12 +38,12 @@ pub struct LoopGuide {
 /// if there are several; else the closest bone among those through it; else the closest bone at all. A bone
 /// is *through* the loop within 60 degrees of its normal, and *closest* as a segment, to the mean of the
 /// loop's vertices. The normal is that of the loop's area vector, along which the opening looks largest.
-pub fn choose_guides(
+pub fn choose_loop_axes(
     rest: &[DVec3],
     loops: &[BoundaryLoop],
     source: &Skeleton,
     target: &Skeleton,
-) -> Vec<Option<LoopGuide>> {
+) -> Vec<Option<LoopAxis>> {
     let mut degree = vec![0_u32; source.joints.len()];
     for &joint in source.bones.iter().flatten() {
         degree[joint as usize] += 1;
@@ -57,8 +57,8 @@ pub fn choose_guides(
                 .filter(|&bone| opening.is_crossed_by(source, source.bones[bone as usize], &degree))
                 .collect();
             let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source, target)?] };
-            let guide = opening.mean_of(&bones, source, target);
-            Some(LoopGuide { bones, guide })
+            let axis = opening.mean_of(&bones, source, target);
+            Some(LoopAxis { bones, axis })
         })
         .collect()
 }
@@ -146,18 +146,18 @@ impl Opening {
     }
 
     /// The mean of `bones` in both skeletons, each turned so that it points along the loop's normal.
-    fn mean_of(&self, bones: &[u32], source: &Skeleton, target: &Skeleton) -> Guide {
-        let mut guide = Guide { start: [DVec3::ZERO; 2], end: [DVec3::ZERO; 2] };
+    fn mean_of(&self, bones: &[u32], source: &Skeleton, target: &Skeleton) -> MovingAxis {
+        let mut axis = MovingAxis { start: [DVec3::ZERO; 2], end: [DVec3::ZERO; 2] };
         for &bone in bones {
             let mut joints = source.bones[bone as usize].map(|joint| joint as usize);
             if (source.joints[joints[1]] - source.joints[joints[0]]).dot(self.normal) < 0.0 {
                 joints.swap(0, 1);
             }
             for (end, joint) in joints.into_iter().enumerate() {
-                guide.start[end] += source.joints[joint] / bones.len() as f64;
-                guide.end[end] += target.joints[joint] / bones.len() as f64;
+                axis.start[end] += source.joints[joint] / bones.len() as f64;
+                axis.end[end] += target.joints[joint] / bones.len() as f64;
             }
         }
-        guide
+        axis
     }
 }

@@ -10,14 +10,14 @@ pub const SIDE: f64 = 2.0;
 
 /// A uniform scale about a point: `p -> (p - origin) * scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct Normalization {
     /// The point that becomes 0.
     pub origin: DVec3,
     /// Normalised units in a unit of the caller.
     pub scale: f64,
 }
 
-impl Frame {
+impl Normalization {
     /// The frame in which the mean of the skeleton's joints is 0 and the longest side of their box is [`SIDE`].
     /// `what` names the skeleton in errors.
     ///

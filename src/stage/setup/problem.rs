@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::contact_distances::Gaps;
+use super::contact_distances::ContactDistances;
 use super::fit_region::fit_region;
 use super::layer_skin::skin_with_layers;
-use super::normalization::Frame;
+use super::normalization::Normalization;
 use super::pin_targets::AskedPin;
 use super::shape::Shape;
 use crate::contact::{Avatar, Bodies, Garment, Surface};
@@ -60,9 +60,9 @@ pub struct Inputs<'a> {
 /// The problem in the normalised space.
 pub struct Problem {
     /// From the source's space.
-    pub source_frame: Frame,
+    pub source_normalization: Normalization,
     /// From the target's space.
-    pub target_frame: Frame,
+    pub target_normalization: Normalization,
     /// The garment as designed.
     pub rest: Vec<DVec3>,
     /// Its triangles.
@@ -84,7 +84,7 @@ pub struct Problem {
     /// Pairs of garment triangles that intersect at the start, the lower index first.
     pub initial_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
-    pub gaps: Gaps,
+    pub distances: ContactDistances,
 }
 
 impl Problem {
@@ -97,15 +97,23 @@ impl Problem {
     /// avatar pokes through it and cannot be led around it, `Cancelled`.
     pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
         let normalised = Normalised::new(inputs, options)?;
-        let Normalised { source_frame, target_frame, ref source, ref target, ref garment, ref avatar, offset } =
-            normalised;
+        let Normalised {
+            source_normalization,
+            target_normalization,
+            ref source,
+            ref target,
+            ref garment,
+            ref avatar,
+            offset,
+        } = normalised;
         cancel.check()?;
         let skin = inputs.skin.map(|skin| skin_with_layers(skin, avatar));
         let mut projected = project(&avatar.mesh, target, source, skin.as_deref());
         cancel.check()?;
-        let gaps = Gaps::of(options).widened(inputs.coordinate_error * target_frame.scale, garment)?;
-        if gaps != Gaps::of(options) {
-            findings.push(coarse_coordinates(&gaps));
+        let distances =
+            ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
+        if distances != ContactDistances::of(options) {
+            findings.push(coarse_coordinates(&distances));
         }
         let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
@@ -115,13 +123,13 @@ impl Problem {
         enclosure::check(garment, &wire)?;
         cancel.check()?;
 
-        let place = |p: DVec3| target_frame.normalise(p);
+        let place = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<AskedPin> = inputs.pins.iter().map(|&(v, p)| (v, p.map(place))).collect();
         let (shape, loose) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
         findings.extend(loose.findings(|t| inputs.weld.triangle_of[t as usize]));
         let source_body = inputs.source_avatar.map(|mesh| {
             ClosestPoint::new(&TriangleMesh {
-                positions: source_frame.normalise_all(&mesh.positions),
+                positions: source_normalization.normalise_all(&mesh.positions),
                 triangles: mesh.triangles.clone(),
             })
         });
@@ -132,8 +140,8 @@ impl Problem {
         };
         let Normalised { garment, avatar, .. } = normalised;
         Ok(Self {
-            source_frame,
-            target_frame,
+            source_normalization,
+            target_normalization,
             rest: garment.positions,
             triangles: garment.triangles,
             weld: inputs.weld.clone(),
@@ -144,7 +152,7 @@ impl Problem {
             source_body,
             offset,
             initial_intersections,
-            gaps,
+            distances,
         })
     }
 
@@ -170,8 +178,8 @@ impl Problem {
 
 /// The inputs in the normalised space, in which both skeletons are 2 long.
 struct Normalised {
-    source_frame: Frame,
-    target_frame: Frame,
+    source_normalization: Normalization,
+    target_normalization: Normalization,
     source: Skeleton,
     target: Skeleton,
     garment: TriangleMesh,
@@ -181,9 +189,9 @@ struct Normalised {
 
 impl Normalised {
     fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
-        let source_frame = Frame::of(inputs.source_skeleton, "source skeleton")?;
-        let target_frame = Frame::of(inputs.target_skeleton, "target skeleton")?;
-        let offset = inputs.offset * target_frame.scale;
+        let source_normalization = Normalization::of(inputs.source_skeleton, "source skeleton")?;
+        let target_normalization = Normalization::of(inputs.target_skeleton, "target skeleton")?;
+        let offset = inputs.offset * target_normalization.scale;
         if offset > MOST_OFFSET {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
@@ -194,25 +202,25 @@ impl Normalised {
                 ),
             ));
         }
-        let skeleton = |frame: &Frame, s: &Skeleton| Skeleton {
+        let skeleton = |frame: &Normalization, s: &Skeleton| Skeleton {
             joints: frame.normalise_all(&s.joints),
             bones: inputs.source_skeleton.bones.clone(),
         };
         let mut avatar = TriangleMesh {
-            positions: target_frame.normalise_all(&inputs.avatar.mesh.positions),
+            positions: target_normalization.normalise_all(&inputs.avatar.mesh.positions),
             triangles: inputs.avatar.mesh.triangles.clone(),
         };
         gather_unused(&mut avatar);
         Ok(Self {
-            source: skeleton(&source_frame, inputs.source_skeleton),
-            target: skeleton(&target_frame, inputs.target_skeleton),
+            source: skeleton(&source_normalization, inputs.source_skeleton),
+            target: skeleton(&target_normalization, inputs.target_skeleton),
             garment: TriangleMesh {
-                positions: source_frame.normalise_all(&inputs.garment.positions),
+                positions: source_normalization.normalise_all(&inputs.garment.positions),
                 triangles: inputs.garment.triangles.clone(),
             },
             avatar: inputs.avatar.with_mesh(avatar),
-            source_frame,
-            target_frame,
+            source_normalization,
+            target_normalization,
             offset,
         })
     }
@@ -229,9 +237,9 @@ fn gather_unused(mesh: &mut TriangleMesh) {
     }
 }
 
-fn coarse_coordinates(gaps: &Gaps) -> Finding {
+fn coarse_coordinates(distances: &ContactDistances) -> Finding {
     Finding {
-        distance: gaps.min_separation,
+        distance: distances.min_separation,
         ..Finding::new(
             FindingKind::CoarseCoordinates,
             Severity::Warning,
@@ -240,7 +248,7 @@ fn coarse_coordinates(gaps: &Gaps) -> Finding {
                 "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
                  distance of {:.1e} at least, in units in which the skeleton is 2 long; a place nearer to the origin or 64 bits \
                  allow a closer fit",
-                gaps.min_separation
+                distances.min_separation
             ),
         )
     }

@@ -1,12 +1,12 @@
 //! The shape terms: what holds the garment to its design.
 
-use super::loop_axis::choose_guides;
+use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::pin_targets::{self, AskedPin};
 use crate::energy::attachment::Attachment;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
-use crate::energy::position::{Guide, Position};
+use crate::energy::position::{MovingAxis, Position};
 use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::geometry::mesh::{Topology, TriangleMesh};
@@ -72,16 +72,16 @@ fn position(
     let rest = &garment.positions;
     let mut held = vec![false; rest.len()];
     loose.pieces.iter().flat_map(|piece| &piece.vertices).for_each(|&v| held[v as usize] = true);
-    let mut guides: Vec<Guide> = Vec::new();
+    let mut axes: Vec<MovingAxis> = Vec::new();
     let mut constraints = Vec::new();
-    for (curve, guide) in topology.loops.iter().zip(choose_guides(rest, &topology.loops, source, target)) {
+    for (curve, axis) in topology.loops.iter().zip(choose_loop_axes(rest, &topology.loops, source, target)) {
         // A piece that is held to another one, such as a button, has no place of its own along a bone.
-        if let Some(guide) = guide
+        if let Some(axis) = axis
             && !held[curve.vertices[0] as usize]
         {
-            constraints.extend(curve.vertices.iter().map(|&v| (v, guides.len() as u32)));
-            guides.push(guide.guide);
+            constraints.extend(curve.vertices.iter().map(|&v| (v, axes.len() as u32)));
+            axes.push(axis.axis);
         }
     }
-    Position::new(rest, &constraints, guides, &topology.mean_edge_lengths(rest))
+    Position::new(rest, &constraints, axes, &topology.mean_edge_lengths(rest))
 }

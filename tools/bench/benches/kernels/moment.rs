@@ -11,7 +11,7 @@ use bespoke::memory::MemoryLimit;
 use bespoke::options::Options;
 use bespoke::sdf::{Field, FieldOptions};
 use bespoke::solver::newton::{Model, Newton, State};
-use bespoke::stage::fit::Settling;
+use bespoke::stage::fit::FitStage;
 use bespoke::stage::inflate::Inflation;
 use bespoke::stage::objective::Objective;
 use bespoke::stage::setup::problem::{Inputs, Problem};
@@ -69,10 +69,10 @@ impl Moment {
         }
         let field = Field::build(&problem.avatar, FieldOptions { voxel: options.voxel, threads: 1 }, &Cancel::new())?;
         let mut next = problem.fit_objective(Arc::new(field), &state.x, &options, &Cancel::new())?;
-        next.contact.take_over(&objective.contact);
+        next.contact.inherit_state(&objective.contact);
         objective = next;
         newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new())?;
-        let mut settling = Settling::begin(&mut objective, &state, &options);
+        let mut settling = FitStage::begin(&mut objective, &state, &options);
         for _ in 0..ITERATIONS {
             settling.iterate(&mut objective, &mut newton, &mut state, &options)?;
         }
