@@ -26,7 +26,7 @@ impl MemoryLimit {
     }
 
     /// The same limit where `held` bytes more are taken.
-    pub fn beside(self, held: u64) -> Self {
+    pub fn reserving(self, held: u64) -> Self {
         if self.total == u64::MAX { self } else { Self { held: self.held.saturating_add(held), ..self } }
     }
 
@@ -50,7 +50,7 @@ impl MemoryLimit {
     }
 
     /// The failure where nobody knows how much more would be needed for `what`.
-    pub fn lacking(self, what: &str) -> Error {
+    pub fn exceeded_error(self, what: &str) -> Error {
         self.exceeded("more", what)
     }
 

@@ -38,7 +38,7 @@ fn panic_text(payload: &(dyn Any + Send)) -> &str {
 }
 
 /// Does `work`. Until it ends, `log` hears of this thread's panics, and the hook of the process does not.
-pub fn recorded<R>(log: &Arc<PanicLog>, work: impl FnOnce() -> R) -> R {
+pub fn with_panic_log<R>(log: &Arc<PanicLog>, work: impl FnOnce() -> R) -> R {
     /// Puts back what was there before, also when a panic passes.
     struct Restore(Option<Arc<PanicLog>>);
     impl Drop for Restore {
@@ -52,7 +52,7 @@ pub fn recorded<R>(log: &Arc<PanicLog>, work: impl FnOnce() -> R) -> R {
 }
 
 /// Goes on in this thread with a panic that ended another one, of which `log` has heard.
-pub fn go_on(log: &PanicLog, panic: Box<dyn Any + Send>) -> ! {
+pub fn resume_on_caller(log: &PanicLog, panic: Box<dyn Any + Send>) -> ! {
     if LOG.with_borrow(Option::is_none)
         && let Some(said) = log.take()
     {

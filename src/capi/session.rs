@@ -11,7 +11,7 @@ use crate::capi::status::BespokeStatus;
 use crate::capi::text;
 use crate::control::Control;
 use crate::error::{Error, ErrorKind, Result};
-use crate::panics::{PanicLog, recorded};
+use crate::panics::{PanicLog, with_panic_log};
 use crate::session::Session;
 
 /// One garment on its way to one avatar. Opaque.
@@ -76,7 +76,7 @@ pub unsafe fn call(handle: *const BespokeSession, work: impl FnOnce(&mut Session
         Err(TryLockError::WouldBlock) => None,
         Err(TryLockError::Poisoned(_)) => refused(),
     };
-    let outcome = recorded(&handle.panics, || catch_unwind(AssertUnwindSafe(inside)));
+    let outcome = with_panic_log(&handle.panics, || catch_unwind(AssertUnwindSafe(inside)));
     let error = match outcome {
         Ok(Some(Ok(()))) => return BespokeStatus::Ok,
         Ok(None) => return BespokeStatus::Busy,
@@ -113,7 +113,7 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
             process: std::process::id(),
         }))
     };
-    let made = recorded(&Arc::default(), || catch_unwind(make));
+    let made = with_panic_log(&Arc::default(), || catch_unwind(make));
     // SAFETY: not null, and the caller vouches for room for one pointer.
     unsafe { session.write(*made.as_ref().unwrap_or(&std::ptr::null_mut())) };
     if made.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -
     }
     // SAFETY: it came from `Box::into_raw`, and the caller vouches that no other call uses it from now on.
     let free = || drop(unsafe { Box::from_raw(session) });
-    let freed = recorded(&Arc::default(), || catch_unwind(AssertUnwindSafe(free)));
+    let freed = with_panic_log(&Arc::default(), || catch_unwind(AssertUnwindSafe(free)));
     if freed.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 

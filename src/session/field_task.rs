@@ -10,7 +10,7 @@ use super::fault::Fault;
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
-use crate::panics::recorded;
+use crate::panics::with_panic_log;
 use crate::sdf::{Field, FieldOptions};
 
 /// The distance field, built beside the inflation. Dropping it stops the build.
@@ -32,7 +32,7 @@ impl FieldTask {
         };
         let handle = std::thread::Builder::new()
             .name("bespoke-field".into())
-            .spawn(move || recorded(&panics, build))
+            .spawn(move || with_panic_log(&panics, build))
             .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread for the distance field: {e}")))?;
         Ok(Self { handle: Some(handle), stop })
     }

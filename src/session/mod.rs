@@ -32,10 +32,10 @@ use context::Context;
 pub use fault::Fault;
 use inputs::Inputs;
 pub use inputs::Pin;
-use run::Work;
-use snapshot::View;
-use verification::Judgement;
-use worker_pool::Pool;
+use run::Run;
+use snapshot::Snapshot;
+use verification::Verdict;
+use worker_pool::WorkerPool;
 
 /// How much a call of [`Session::step`] may do; 0 is no limit. At least one iteration is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,10 +57,10 @@ pub struct Session {
     /// Requests to stop that a call has answered.
     answered: AtomicU64,
     /// At rest between two jobs; gone once one was left.
-    work: Option<Box<Work>>,
+    work: Option<Box<Run>>,
     /// After `work`, which is dropped first.
-    pool: Option<Pool>,
-    view: Option<View>,
+    pool: Option<WorkerPool>,
+    snapshot: Option<Snapshot>,
     stage: Stage,
     report: Report,
     findings: Vec<Finding>,
@@ -95,10 +95,10 @@ impl Session {
         let context = Context { stop: Cancel::new(), panics: self.panics.clone(), fault: self.fault };
         let stop = context.stop.clone();
         let control = &self.control;
-        let pool = self.pool.insert(Pool::new(threads, &self.panics)?);
+        let pool = self.pool.insert(WorkerPool::new(threads, &self.panics)?);
         let job = move || {
             let mut findings = Vec::new();
-            let work = Work::prepare(&inputs, threads, context, &mut findings).map(Box::new);
+            let work = Run::prepare(&inputs, threads, context, &mut findings).map(Box::new);
             (work, findings)
         };
         let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(work, findings)| {
@@ -114,7 +114,7 @@ impl Session {
             }
         };
         self.report = work.report.clone();
-        self.view = Some(View::of(&work, self.inputs.target_space));
+        self.snapshot = Some(Snapshot::of(&work, self.inputs.target_space));
         self.work = Some(work);
         self.enter(Stage::Prepared);
         Ok(())
@@ -188,7 +188,7 @@ impl Session {
             },
         )?;
         self.report = work.report.clone();
-        if let Some(view) = &mut self.view {
+        if let Some(view) = &mut self.snapshot {
             view.follow(&work);
         }
         self.work = Some(work);
@@ -201,9 +201,9 @@ impl Session {
         let clock = Instant::now();
         let precision = self.inputs.garment.as_ref().map_or(Precision::F32, |g| g.1);
         let control = &self.control;
-        let judgement = self.judge(precision, || control.is_cancelled())?;
+        let verdict = self.verify_as_read(precision, || control.is_cancelled())?;
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
-        let counted = judgement.counted;
+        let counted = verdict.counted;
         self.report.verification = Some(counted);
         if !counted.is_clean() {
             if let Some(work) = &mut self.work
@@ -212,12 +212,12 @@ impl Session {
                 self.enter(Stage::Fit);
                 return Ok(Stage::Fit);
             }
-            self.findings.extend(judgement.findings());
+            self.findings.extend(verdict.findings());
             return Err(not_verified(&counted));
         }
         self.findings.extend(self.work.iter_mut().flat_map(|work| std::mem::take(&mut work.shortfalls)));
         let (clock, other) = (Instant::now(), precision.other());
-        self.other_precision = Some((other, self.judge(other, || self.control.is_cancelled())?.counted));
+        self.other_precision = Some((other, self.verify_as_read(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
         self.enter(Stage::Done);
         Ok(Stage::Done)
@@ -257,7 +257,7 @@ impl Session {
     fn enter(&mut self, stage: Stage) {
         self.stage = stage;
         let mut progress = Progress { stage, ..Progress::default() };
-        if let Some(view) = &self.view {
+        if let Some(view) = &self.snapshot {
             progress.t = view.t;
             progress.iteration = view.iteration;
             let report = &self.report;
@@ -281,8 +281,8 @@ impl Session {
         self.panics.clone()
     }
 
-    fn readable(&self) -> Result<&View> {
-        self.view.as_ref().ok_or_else(|| {
+    fn readable(&self) -> Result<&Snapshot> {
+        self.snapshot.as_ref().ok_or_else(|| {
             Error::new(ErrorKind::InvalidState, "there is nothing to read yet: call prepare first".to_string())
         })
     }
@@ -332,11 +332,11 @@ impl Session {
     /// `InvalidState` before `prepare`, `Cancelled` by a request that no call has answered yet; the stage stays.
     pub fn verify(&self, precision: Precision) -> Result<Verification> {
         let answered = self.answered.load(Ordering::Relaxed);
-        let judged = self.judge(precision, || self.control.requests() > answered);
-        judged.map(|judgement| judgement.counted).map_err(|error| self.answer(error))
+        let judged = self.verify_as_read(precision, || self.control.requests() > answered);
+        judged.map(|verdict| verdict.counted).map_err(|error| self.answer(error))
     }
 
-    fn judge(&self, precision: Precision, should_stop: impl Fn() -> bool) -> Result<Judgement> {
+    fn verify_as_read(&self, precision: Precision, should_stop: impl Fn() -> bool) -> Result<Verdict> {
         let (view, Some(pool)) = (self.readable()?, &self.pool) else {
             return Err(Error::new(ErrorKind::Internal, "there are no threads in a prepared session"));
         };
@@ -347,7 +347,7 @@ impl Session {
         let cancel = stop.clone();
         let job = move || {
             Fault::Verify.at(fault);
-            view.judge(precision, &cancel)
+            view.verify_as_read(precision, &cancel)
         };
         pool.run(should_stop, &stop, job)?
     }
@@ -358,7 +358,7 @@ impl Session {
         if let Some(pool) = self.pool.take() {
             pool.drain();
         }
-        self.view = None;
+        self.snapshot = None;
         self.report = Report::default();
         self.findings.clear();
         self.other_precision = None;

@@ -26,7 +26,7 @@ use crate::stage::setup::problem::Problem;
 const MAX_DISTANCE_DOUBLINGS: u32 = 2;
 
 /// What exists between `prepare` and `reset`.
-pub(super) struct Work {
+pub(super) struct Run {
     options: Options,
     pub(super) problem: Arc<Problem>,
     /// The body to dress with its layers, as the caller gave them.
@@ -63,7 +63,7 @@ enum Step {
     Fit(FitStage),
 }
 
-impl Work {
+impl Run {
     /// Step 1: poses the problem of `inputs`, begins to build the distance field with so many threads, and sets up Step 2.
     /// What is worth knowing goes to `findings`, also where it fails.
     pub(super) fn prepare(
@@ -78,19 +78,19 @@ impl Work {
         let limit = MemoryLimit::new(inputs.options.memory_limit);
         let held = inputs.memory();
         let sizes = inputs.sizes();
-        limit.beside(held).check(&sizes.estimate())?;
+        limit.reserving(held).check(&sizes.estimate())?;
         let (problem, body) = inputs.pose_problem(stop, findings)?;
         stop.check()?;
         let expected = Field::estimate(&problem.avatar, inputs.options.voxel)?;
         let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
-        limit.beside(held).check(&sizes.estimate())?;
+        limit.reserving(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.inflation_objective(&inputs.options, stop, findings)?;
         stop.check()?;
         let held = held + problem.memory();
-        let room = limit.beside(held + expected + objective.memory());
-        let mut newton = Newton::new(state.x.len(), &objective.terms(), room, stop.clone())?;
+        let budget = limit.reserving(held + expected + objective.memory());
+        let mut newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
         let mut report = Report {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: body.avatar_size(),
@@ -125,7 +125,7 @@ impl Work {
             shortfalls: Vec::new(),
             context,
         };
-        work.look_at_memory()?;
+        work.check_memory()?;
         Ok(work)
     }
 
@@ -171,7 +171,7 @@ impl Work {
         part.iterations += 1;
         part.collect(&mut self.newton, &mut self.objective, clock);
         self.describe();
-        self.look_at_memory()?;
+        self.check_memory()?;
         match (stage, ended) {
             (_, false) => Ok(stage),
             (Stage::Inflate, true) => {
@@ -203,9 +203,9 @@ impl Work {
         objective.contact.inherit_state(&self.objective.contact);
         self.objective = objective;
         stop.check()?;
-        let room = self.room().beside(self.objective.memory());
-        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), room, stop.clone())?;
-        self.objective.contact.limit_pairs(self.room().beside(self.newton.memory()));
+        let budget = self.remaining_budget().reserving(self.objective.memory());
+        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), budget, stop.clone())?;
+        self.objective.contact.limit_pairs(self.remaining_budget().reserving(self.newton.memory()));
         self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
@@ -217,24 +217,24 @@ impl Work {
     }
 
     /// What objective and solver may take.
-    fn room(&self) -> MemoryLimit {
-        MemoryLimit::new(self.options.memory_limit).beside(self.held + self.field_memory())
+    fn remaining_budget(&self) -> MemoryLimit {
+        MemoryLimit::new(self.options.memory_limit).reserving(self.held + self.field_memory())
     }
 
     /// Reports what is held, and refuses to go on beyond the limit.
-    fn look_at_memory(&mut self) -> Result<()> {
+    fn check_memory(&mut self) -> Result<()> {
         let (contacts, system) = (self.objective.memory(), self.newton.memory());
         self.report.memory = self.held + self.field_memory() + contacts + system;
-        let limit = self.room();
+        let limit = self.remaining_budget();
         let parts = [
             Part { what: "the linear system of the garment", bytes: system },
             Part { what: "contacts of the garment", bytes: contacts },
         ];
         limit.check(&parts)?;
         if self.objective.contact.exceeds_pair_budget() {
-            return Err(limit.lacking("contacts of the garment, more pairs than there is room for"));
+            return Err(limit.exceeded_error("contacts of the garment, more pairs than there is budget for"));
         }
-        self.objective.contact.limit_pairs(limit.beside(system));
+        self.objective.contact.limit_pairs(limit.reserving(system));
         Ok(())
     }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::run::Work;
-use super::verification::Judgement;
+use super::run::Run;
+use super::verification::Verdict;
 use crate::control::Cancel;
 use crate::energy::distortion::distortion;
 use crate::error::Result;
@@ -17,7 +17,7 @@ use crate::stage::setup::problem::Problem;
 
 /// The last accepted iterate, with all that it takes to hand it out in the caller's space.
 #[derive(Clone)]
-pub(super) struct View {
+pub(super) struct Snapshot {
     problem: Arc<Problem>,
     /// As the caller gave it.
     body: Arc<Body>,
@@ -32,9 +32,9 @@ pub(super) struct View {
     pub(super) iteration: u32,
 }
 
-impl View {
+impl Snapshot {
     /// What `work` has reached. The target is in `space`.
-    pub(super) fn of(work: &Work, space: Space) -> Self {
+    pub(super) fn of(work: &Run, space: Space) -> Self {
         Self {
             problem: work.problem.clone(),
             body: work.body.clone(),
@@ -47,7 +47,7 @@ impl View {
     }
 
     /// Follows `work` to what it has reached now.
-    pub(super) fn follow(&mut self, work: &Work) {
+    pub(super) fn follow(&mut self, work: &Run) {
         self.x.clone_from(&work.state.x);
         self.t = work.state.t;
         self.iteration = work.iterations();
@@ -79,9 +79,9 @@ impl View {
     }
 
     /// Judges the garment as it is read in `precision`.
-    pub(super) fn judge(&self, precision: Precision, cancel: &Cancel) -> Result<Judgement> {
+    pub(super) fn verify_as_read(&self, precision: Precision, cancel: &Cancel) -> Result<Verdict> {
         let positions = self.x.iter().map(|&p| precision.round(self.restored(p))).collect();
         let garment = TriangleMesh { positions, triangles: self.problem.triangles.clone() };
-        Judgement::new(&garment, &self.problem.weld, &self.body, &self.initial_intersections, cancel)
+        Verdict::new(&garment, &self.problem.weld, &self.body, &self.initial_intersections, cancel)
     }
 }

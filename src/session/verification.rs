@@ -12,7 +12,7 @@ use crate::report::Verification;
 use crate::verify::intersections_with_cancel;
 
 /// Counts, and the pairs of triangles that must not be there, in the caller's indices.
-pub(super) struct Judgement {
+pub(super) struct Verdict {
     pub(super) counted: Verification,
     /// Pairs of garment triangles that did not intersect at the start.
     own: Vec<[u32; 2]>,
@@ -21,7 +21,7 @@ pub(super) struct Judgement {
     body: Arc<Body>,
 }
 
-impl Judgement {
+impl Verdict {
     /// Judges the welded `garment`, of which the pairs of triangles in `initial_intersections`, in ascending order, intersected at the
     /// start.
     ///

@@ -1,4 +1,4 @@
-//! Work that is done in threads of the session's own, so that a caller who asks to stop never waits for a kernel.
+//! Run that is done in threads of the session's own, so that a caller who asks to stop never waits for a kernel.
 //!
 //! The caller's thread only waits: for the result, or for a request to stop. In the latter case it leaves at once, and
 //! the job, which owns all that it works on, ends in the background at its next checkpoint. Whoever goes on with the
@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use crate::control::{Cancel, Cancelled};
 use crate::error::{Error, ErrorKind, Result};
-use crate::panics::{PanicLog, go_on, recorded};
+use crate::panics::{PanicLog, resume_on_caller, with_panic_log};
 
 /// How often a waiting caller looks for a request to stop.
 const POLL: Duration = Duration::from_millis(2);
@@ -21,7 +21,7 @@ const POLL: Duration = Duration::from_millis(2);
 type Panic = Box<dyn Any + Send>;
 
 /// Threads of one session. Dropping it waits for them, so that none is left when a host unloads the library.
-pub(super) struct Pool {
+pub(super) struct WorkerPool {
     /// Taken when dropped.
     threads: Option<rayon::ThreadPool>,
     handles: Vec<JoinHandle<()>>,
@@ -30,7 +30,7 @@ pub(super) struct Pool {
     panics: Arc<PanicLog>,
 }
 
-impl Pool {
+impl WorkerPool {
     /// A pool of `count` threads, of whose panics `panics` hears.
     ///
     /// # Errors
@@ -42,7 +42,7 @@ impl Pool {
             .spawn_handler(|worker| {
                 let thread = std::thread::Builder::new().name(format!("bespoke-{}", worker.index()));
                 let panics = panics.clone();
-                handles.push(thread.spawn(move || recorded(&panics, || worker.run()))?);
+                handles.push(thread.spawn(move || with_panic_log(&panics, || worker.run()))?);
                 Ok(())
             })
             .build()
@@ -83,7 +83,7 @@ impl Pool {
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => match end.recv() {
-                    Ok(panic) => go_on(&self.panics, panic),
+                    Ok(panic) => resume_on_caller(&self.panics, panic),
                     Err(_) => {
                         return Err(Error::new(ErrorKind::Internal, "a job of the session ended without a result"));
                     }
@@ -97,13 +97,13 @@ impl Pool {
         let left = std::mem::take(&mut *self.left.lock().unwrap_or_else(PoisonError::into_inner));
         for job in left {
             if let Ok(panic) = job.recv() {
-                go_on(&self.panics, panic);
+                resume_on_caller(&self.panics, panic);
             }
         }
     }
 }
 
-impl Drop for Pool {
+impl Drop for WorkerPool {
     fn drop(&mut self) {
         // The threads end once all that was given to them is done.
         drop(self.threads.take());

@@ -139,7 +139,7 @@ impl Newton {
         }
         let pattern = Pattern::new(vertex_count, pairs);
         let mut factor = Factor::new(cancel.clone());
-        factor.analyse(limit.beside(System::memory_for(&pattern)), &pattern)?;
+        factor.analyse(limit.reserving(System::memory_for(&pattern)), &pattern)?;
         let profile = Profile { analysis: clock.elapsed(), ..Profile::default() };
         Ok(Self {
             factor,
@@ -178,7 +178,7 @@ impl Newton {
             let clock = Instant::now();
             self.pattern = self.pattern.extended(missing);
             let held = System::memory_for(&self.pattern);
-            self.factor.analyse(self.limit.beside(held), &self.pattern)?;
+            self.factor.analyse(self.limit.reserving(held), &self.pattern)?;
             self.counters.analyses += 1;
             self.counters.profile.analysis += clock.elapsed();
             self.assemble(terms, at)?;

@@ -52,9 +52,9 @@ pub fn intersections_with_cancel(
     limit: usize,
     cancel: &Cancel,
 ) -> Result<Intersections> {
-    judgeable(a, "first mesh")?;
+    validate(a, "first mesh")?;
     if let Some(b) = b {
-        judgeable(b, "second mesh")?;
+        validate(b, "second mesh")?;
     }
     let scale = Scale::of(a.positions.iter().chain(b.iter().flat_map(|b| &b.positions)));
     let (xa, xb) = (scale.apply(&a.positions), b.map(|b| scale.apply(&b.positions)));
@@ -106,7 +106,7 @@ pub fn intersections_with_cancel(
 /// # Errors
 /// As [`intersections`]; no index of a pair may be out of range.
 pub fn intersecting(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Result<Vec<[u32; 2]>> {
-    judgeable(mesh, "mesh")?;
+    validate(mesh, "mesh")?;
     let points = Scale::of(mesh.positions.iter()).apply(&mesh.positions);
     let triangle = |t: u32| &mesh.triangles[t as usize];
     let hit = |&[s, t]: &[u32; 2]| triangles::touch_in_mesh(&points, triangle(s), triangle(t));
@@ -114,7 +114,7 @@ pub fn intersecting(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Result<Vec<[u32;
 }
 
 /// Refuses what would be judged wrongly or not at all. An empty mesh is fine: it intersects nothing.
-fn judgeable(mesh: &TriangleMesh, what: &str) -> Result<()> {
+fn validate(mesh: &TriangleMesh, what: &str) -> Result<()> {
     let fail = |message: String| Err(Error::new(ErrorKind::InvalidMesh, message));
     if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
         return fail(format!("{what} to verify: vertex {v} is {}", mesh.positions[v]));
