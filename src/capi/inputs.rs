@@ -7,7 +7,7 @@ use crate::capi::view::{self, BespokeView, invalid};
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::buffer;
-use crate::input::coordinate_system::{Axis, Space, Winding};
+use crate::input::coordinate_system::{Axis, CoordinateSystem, Winding};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::session::Precision;
@@ -251,8 +251,8 @@ pub struct BespokeSpace {
 unsafe impl Sized32 for BespokeSpace {}
 
 impl BespokeSpace {
-    fn to_space(self, what: &str) -> Result<Space> {
-        let default = Space::default();
+    fn to_space(self, what: &str) -> Result<CoordinateSystem> {
+        let default = CoordinateSystem::default();
         let axis = |code: u32, default: Axis, name: &str| match code {
             0 => Ok(default),
             1 => Ok(Axis::PositiveX),
@@ -266,7 +266,7 @@ impl BespokeSpace {
         if self.reserved != 0 {
             return invalid(format!("{what}: reserved is {}; it must be 0", self.reserved));
         }
-        Ok(Space {
+        Ok(CoordinateSystem {
             right: axis(self.right, default.right, "right")?,
             up: axis(self.up, default.up, "up")?,
             forward: axis(self.forward, default.forward, "forward")?,

@@ -64,7 +64,7 @@ pub enum Winding {
 /// clockwise"), and the eye sees the same after a change of coordinates: a mirrored space changes the sign of
 /// `(b - a) x (c - a)` but not the winding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Space {
+pub struct CoordinateSystem {
     /// The caller's axis to the right.
     pub right: Axis,
     /// The caller's axis upwards.
@@ -77,7 +77,7 @@ pub struct Space {
     pub winding: Winding,
 }
 
-impl Default for Space {
+impl Default for CoordinateSystem {
     /// Our own space.
     fn default() -> Self {
         Self {
@@ -90,7 +90,7 @@ impl Default for Space {
     }
 }
 
-impl Space {
+impl CoordinateSystem {
     /// Refuses a space that is none; `what` names it in the sentence ("target space").
     ///
     /// # Errors
@@ -121,7 +121,7 @@ impl Space {
     /// A position of the caller's space in ours. Exact where the unit is the metre (or a power of two of it):
     /// a permutation of the coordinates and their signs.
     #[inline]
-    pub fn position_to_ours(&self, p: DVec3) -> DVec3 {
+    pub fn position_to_internal(&self, p: DVec3) -> DVec3 {
         let take = |axis: Axis| {
             let (k, sign) = axis.parts();
             sign * p[k]
@@ -129,10 +129,10 @@ impl Space {
         DVec3::new(take(self.right), take(self.up), -take(self.forward)) * self.metres_per_unit
     }
 
-    /// A position of our space in the caller's: the inverse of [`position_to_ours`](Self::position_to_ours), up to
+    /// A position of our space in the caller's: the inverse of [`position_to_internal`](Self::position_to_internal), up to
     /// the rounding of one division where the unit is not a power of two metres.
     #[inline]
-    pub fn position_from_ours(&self, p: DVec3) -> DVec3 {
+    pub fn position_from_internal(&self, p: DVec3) -> DVec3 {
         let p = p / self.metres_per_unit;
         let mut own = DVec3::ZERO;
         for (axis, value) in [(self.right, p.x), (self.up, p.y), (self.forward, -p.z)] {

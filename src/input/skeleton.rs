@@ -67,7 +67,7 @@ impl Skeleton {
             let ([a, b], first) = pair[0];
             return fail(format!("{what}: bones {first} and {} both join joints {a} and {b}", pair[1].1));
         }
-        let reached = Neighbours::new(count, &self.bones).distances_from(0);
+        let reached = JointAdjacency::new(count, &self.bones).distances_from(0);
         if let Some(joint) = reached.iter().position(|d| d.hops == UNREACHED) {
             return fail(format!("{what}: joint {joint} is not connected to joint 0 by bones"));
         }
@@ -157,7 +157,7 @@ pub enum Location {
 #[derive(Clone, Debug)]
 pub struct BoneGraph {
     bones: Vec<[u32; 2]>,
-    neighbours: Neighbours,
+    neighbours: JointAdjacency,
     /// Row a, column b: the number of bones between joints a and b, and the next joint from b towards a.
     ways: Vec<Hop>,
 }
@@ -172,13 +172,13 @@ struct Hop {
 
 /// The bones at each joint, and the joint at the other end of each.
 #[derive(Clone, Debug)]
-struct Neighbours {
+struct JointAdjacency {
     first: Vec<u32>,
     bones: Vec<u32>,
     joints: Vec<u32>,
 }
 
-impl Neighbours {
+impl JointAdjacency {
     fn new(joint_count: usize, bones: &[[u32; 2]]) -> Self {
         let mut ends: Vec<(u32, u32, u32)> =
             bones.iter().zip(0..).flat_map(|(&[a, b], bone)| [(a, bone, b), (b, bone, a)]).collect();
@@ -212,7 +212,7 @@ impl BoneGraph {
     /// The graph of a skeleton that has passed [`Skeleton::check`].
     pub fn new(skeleton: &Skeleton) -> Self {
         let count = skeleton.joints.len();
-        let neighbours = Neighbours::new(count, &skeleton.bones);
+        let neighbours = JointAdjacency::new(count, &skeleton.bones);
         let ways = (0..count as u32).flat_map(|j| neighbours.distances_from(j)).collect();
         Self { bones: skeleton.bones.clone(), neighbours, ways }
     }

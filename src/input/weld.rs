@@ -59,13 +59,13 @@ impl Weld {
     }
 
     /// Values of the welded vertices, for each of the caller's: copies of one vertex get the same bits.
-    pub fn spread<T: Copy>(&self, welded: &[T]) -> Vec<T> {
+    pub fn scatter<T: Copy>(&self, welded: &[T]) -> Vec<T> {
         self.to_welded.iter().map(|&w| welded[w as usize]).collect()
     }
 
     /// Values of the welded garment's triangles, for each of the caller's: duplicates get that of the one that counts, and
     /// triangles that are left out 0.
-    pub fn spread_triangles(&self, values: &[f64]) -> Vec<f64> {
+    pub fn scatter_triangles(&self, values: &[f64]) -> Vec<f64> {
         self.to_kept.iter().map(|kept| kept.map_or(0.0, |k| values[k as usize])).collect()
     }
 

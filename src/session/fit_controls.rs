@@ -92,7 +92,7 @@ impl Inputs {
             }
         }
         pins.dedup_by_key(|pin| pin.0);
-        let ours = |place: Option<DVec3>| place.map(|p| self.target_space.position_to_ours(p));
+        let ours = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
         Ok(pins.into_iter().map(|(welded, pin)| (welded, ours(pin.place))).collect())
     }
 

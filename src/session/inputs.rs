@@ -9,7 +9,7 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::coordinate_system::Space;
+use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::diagnostic::Finding;
 use crate::input::precision::Precision;
 use crate::input::skeleton::Skeleton;
@@ -41,8 +41,8 @@ pub(super) struct Inputs {
     fit_weights: Option<Arc<[f64]>>,
     pub(super) pins: Vec<Pin>,
     pub(super) rigid_groups: Vec<Arc<[u32]>>,
-    source_space: Space,
-    pub(super) target_space: Space,
+    source_coordinate_system: CoordinateSystem,
+    pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
 }
 
@@ -177,10 +177,10 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
-    pub fn set_source_space(&mut self, space: Space) -> Result<()> {
+    pub fn set_source_space(&mut self, space: CoordinateSystem) -> Result<()> {
         self.setting("the source space")?;
         space.check("source space")?;
-        self.inputs.source_space = space;
+        self.inputs.source_coordinate_system = space;
         Ok(())
     }
 
@@ -188,10 +188,10 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
-    pub fn set_target_space(&mut self, space: Space) -> Result<()> {
+    pub fn set_target_space(&mut self, space: CoordinateSystem) -> Result<()> {
         self.setting("the target space")?;
         space.check("target space")?;
-        self.inputs.target_space = space;
+        self.inputs.target_coordinate_system = space;
         Ok(())
     }
 
@@ -272,18 +272,22 @@ impl Inputs {
         let body = Body::new(avatar, &self.layers)?;
         let problem = Problem::new(
             &Posed {
-                garment: &mesh_to_ours(&self.source_space, &weld.mesh),
-                source_skeleton: &skeleton_to_ours(&self.source_space, source),
-                avatar: &body.with_mesh(mesh_to_ours(&self.target_space, &body.mesh)),
-                target_skeleton: &skeleton_to_ours(&self.target_space, &target),
+                garment: &mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
+                source_skeleton: &skeleton_to_internal(&self.source_coordinate_system, source),
+                avatar: &body.with_mesh(mesh_to_internal(&self.target_coordinate_system, &body.mesh)),
+                target_skeleton: &skeleton_to_internal(&self.target_coordinate_system, &target),
                 skin: self.skin.as_deref(),
-                source_avatar: self.source_avatar.as_ref().map(|mesh| mesh_to_ours(&self.source_space, mesh)).as_ref(),
+                source_avatar: self
+                    .source_avatar
+                    .as_ref()
+                    .map(|mesh| mesh_to_internal(&self.source_coordinate_system, mesh))
+                    .as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &pins,
                 rigid_groups: &rigid_groups,
-                offset: self.target_space.metres_per_unit * self.options.offset,
+                offset: self.target_coordinate_system.metres_per_unit * self.options.offset,
                 weld: Arc::new(weld),
-                coordinate_error: self.target_space.metres_per_unit * precision.error_near(&body.mesh),
+                coordinate_error: self.target_coordinate_system.metres_per_unit * precision.error_near(&body.mesh),
             },
             &self.options,
             cancel,
@@ -293,16 +297,16 @@ impl Inputs {
     }
 }
 
-fn mesh_to_ours(space: &Space, mesh: &TriangleMesh) -> TriangleMesh {
+fn mesh_to_internal(space: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh {
-        positions: mesh.positions.iter().map(|&p| space.position_to_ours(p)).collect(),
+        positions: mesh.positions.iter().map(|&p| space.position_to_internal(p)).collect(),
         triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
     }
 }
 
-fn skeleton_to_ours(space: &Space, skeleton: &Skeleton) -> Skeleton {
+fn skeleton_to_internal(space: &CoordinateSystem, skeleton: &Skeleton) -> Skeleton {
     Skeleton {
-        joints: skeleton.joints.iter().map(|&p| space.position_to_ours(p)).collect(),
+        joints: skeleton.joints.iter().map(|&p| space.position_to_internal(p)).collect(),
         bones: skeleton.bones.clone(),
     }
 }

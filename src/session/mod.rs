@@ -114,7 +114,7 @@ impl Session {
             }
         };
         self.report = work.report.clone();
-        self.snapshot = Some(Snapshot::of(&work, self.inputs.target_space));
+        self.snapshot = Some(Snapshot::of(&work, self.inputs.target_coordinate_system));
         self.work = Some(work);
         self.enter(Stage::Prepared);
         Ok(())

@@ -11,7 +11,7 @@ use crate::energy::distortion::distortion;
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::coordinate_system::Space;
+use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::precision::Precision;
 use crate::stage::setup::problem::Problem;
 
@@ -21,7 +21,7 @@ pub(super) struct Snapshot {
     problem: Arc<Problem>,
     /// As the caller gave it.
     body: Arc<Body>,
-    space: Space,
+    space: CoordinateSystem,
     /// Pairs of garment triangles that intersected at the start.
     initial_intersections: Arc<[[u32; 2]]>,
     /// Welded garment vertices in the normalised space.
@@ -34,7 +34,7 @@ pub(super) struct Snapshot {
 
 impl Snapshot {
     /// What `work` has reached. The target is in `space`.
-    pub(super) fn of(work: &Run, space: Space) -> Self {
+    pub(super) fn of(work: &Run, space: CoordinateSystem) -> Self {
         Self {
             problem: work.problem.clone(),
             body: work.body.clone(),
@@ -55,7 +55,7 @@ impl Snapshot {
 
     pub(super) fn garment_positions(&self) -> Vec<DVec3> {
         let welded: Vec<DVec3> = self.x.iter().map(|&p| self.restored(p)).collect();
-        self.problem.weld.spread(&welded)
+        self.problem.weld.scatter(&welded)
     }
 
     pub(super) fn avatar_positions(&self) -> Vec<DVec3> {
@@ -71,11 +71,11 @@ impl Snapshot {
     /// One number for each of the caller's garment triangles.
     pub(super) fn distortion(&self) -> Vec<f64> {
         let problem = &self.problem;
-        problem.weld.spread_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
+        problem.weld.scatter_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
     }
 
     fn restored(&self, p: DVec3) -> DVec3 {
-        self.space.position_from_ours(self.problem.target_normalization.restore(p))
+        self.space.position_from_internal(self.problem.target_normalization.restore(p))
     }
 
     /// Judges the garment as it is read in `precision`.

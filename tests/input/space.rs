@@ -1,7 +1,7 @@
 //! Axes, units and winding.
 
 use bespoke::error::ErrorKind;
-use bespoke::input::coordinate_system::{Axis, Space, Winding};
+use bespoke::input::coordinate_system::{Axis, CoordinateSystem, Winding};
 use glam::DVec3;
 
 use testing::Random;
@@ -16,8 +16,8 @@ const AXES: [(Axis, DVec3); 6] = [
 ];
 
 /// Whether the conversion to our space is a reflection of coordinates.
-fn is_left_handed(space: &Space) -> bool {
-    let [x, y, z] = DVec3::AXES.map(|axis| space.position_to_ours(axis));
+fn is_left_handed(space: &CoordinateSystem) -> bool {
+    let [x, y, z] = DVec3::AXES.map(|axis| space.position_to_internal(axis));
     x.cross(y).dot(z) < 0.0
 }
 
@@ -28,7 +28,7 @@ fn every_choice_of_axes() {
     for (right, r) in AXES {
         for (up, u) in AXES {
             for (forward, f) in AXES {
-                let space = Space { right, up, forward, ..Space::default() };
+                let space = CoordinateSystem { right, up, forward, ..CoordinateSystem::default() };
                 let perpendicular = r.dot(u) == 0.0 && r.dot(f) == 0.0 && u.dot(f) == 0.0;
                 assert_eq!(space.check("target space").is_ok(), perpendicular);
                 if !perpendicular {
@@ -37,11 +37,11 @@ fn every_choice_of_axes() {
                 good += 1;
                 left += usize::from(is_left_handed(&space));
                 assert_eq!(is_left_handed(&space), r.cross(u).dot(-f) < 0.0);
-                assert_eq!(space.position_to_ours(r), DVec3::X);
-                assert_eq!(space.position_to_ours(u), DVec3::Y);
-                assert_eq!(space.position_to_ours(f), DVec3::NEG_Z);
+                assert_eq!(space.position_to_internal(r), DVec3::X);
+                assert_eq!(space.position_to_internal(u), DVec3::Y);
+                assert_eq!(space.position_to_internal(f), DVec3::NEG_Z);
                 let p = random.vector();
-                assert_eq!(space.position_from_ours(space.position_to_ours(p)), p);
+                assert_eq!(space.position_from_internal(space.position_to_internal(p)), p);
             }
         }
     }
@@ -50,9 +50,9 @@ fn every_choice_of_axes() {
 
 #[test]
 fn default_is_the_identity() {
-    let space = Space::default();
+    let space = CoordinateSystem::default();
     let p = DVec3::new(0.1, -2.0, 1e-9);
-    assert_eq!((space.position_to_ours(p), space.position_from_ours(p)), (p, p));
+    assert_eq!((space.position_to_internal(p), space.position_from_internal(p)), (p, p));
     assert_eq!(space.triangle([4, 5, 6]), [4, 5, 6]);
     assert!(!is_left_handed(&space));
 }
@@ -60,19 +60,21 @@ fn default_is_the_identity() {
 #[test]
 fn units() {
     let mut random = Random::new(6);
-    let centimetres = Space { metres_per_unit: 0.01, ..Space::default() };
-    assert_eq!(centimetres.position_to_ours(DVec3::new(100.0, 200.0, -300.0)), DVec3::new(1.0, 2.0, -3.0));
+    let centimetres = CoordinateSystem { metres_per_unit: 0.01, ..CoordinateSystem::default() };
+    assert_eq!(centimetres.position_to_internal(DVec3::new(100.0, 200.0, -300.0)), DVec3::new(1.0, 2.0, -3.0));
     for _ in 0..1000 {
         let p = random.vector() * 100.0;
-        let back = centimetres.position_from_ours(centimetres.position_to_ours(p));
+        let back = centimetres.position_from_internal(centimetres.position_to_internal(p));
         assert!((back - p).abs().max_element() <= 2e-16 * 100.0);
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12] {
-        let error = Space { metres_per_unit: bad, ..Space::default() }.check("target space").unwrap_err();
+        let error =
+            CoordinateSystem { metres_per_unit: bad, ..CoordinateSystem::default() }.check("target space").unwrap_err();
         assert_eq!(error.kind, ErrorKind::InvalidArgument);
         assert!(error.message.starts_with("target space: the unit is"), "{error}");
     }
-    let flat = Space { up: Axis::NegativeX, ..Space::default() }.check("target space").unwrap_err();
+    let flat =
+        CoordinateSystem { up: Axis::NegativeX, ..CoordinateSystem::default() }.check("target space").unwrap_err();
     assert_eq!(flat.message, "target space: right is +x and up is -x, the axes must be perpendicular to each other");
 }
 
@@ -82,11 +84,12 @@ fn front_faces_face_the_viewer() {
     for (right, r) in AXES {
         for (up, u) in AXES {
             for (forward, f) in AXES {
-                let space = Space { right, up, forward, winding: Winding::Clockwise, ..Space::default() };
+                let space =
+                    CoordinateSystem { right, up, forward, winding: Winding::Clockwise, ..CoordinateSystem::default() };
                 if space.check("space").is_err() {
                     continue;
                 }
-                let seen = [f, f + u, f + u + r].map(|p| space.position_to_ours(p));
+                let seen = [f, f + u, f + u + r].map(|p| space.position_to_internal(p));
                 let [a, b, c] = space.triangle([0, 1, 2]).map(|v| seen[v as usize]);
                 // In ours the normal of a front face points back to the viewer, +z.
                 assert_eq!((b - a).cross(c - a), DVec3::Z);

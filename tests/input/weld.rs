@@ -76,7 +76,7 @@ fn a_seam_is_welded_and_answered_in_the_callers_order() {
     assert!(split[0].sentence.contains("there are 5 vertices to place"), "{}", split[0].sentence);
 
     let moved: Vec<DVec3> = weld.mesh.positions.iter().map(|&p| p * (1.0 / 3.0) + DVec3::splat(0.1)).collect();
-    let answer = weld.spread(&moved);
+    let answer = weld.scatter(&moved);
     assert_eq!(answer.len(), positions.len());
     for (a, b) in [(0, 4), (1, 3)] {
         assert_eq!(answer[a].to_array().map(f64::to_bits), answer[b].to_array().map(f64::to_bits));
@@ -213,6 +213,6 @@ fn real_garments_come_together_again() {
             (one.components, one.hinges.len(), one.loops.len()),
             (other.components, other.hinges.len(), other.loops.len())
         );
-        assert_eq!(weld.spread(&weld.mesh.positions), split.positions);
+        assert_eq!(weld.scatter(&weld.mesh.positions), split.positions);
     }
 }

@@ -60,7 +60,9 @@ impl<'a> Judge<'a> {
 
     /// The garment as designed, normalised.
     fn source_positions(&self) -> TriangleMesh {
-        let ours = |&p| self.problem.source_normalization.normalise(self.scene.source_space.position_to_ours(p));
+        let ours = |&p| {
+            self.problem.source_normalization.normalise(self.scene.source_coordinate_system.position_to_internal(p))
+        };
         TriangleMesh {
             positions: self.scene.garment.positions.iter().map(ours).collect(),
             triangles: self.scene.garment.triangles.clone(),
@@ -89,7 +91,9 @@ impl<'a> Judge<'a> {
             return Err(format!("{place}: garment triangles {new:?} intersect, which did not at the start"));
         }
         let new: Vec<_> = if t < 1.0 {
-            let ours = |&p| self.problem.target_normalization.normalise(self.scene.target_space.position_to_ours(p));
+            let ours = |&p| {
+                self.problem.target_normalization.normalise(self.scene.target_coordinate_system.position_to_internal(p))
+            };
             let garment = TriangleMesh { positions: now.positions.iter().map(ours).collect(), ..now };
             self.against_avatar(garment, t).difference(&self.avatar).copied().collect()
         } else {

@@ -4,7 +4,7 @@ use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
 use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::coordinate_system::Space;
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
 use bespoke::options::Options;
 use bespoke::session::{Pin, Precision, Session};
@@ -53,7 +53,7 @@ fn an_offset_is_kept_from_both_sides() {
 
 #[test]
 fn an_offset_is_in_the_unit_of_the_target() {
-    let space = Space { metres_per_unit: 0.01, ..Space::default() };
+    let space = CoordinateSystem { metres_per_unit: 0.01, ..CoordinateSystem::default() };
     let options = Options { fit_weight: 300.0, ..Options::default() };
     let mut metres = on_the_thin_arm(Options { offset: 0.05, ..options.clone() });
     let mut centimetres = on_the_thin_arm(Options { offset: 5.0, ..options });

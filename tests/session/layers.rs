@@ -7,7 +7,7 @@ use bespoke::error::ErrorKind;
 use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::body::Body;
-use bespoke::input::coordinate_system::{Axis, Space, Winding};
+use bespoke::input::coordinate_system::{Axis, CoordinateSystem, Winding};
 use bespoke::input::diagnostic::{FindingKind, Subject};
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
@@ -112,7 +112,7 @@ fn a_sleeve_over_a_sleeve_lies_outside_it_everywhere() {
 
 #[test]
 fn three_layers_in_another_space_and_unit() {
-    let space = Space {
+    let space = CoordinateSystem {
         right: Axis::NegativeY,
         up: Axis::PositiveZ,
         forward: Axis::PositiveX,
@@ -120,11 +120,11 @@ fn three_layers_in_another_space_and_unit() {
         winding: Winding::Clockwise,
     };
     let there = |mesh: &TriangleMesh| TriangleMesh {
-        positions: mesh.positions.iter().map(|&p| space.position_from_ours(p)).collect(),
+        positions: mesh.positions.iter().map(|&p| space.position_from_internal(p)).collect(),
         triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
     };
     let skeleton = |mut s: bespoke::input::skeleton::Skeleton| {
-        s.joints.iter_mut().for_each(|p| *p = space.position_from_ours(*p));
+        s.joints.iter_mut().for_each(|p| *p = space.position_from_internal(*p));
         s
     };
     let garments = [sleeve(), tube(-0.5, 0.8, |_, _| 0.35, 13, 17, false), tube(-0.7, 0.6, |_, _| 0.4, 12, 15, false)];
@@ -152,7 +152,7 @@ fn three_layers_in_another_space_and_unit() {
     // The same as without a space, to within the tolerance of the fit.
     for (here, there) in layers[0].iter().zip(&layers[1]) {
         for (p, q) in here.positions.iter().zip(&there.positions) {
-            assert!(p.distance(space.position_to_ours(*q)) < 0.01, "{p} {}", space.position_to_ours(*q));
+            assert!(p.distance(space.position_to_internal(*q)) < 0.01, "{p} {}", space.position_to_internal(*q));
         }
     }
 }

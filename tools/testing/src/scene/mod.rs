@@ -14,7 +14,7 @@ use std::sync::Arc;
 use bespoke::control::Cancel;
 use bespoke::error::Result;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::coordinate_system::Space;
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::input::weld::Weld;
@@ -110,9 +110,9 @@ pub struct Scene {
     /// One a vertex of the garment, for some.
     pub fit_weights: Option<Vec<f64>>,
     /// Of garment, source skeleton and source avatar.
-    pub source_space: Space,
+    pub source_coordinate_system: CoordinateSystem,
     /// Of avatar and target skeleton.
-    pub target_space: Space,
+    pub target_coordinate_system: CoordinateSystem,
     /// What the caller asks for.
     pub options: Options,
 }
@@ -133,8 +133,8 @@ impl Scene {
             fit_weights: None,
             source_avatar: None,
             skin: None,
-            source_space: Space::default(),
-            target_space: Space::default(),
+            source_coordinate_system: CoordinateSystem::default(),
+            target_coordinate_system: CoordinateSystem::default(),
             options: Options::default(),
             garment,
             source_skeleton: source,
@@ -149,8 +149,8 @@ impl Scene {
     pub fn session(&self) -> Result<Session> {
         let mut session = Session::new();
         session.set_options(self.options.clone())?;
-        session.set_source_space(self.source_space)?;
-        session.set_target_space(self.target_space)?;
+        session.set_source_space(self.source_coordinate_system)?;
+        session.set_target_space(self.target_coordinate_system)?;
         session.set_garment(self.garment.clone(), self.precision)?;
         session.set_source_skeleton(self.source_skeleton.clone())?;
         session.set_target_avatar(self.avatar.clone())?;
@@ -169,27 +169,31 @@ impl Scene {
 
     /// The problem that a session with these inputs poses.
     pub fn problem(&self) -> Result<Problem> {
-        let mesh = |space: &Space, mesh: &TriangleMesh| TriangleMesh {
-            positions: mesh.positions.iter().map(|&p| space.position_to_ours(p)).collect(),
+        let mesh = |space: &CoordinateSystem, mesh: &TriangleMesh| TriangleMesh {
+            positions: mesh.positions.iter().map(|&p| space.position_to_internal(p)).collect(),
             triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
         };
-        let skeleton = |space: &Space, skeleton: &Skeleton| Skeleton {
-            joints: skeleton.joints.iter().map(|&p| space.position_to_ours(p)).collect(),
+        let skeleton = |space: &CoordinateSystem, skeleton: &Skeleton| Skeleton {
+            joints: skeleton.joints.iter().map(|&p| space.position_to_internal(p)).collect(),
             bones: skeleton.bones.clone(),
         };
         let (weld, _) = Weld::new(&self.garment);
         Problem::new(
             &Inputs {
-                garment: &mesh(&self.source_space, &weld.mesh),
+                garment: &mesh(&self.source_coordinate_system, &weld.mesh),
                 weld: Arc::new(weld.clone()),
-                source_skeleton: &skeleton(&self.source_space, &self.source_skeleton),
-                avatar: &mesh(&self.target_space, &self.avatar).into(),
+                source_skeleton: &skeleton(&self.source_coordinate_system, &self.source_skeleton),
+                avatar: &mesh(&self.target_coordinate_system, &self.avatar).into(),
                 target_skeleton: &skeleton(
-                    &self.target_space,
+                    &self.target_coordinate_system,
                     &self.target_skeleton.aligned_to(&self.source_skeleton)?,
                 ),
                 skin: self.skin.as_ref(),
-                source_avatar: self.source_avatar.as_ref().map(|body| mesh(&self.source_space, body)).as_ref(),
+                source_avatar: self
+                    .source_avatar
+                    .as_ref()
+                    .map(|body| mesh(&self.source_coordinate_system, body))
+                    .as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &[],
                 rigid_groups: &[],

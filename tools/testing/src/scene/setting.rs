@@ -1,7 +1,7 @@
 //! All around the meshes: axes, unit, winding, place and precision of both sides, optional inputs, options.
 
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::coordinate_system::{Axis, Space, Winding};
+use bespoke::input::coordinate_system::{Axis, CoordinateSystem, Winding};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::{Options, SurfaceForm};
@@ -25,8 +25,8 @@ pub fn choose(random: &mut Random, scene: &mut Scene, bodies: &Bodies, recipe: &
     if chance(random, 0.25) {
         scene.fit_weights = Some(scene.garment.positions.iter().map(|_| 2.0 * random.unit()).collect());
     }
-    scene.source_space = space(random);
-    scene.target_space = space(random);
+    scene.source_coordinate_system = space(random);
+    scene.target_coordinate_system = space(random);
     scene.precision = if recipe.has(Flaw::FarAway) || chance(random, 0.6) { Precision::F32 } else { Precision::F64 };
     // How many times its own size a scene is away from the origin: as far as its precision has digits for.
     let away = |random: &mut Random| match scene.precision {
@@ -41,22 +41,22 @@ pub fn choose(random: &mut Random, scene: &mut Scene, bodies: &Bodies, recipe: &
     };
     let (at_source, at_target) = (place(random, &scene.source_skeleton), place(random, &scene.target_skeleton));
     let precision = scene.precision;
-    let put = |space: &Space, (scale, away): (f64, DVec3), points: &mut Vec<DVec3>| {
-        points.iter_mut().for_each(|p| *p = precision.round(space.position_from_ours(*p * scale + away)));
+    let put = |space: &CoordinateSystem, (scale, away): (f64, DVec3), points: &mut Vec<DVec3>| {
+        points.iter_mut().for_each(|p| *p = precision.round(space.position_from_internal(*p * scale + away)));
     };
-    let wind = |space: &Space, mesh: &mut TriangleMesh| {
+    let wind = |space: &CoordinateSystem, mesh: &mut TriangleMesh| {
         mesh.triangles.iter_mut().for_each(|t| *t = space.triangle(*t));
     };
-    put(&scene.source_space, at_source, &mut scene.garment.positions);
-    put(&scene.source_space, at_source, &mut scene.source_skeleton.joints);
-    wind(&scene.source_space, &mut scene.garment);
+    put(&scene.source_coordinate_system, at_source, &mut scene.garment.positions);
+    put(&scene.source_coordinate_system, at_source, &mut scene.source_skeleton.joints);
+    wind(&scene.source_coordinate_system, &mut scene.garment);
     if let Some(body) = &mut scene.source_avatar {
-        put(&scene.source_space, at_source, &mut body.positions);
-        wind(&scene.source_space, body);
+        put(&scene.source_coordinate_system, at_source, &mut body.positions);
+        wind(&scene.source_coordinate_system, body);
     }
-    put(&scene.target_space, at_target, &mut scene.avatar.positions);
-    put(&scene.target_space, at_target, &mut scene.target_skeleton.joints);
-    wind(&scene.target_space, &mut scene.avatar);
+    put(&scene.target_coordinate_system, at_target, &mut scene.avatar.positions);
+    put(&scene.target_coordinate_system, at_target, &mut scene.target_skeleton.joints);
+    wind(&scene.target_coordinate_system, &mut scene.avatar);
     // The target names its bones in another order and direction.
     let bones = &mut scene.target_skeleton.bones;
     let first = below(random, bones.len());
@@ -64,9 +64,9 @@ pub fn choose(random: &mut Random, scene: &mut Scene, bodies: &Bodies, recipe: &
     bones.iter_mut().filter(|_| random.unit() < 0.5).for_each(|b| b.swap(0, 1));
 }
 
-fn space(random: &mut Random) -> Space {
+fn space(random: &mut Random) -> CoordinateSystem {
     if chance(random, 0.4) {
-        return Space::default();
+        return CoordinateSystem::default();
     }
     let axes =
         [[Axis::PositiveX, Axis::NegativeX], [Axis::PositiveY, Axis::NegativeY], [Axis::PositiveZ, Axis::NegativeZ]];
@@ -76,7 +76,7 @@ fn space(random: &mut Random) -> Space {
     let (right, up, forward) = (axis(first), axis(second), axis(3 - first - second));
     let metres_per_unit = [1.0, 0.01, 0.0254, 0.3048][below(random, 4)];
     let winding = if chance(random, 0.5) { Winding::Clockwise } else { Winding::CounterClockwise };
-    Space { right, up, forward, metres_per_unit, winding }
+    CoordinateSystem { right, up, forward, metres_per_unit, winding }
 }
 
 fn options(random: &mut Random, hard: bool) -> Options {
