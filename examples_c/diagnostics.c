@@ -1,11 +1,14 @@
 #include "diagnostics.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Lines that are printed. */
+#include "json.h"
+
+/* Lines that are printed, in all and of one kind, so that many of one do not hide the others. */
 #define MOST_LINES 8
+#define MOST_OF_A_KIND 3
 
 static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES] = "split_vertices",
@@ -43,35 +46,39 @@ static BespokeDiagnostic *read_all(const BespokeSession *session, size_t *count)
     return list;
 }
 
-void diagnostics_print(const BespokeSession *session, FILE *file) {
-    size_t count = 0;
-    BespokeDiagnostic *list = read_all(session, &count);
-    size_t shown = 0;
-    for (size_t k = 0; list != NULL && k < count; k++) {
-        if (list[k].severity != BESPOKE_SEVERITY_NOTE && shown++ < MOST_LINES) {
-            fprintf(file, "%s: %s\n", NAME(severities, list[k].severity), list[k].sentence);
+/* Whether item k says something that fewer than MOST_OF_A_KIND before it have said. */
+static bool is_worth_a_line(const BespokeDiagnostic *list, size_t k) {
+    size_t alike = 0;
+    for (size_t before = 0; before < k; before++) {
+        if (list[before].kind == list[k].kind && list[before].severity == list[k].severity) {
+            alike += strcmp(list[before].sentence, list[k].sentence) == 0 ? MOST_OF_A_KIND : 1;
         }
     }
-    if (shown > MOST_LINES) {
-        fprintf(file, "... and %zu more; --report lists all\n", shown - MOST_LINES);
-    }
-    free(list);
+    return alike < MOST_OF_A_KIND;
 }
 
-static void write_text(FILE *file, const char *text) {
-    putc('"', file);
-    for (; *text != '\0'; text++) {
-        const unsigned char byte = (unsigned char)*text;
-        if (byte == '"' || byte == '\\') {
-            putc('\\', file);
-        }
-        if (byte < 0x20) {
-            fprintf(file, "\\u%04x", byte);
-        } else {
-            putc(byte, file);
+void diagnostics_print(const BespokeSession *session, uint32_t least, FILE *file) {
+    size_t count = 0;
+    BespokeDiagnostic *list = read_all(session, &count);
+    size_t lines = 0, others = 0;
+    /* The worst first. */
+    for (uint32_t severity = BESPOKE_SEVERITY_ERROR; list != NULL && severity >= least && severity > 0; severity--) {
+        for (size_t k = 0; k < count; k++) {
+            if (list[k].severity != severity) {
+                continue;
+            }
+            if (lines < MOST_LINES && is_worth_a_line(list, k)) {
+                fprintf(file, "%s: %s\n", NAME(severities, severity), list[k].sentence);
+                lines++;
+            } else {
+                others++;
+            }
         }
     }
-    putc('"', file);
+    if (others > 0) {
+        fprintf(file, "... and %zu more; --report lists all\n", others);
+    }
+    free(list);
 }
 
 bool diagnostics_write(const BespokeSession *session, FILE *file, Message *message) {
@@ -95,12 +102,10 @@ bool diagnostics_write(const BespokeSession *session, FILE *file, Message *messa
             }
             fprintf(file, ", \"%s\": %" PRIu32 " }", NAME(elements, element->kind), element->index);
         }
-        fputs("], ", file);
-        if (isfinite(item->distance)) {
-            fprintf(file, "\"distance\": %.9g, ", item->distance);
-        }
-        fputs("\"sentence\": ", file);
-        write_text(file, item->sentence);
+        fputs("], \"distance\": ", file);
+        json_number(file, item->distance);
+        fputs(", \"message\": ", file);
+        json_text(file, item->sentence);
         fputs(" }", file);
     }
     fputs(count > 0 ? "\n  ]" : "]", file);

@@ -7,8 +7,8 @@
 #include "bespoke.h"
 #include "text.h"
 
-/* Prints a line for each of the first warnings and errors, and how many more there are. */
-void diagnostics_print(const BespokeSession *session, FILE *file);
+/* Prints a line for some of those that are at least this severe, the worst first, and how many more there are. */
+void diagnostics_print(const BespokeSession *session, uint32_t least, FILE *file);
 
 /* Writes all of them as a JSON array. */
 bool diagnostics_write(const BespokeSession *session, FILE *file, Message *message);

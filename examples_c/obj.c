@@ -306,7 +306,12 @@ static void write_face(FILE *file, const Line *line, const char *at, const Corne
     fwrite(line->end, 1, (size_t)(line->next - line->end), file);
 }
 
-bool obj_write(const Obj *obj, const float *positions, FILE *file, Message *message) {
+/* The line break of the file where this line stands. */
+static const char *break_of(const Line *line) {
+    return line->end < line->next && *line->end == '\r' ? "\r\n" : "\n";
+}
+
+bool obj_write(const Obj *obj, const float *positions, const char *comment, FILE *file, Message *message) {
     double *normals = array_new(obj->normal_count, 3 * sizeof(double));
     if (normals == NULL) {
         return fail(message, "the vertex normals do not fit into memory");
@@ -316,6 +321,10 @@ bool obj_write(const Obj *obj, const float *positions, FILE *file, Message *mess
     size_t vertex = 0;
     size_t face = 0;
     for (Line line = line_start(&obj->text); line_next(&line, &obj->text);) {
+        if (comment != NULL) {
+            fprintf(file, "# %s%s", comment, break_of(&line));
+            comment = NULL;
+        }
         const char *at = line.begin;
         Word word;
         if (!word_next(&word, &at, &line)) {
@@ -327,7 +336,7 @@ bool obj_write(const Obj *obj, const float *positions, FILE *file, Message *mess
             for (size_t n = 0; face == 0 && n < obj->normal_count; n++) {
                 const double *normal = normals + 3 * n;
                 fprintf(file, "vn %.6f %.6f %.6f", normal[0], normal[1], normal[2]);
-                fputs(line.end < line.next && *line.end == '\r' ? "\r\n" : "\n", file);
+                fputs(break_of(&line), file);
             }
             write_face(file, &line, at, corner, obj->face_sizes[face]);
             corner += obj->face_sizes[face++];

@@ -38,8 +38,9 @@ typedef struct Obj {
 /* False, with a sentence that has the path and the line, where the file cannot be used; nothing is to free then. */
 bool obj_read(Obj *obj, const char *path, Message *message);
 
-/* Writes the file with other positions (three floats a vertex, in the order of the v lines). */
-bool obj_write(const Obj *obj, const float *positions, FILE *file, Message *message);
+/* Writes the file with other positions (three floats a vertex, in the order of the v lines); `comment`, unless null, is a
+   line on top. */
+bool obj_write(const Obj *obj, const float *positions, const char *comment, FILE *file, Message *message);
 
 void obj_free(Obj *obj);
 

@@ -3,173 +3,163 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const options_usage =
-    "usage: retarget --garment g.obj --source-skeleton s.obj --avatar a.obj --target-skeleton t.obj [options] -o out.obj\n"
-    "\n"
-    "Fits a garment that was modelled on one body to another body, with no triangle through another.\n"
-    "\n"
-    "  --garment FILE          the garment, around the source skeleton\n"
-    "  --source-skeleton FILE  skeleton of the body it was modelled on: joints as v, bones as l lines\n"
-    "  --avatar FILE           the body to dress\n"
-    "  --target-skeleton FILE  its skeleton: the same joints in the same order, the same bones in any order\n"
-    "  -o, --output FILE       the garment on the avatar, in the avatar's space and unit\n"
-    "\n"
-    "  --source-avatar FILE    the body the garment was modelled on; the fit then aims at the looseness it had there\n"
-    "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
-    "  --layer FILE            a garment that the avatar wears already, in the avatar's space; may be given several times\n"
-    "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
-    "  --pins FILE             garment vertices to hold, a line each: the vertex (from 0) alone goes with its bone, or the\n"
-    "                          vertex and the x y z where it is to be; the same in all lines\n"
-    "  --rigid FILE            groups of garment vertices (from 0) that stay rigid, such as buttons: a line for each\n"
-    "  --fit-weight W          how tight (2); 0 switches the term off\n"
-    "  --designed-clearance X  with --source-avatar: how much of the looseness it had there to aim at (1); 0 is tight\n"
-    "  --offset D              clearance to aim at everywhere beside that, in the unit of the avatar (0)\n"
-    "  --fit-distance D        with --source-avatar, without --no-fit: what was designed up to D away from it fits, what was\n"
-    "                          twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits\n"
-    "  --pin-weight W          stiffness of the pins (1000)\n"
-    "  --surface-weight W      how strongly the design keeps its shape (1)\n"
-    "  --curve-weight W        the same for its boundary curves: curvature and torsion (1)\n"
-    "  --position-weight W     how strongly cuffs, hems and collars keep their place along their bones (10)\n"
-    "  --barrier-weight W      stiffness of contacts (1e8)\n"
-    "  --dhat D                distance at which contacts begin (0.002; the skeleton is 2 long)\n"
-    "  --voxel D               resolution of the distance field (0.01; the skeleton is 2 long)\n"
-    "  --tolerance X           the fit ends where what a step still promises is below this part of the objective (1e-3)\n"
-    "  --printed-surface       the surface term as printed in the paper, which makes scaling cost something\n"
-    "  --strict                refuse a garment that intersects itself, instead of letting those triangles off\n"
-    "  --threads N             0: all cores (0)\n"
-    "  --memory-limit MB       give up where more memory would be needed (no limit)\n"
-    "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
-    "  --distortion FILE       how much each triangle is distorted: a number a line, in the order of the faces and of the\n"
-    "                          triangles of their fans; 0 where the garment is similar to its design\n"
-    "  --report FILE           a JSON file with times, iterations, energies, distances, counts and diagnostics\n"
-    "  --quiet                 no progress on standard output, no warnings\n"
-    "  --help, --version\n"
-    "\n"
-    "OBJ files are read with 32-bit coordinates. The output is the garment's file with moved vertices: order, faces,\n"
-    "UVs, groups and materials stay. Vertex normals are computed afresh; corners that shared one still share one, and\n"
-    "the faces count them in the order of their first use. Polygons are fans when it comes to contacts.\n"
-    "\n"
-    "Exit: 0 with a verified result, 1 without one, 2 for a wrong command line, 128 + n when stopped by signal n\n"
-    "(130 for Ctrl-C). Files appear whole or not at all.\n";
+/* What an option takes, and so the type of its field. */
+typedef enum Kind {
+    FLAG,     /* nothing: bool */
+    PATH,     /* const char * */
+    NEEDED,   /* the same, and it has to be there */
+    LAYER,    /* a path, each time one more */
+    NUMBER,   /* double, from 0 */
+    POSITIVE, /* double, above 0 */
+    COUNT,    /* double that is a whole number up to `most` */
+} Kind;
 
-bool options_parse(Options *options, int count, char **words, Message *message) {
-    memset(options, 0, sizeof *options);
-    const struct {
-        const char *name;
-        const char **place;
-        bool is_needed;
-    } paths[] = {
-        {"--garment", &options->garment, true},
-        {"--source-skeleton", &options->source_skeleton, true},
-        {"--avatar", &options->avatar, true},
-        {"--target-skeleton", &options->target_skeleton, true},
-        {"--output", &options->output, true},
-        {"--source-avatar", &options->source_avatar, false},
-        {"--skin-weights", &options->skin_weights, false},
-        {"--no-fit", &options->no_fit, false},
-        {"--pins", &options->pins, false},
-        {"--rigid", &options->rigid, false},
-        {"--output-avatar", &options->output_avatar, false},
-        {"--report", &options->report, false},
-        {"--distortion", &options->distortion, false},
-    };
-    const struct {
-        const char *name;
-        double *place;
-        bool is_positive;
-    } numbers[] = {
-        {"--fit-weight", &options->fit_weight, false},
-        {"--designed-clearance", &options->designed_clearance, false},
-        {"--offset", &options->offset, false},
-        {"--fit-distance", &options->fit_distance, false},
-        {"--pin-weight", &options->pin_weight, true},
-        {"--surface-weight", &options->surface_weight, false},
-        {"--curve-weight", &options->curve_weight, false},
-        {"--position-weight", &options->position_weight, false},
-        {"--barrier-weight", &options->barrier_weight, true},
-        {"--dhat", &options->dhat, true},
-        {"--voxel", &options->voxel, true},
-        {"--tolerance", &options->tolerance, true},
-        {"--threads", &options->threads, false},
-        {"--memory-limit", &options->memory_limit, true},
-    };
-    const struct {
-        const char *name;
-        bool *place;
-    } flags[] = {
-        {"--printed-surface", &options->printed_surface},
-        {"--strict", &options->strict},
-        {"--quiet", &options->quiet},
-        {"--help", &options->help},
-        {"-h", &options->help},
-        {"--version", &options->version},
-    };
-    const size_t path_count = sizeof paths / sizeof *paths;
-    const size_t number_count = sizeof numbers / sizeof *numbers;
-    const size_t flag_count = sizeof flags / sizeof *flags;
-    for (size_t k = 0; k < number_count; k++) {
-        *numbers[k].place = -1.0;
+typedef struct Entry {
+    const char *name;
+    Kind kind;
+    size_t field;
+    double most;
+} Entry;
+
+#define FIELD(name) offsetof(Options, name)
+
+static const Entry entries[] = {
+    {"--garment", NEEDED, FIELD(garment), 0.0},
+    {"--source-skeleton", NEEDED, FIELD(source_skeleton), 0.0},
+    {"--avatar", NEEDED, FIELD(avatar), 0.0},
+    {"--target-skeleton", NEEDED, FIELD(target_skeleton), 0.0},
+    {"--output", NEEDED, FIELD(output), 0.0},
+    {"-o", PATH, FIELD(output), 0.0},
+    {"--source-avatar", PATH, FIELD(source_avatar), 0.0},
+    {"--skin-weights", PATH, FIELD(skin_weights), 0.0},
+    {"--layer", LAYER, FIELD(layers), 0.0},
+    {"--no-fit", PATH, FIELD(no_fit), 0.0},
+    {"--pins", PATH, FIELD(pins), 0.0},
+    {"--rigid", PATH, FIELD(rigid), 0.0},
+    {"--output-avatar", PATH, FIELD(output_avatar), 0.0},
+    {"--distortion", PATH, FIELD(distortion), 0.0},
+    {"--report", PATH, FIELD(report), 0.0},
+    {"--keep-partial", PATH, FIELD(keep_partial), 0.0},
+    {"--fit-weight", NUMBER, FIELD(fit_weight), 0.0},
+    {"--designed-clearance", NUMBER, FIELD(designed_clearance), 0.0},
+    {"--offset", NUMBER, FIELD(offset), 0.0},
+    {"--fit-distance", NUMBER, FIELD(fit_distance), 0.0},
+    {"--pin-weight", POSITIVE, FIELD(pin_weight), 0.0},
+    {"--threads", COUNT, FIELD(threads), 1024.0},
+    {"--memory-limit", POSITIVE, FIELD(memory_limit), 0.0},
+    {"--strict", FLAG, FIELD(strict), 0.0},
+    {"--surface-weight", NUMBER, FIELD(surface_weight), 0.0},
+    {"--curve-weight", NUMBER, FIELD(curve_weight), 0.0},
+    {"--curvature-weight", NUMBER, FIELD(curvature_weight), 0.0},
+    {"--torsion-weight", NUMBER, FIELD(torsion_weight), 0.0},
+    {"--position-weight", NUMBER, FIELD(position_weight), 0.0},
+    {"--barrier-weight", POSITIVE, FIELD(barrier_weight), 0.0},
+    {"--dhat", POSITIVE, FIELD(dhat), 0.0},
+    {"--inflation-dhat", POSITIVE, FIELD(inflation_dhat), 0.0},
+    {"--inflation-barrier-weight", POSITIVE, FIELD(inflation_barrier_weight), 0.0},
+    {"--voxel-size", POSITIVE, FIELD(voxel_size), 0.0},
+    {"--voxel", POSITIVE, FIELD(voxel_size), 0.0}, /* its name until 0.1 */
+    {"--min-separation", POSITIVE, FIELD(min_separation), 0.0},
+    {"--tolerance", POSITIVE, FIELD(tolerance), 0.0},
+    {"--max-iterations", COUNT, FIELD(max_iterations), 4294967295.0},
+    {"--printed-surface", FLAG, FIELD(printed_surface), 0.0},
+    {"--quiet", FLAG, FIELD(quiet), 0.0},
+    {"--help", FLAG, FIELD(help), 0.0},
+    {"-h", FLAG, FIELD(help), 0.0},
+    {"--version", FLAG, FIELD(version), 0.0},
+};
+
+#define ENTRY_COUNT (sizeof entries / sizeof *entries)
+
+static void *field_of(Options *options, const Entry *entry) {
+    return (char *)options + entry->field;
+}
+
+static bool is_number(const Entry *entry) {
+    return entry->kind == NUMBER || entry->kind == POSITIVE || entry->kind == COUNT;
+}
+
+static const Entry *find(const char *name, size_t length) {
+    for (size_t k = 0; k < ENTRY_COUNT; k++) {
+        if (strlen(entries[k].name) == length && strncmp(name, entries[k].name, length) == 0) {
+            return &entries[k];
+        }
     }
-    options->layers = array_new((size_t)count, sizeof *options->layers);
-    if (options->layers == NULL) {
-        return fail(message, "the command line does not fit into memory");
+    return NULL;
+}
+
+static bool set_number(double *number, const Entry *entry, const char *value, Message *message) {
+    const Word word = {value, value + strlen(value)};
+    const bool is_positive = entry->kind == POSITIVE;
+    if (!word_number(word, number) || *number < 0.0 || (is_positive && *number == 0.0)) {
+        return fail(message, "option %s has '%s', which is not a number %s", entry->name, value,
+                    is_positive ? "above 0" : "from 0");
     }
+    if (entry->kind == COUNT && (*number > entry->most || *number != (double)(uint32_t)*number)) {
+        return fail(message, "option %s must be a whole number up to %.0f", entry->name, entry->most);
+    }
+    return true;
+}
+
+static bool set_value(Options *options, const Entry *entry, const char *value, Message *message) {
+    void *field = field_of(options, entry);
+    if (is_number(entry)) {
+        return set_number(field, entry, value, message);
+    }
+    if (entry->kind == LAYER) {
+        options->layers[options->layer_count++] = value;
+    } else {
+        *(const char **)field = value;
+    }
+    return true;
+}
+
+/* --name, --name value or --name=value, word by word. */
+static bool read_words(Options *options, int count, char **words, Message *message) {
     for (int i = 1; i < count; i++) {
-        const char *name = strcmp(words[i], "-o") == 0 ? "--output" : words[i];
-        bool is_flag = false;
-        for (size_t k = 0; k < flag_count; k++) {
-            if (strcmp(name, flags[k].name) == 0) {
-                *flags[k].place = true;
-                is_flag = true;
-            }
-        }
-        if (is_flag) {
-            continue;
-        }
-        /* --name value or --name=value */
-        const char *equals = strchr(name, '=');
-        const size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
-        const bool is_layer = strlen("--layer") == length && strncmp(name, "--layer", length) == 0;
-        const char **path = is_layer ? &options->layers[options->layer_count++] : NULL;
-        double *number = NULL;
-        bool is_positive = false;
-        for (size_t k = 0; k < path_count; k++) {
-            if (strlen(paths[k].name) == length && strncmp(name, paths[k].name, length) == 0) {
-                path = paths[k].place;
-            }
-        }
-        for (size_t k = 0; k < number_count; k++) {
-            if (strlen(numbers[k].name) == length && strncmp(name, numbers[k].name, length) == 0) {
-                number = numbers[k].place;
-                is_positive = numbers[k].is_positive;
-            }
-        }
-        if (path == NULL && number == NULL) {
+        const char *equals = strchr(words[i], '=');
+        const size_t length = equals != NULL ? (size_t)(equals - words[i]) : strlen(words[i]);
+        const Entry *entry = find(words[i], length);
+        if (entry == NULL || (entry->kind == FLAG && equals != NULL)) {
             return fail(message, "there is no option '%s'; see retarget --help", words[i]);
+        }
+        if (entry->kind == FLAG) {
+            *(bool *)field_of(options, entry) = true;
+            continue;
         }
         const char *value = equals != NULL ? equals + 1 : i + 1 < count ? words[++i] : NULL;
         if (value == NULL || *value == '\0') {
-            return fail(message, "option %.*s needs a value", (int)length, name);
+            return fail(message, "option %s needs a value", entry->name);
         }
-        if (path != NULL) {
-            *path = value;
-        } else {
-            const Word word = {value, value + strlen(value)};
-            if (!word_number(word, number) || *number < 0.0 || (is_positive && *number == 0.0)) {
-                return fail(message, "option %.*s has '%s', which is not a number %s", (int)length, name, value,
-                            is_positive ? "above 0" : "from 0");
-            }
+        if (!set_value(options, entry, value, message)) {
+            return false;
         }
     }
-    if (options->help || options->version) {
-        return true;
+    return true;
+}
+
+/* partial.obj: partial.avatar.obj; a name that does not end with .obj gets .avatar.obj at its end. */
+static char *avatar_beside(const char *path) {
+    static const char end[] = ".obj";
+    const size_t length = strlen(path);
+    const bool has_end = length > strlen(end) && strcmp(path + length - strlen(end), end) == 0;
+    const size_t stem = has_end ? length - strlen(end) : length;
+    char *beside = array_new(stem + sizeof ".avatar.obj", 1);
+    if (beside != NULL) {
+        memcpy(beside, path, stem);
+        memcpy(beside + stem, ".avatar.obj", sizeof ".avatar.obj");
     }
-    for (size_t k = 0; k < path_count; k++) {
-        if (paths[k].is_needed && *paths[k].place == NULL) {
-            return fail(message, "%s is missing; see retarget --help", paths[k].name);
+    return beside;
+}
+
+static bool check(const Options *options, Message *message) {
+    for (size_t k = 0; k < ENTRY_COUNT; k++) {
+        if (entries[k].kind == NEEDED && *(const char *const *)((const char *)options + entries[k].field) == NULL) {
+            return fail(message, "%s is missing; see retarget --help", entries[k].name);
         }
     }
-    const char *outputs[] = {options->output, options->output_avatar, options->report, options->distortion};
+    const char *outputs[] = {options->output, options->output_avatar, options->report,
+                             options->distortion, options->keep_partial, options->partial_avatar};
     for (size_t a = 0; a < sizeof outputs / sizeof *outputs; a++) {
         for (size_t b = 0; b < a; b++) {
             if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {
@@ -177,13 +167,35 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
             }
         }
     }
-    if (options->threads != -1.0 && (options->threads > 1024.0 || options->threads != (double)(uint32_t)options->threads)) {
-        return fail(message, "option --threads must be a whole number up to 1024");
-    }
     return true;
+}
+
+bool options_parse(Options *options, int count, char **words, Message *message) {
+    memset(options, 0, sizeof *options);
+    for (size_t k = 0; k < ENTRY_COUNT; k++) {
+        if (is_number(&entries[k])) {
+            *(double *)field_of(options, &entries[k]) = -1.0;
+        }
+    }
+    options->layers = array_new((size_t)count, sizeof *options->layers);
+    if (options->layers == NULL) {
+        return fail(message, "the command line does not fit into memory");
+    }
+    if (!read_words(options, count, words, message)) {
+        return false;
+    }
+    if (options->help || options->version) {
+        return true;
+    }
+    options->partial_avatar = options->keep_partial != NULL ? avatar_beside(options->keep_partial) : NULL;
+    if (options->keep_partial != NULL && options->partial_avatar == NULL) {
+        return fail(message, "the command line does not fit into memory");
+    }
+    return check(options, message);
 }
 
 void options_free(Options *options) {
     free(options->layers);
+    free(options->partial_avatar);
     memset(options, 0, sizeof *options);
 }

@@ -21,6 +21,9 @@ typedef struct Options {
     const char *output_avatar;
     const char *report;
     const char *distortion;
+    const char *keep_partial;
+    /* Beside keep_partial, made from its name. */
+    char *partial_avatar;
     /* Garments that the avatar wears already. */
     const char **layers;
     size_t layer_count;
@@ -32,11 +35,17 @@ typedef struct Options {
     double pin_weight;
     double surface_weight;
     double curve_weight;
+    double curvature_weight;
+    double torsion_weight;
     double position_weight;
     double barrier_weight;
     double dhat;
-    double voxel;
+    double inflation_dhat;
+    double inflation_barrier_weight;
+    double voxel_size;
+    double min_separation;
     double tolerance;
+    double max_iterations;
     double threads;
     double memory_limit;
     bool printed_surface;
@@ -51,7 +60,7 @@ bool options_parse(Options *options, int count, char **words, Message *message);
 
 void options_free(Options *options);
 
-/* What --help prints. */
-extern const char *const options_usage;
+/* What --help prints, part after part, up to a null. */
+extern const char *const options_usage[];
 
 #endif

@@ -3,19 +3,16 @@
 #include "report.h"
 
 #include "diagnostics.h"
+#include "json.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
-/* JSON has no infinity and no NaN. */
 static void write_number(FILE *file, const char *name, double value, const char *end) {
-    if (isfinite(value)) {
-        fprintf(file, "\"%s\": %.17g%s", name, value, end);
-    } else {
-        fprintf(file, "\"%s\": null%s", name, end);
-    }
+    fprintf(file, "\"%s\": ", name);
+    json_number(file, value);
+    fputs(end, file);
 }
 
 static void write_work(FILE *file, const char *name, const BespokeWork *work) {
@@ -37,19 +34,20 @@ static uint64_t peak_memory(void) {
 #endif
 }
 
-/* Mean and maximum over the garment's triangles. */
-static bool write_distortion(const BespokeSession *session, FILE *file, Message *message) {
+/* Mean and maximum over the garment's triangles; nothing where nothing has moved yet. */
+static bool write_distortion(const BespokeSession *session, FILE *file) {
     size_t count = 0;
     BespokeBuffer buffer = {NULL, 0, 0, BESPOKE_COMPONENT_F64};
-    if (bespoke_session_read_distortion(session, &buffer, &count) != BESPOKE_STATUS_OK) {
-        return fail(message, "the distortion cannot be read");
+    const BespokeStatus status = bespoke_session_read_distortion(session, &buffer, &count);
+    if (status != BESPOKE_STATUS_OK) {
+        return status == BESPOKE_STATUS_INVALID_STATE;
     }
     double *values = array_new(count, sizeof *values);
     buffer.data = values;
     buffer.capacity = count;
     if (values == NULL || bespoke_session_read_distortion(session, &buffer, NULL) != BESPOKE_STATUS_OK) {
         free(values);
-        return fail(message, "the distortion cannot be read");
+        return false;
     }
     double sum = 0.0, largest = 0.0;
     for (size_t k = 0; k < count; k++) {
@@ -63,13 +61,13 @@ static bool write_distortion(const BespokeSession *session, FILE *file, Message 
     return true;
 }
 
-bool report_write(const BespokeSession *session, double seconds, FILE *file, Message *message) {
+/* All that the library measured. */
+static bool write_measurements(const BespokeSession *session, double seconds, FILE *file, Message *message) {
     BespokeReport report = {.struct_size = sizeof report};
     if (bespoke_session_read_report(session, &report) != BESPOKE_STATUS_OK) {
         return fail(message, "the report cannot be read");
     }
-    fprintf(file, "{\n  \"library_version\": \"%s\",\n  \"threads\": %" PRIu32 ",\n", bespoke_version_text(), report.threads);
-    fputs("  ", file);
+    fprintf(file, "  \"threads\": %" PRIu32 ",\n  ", report.threads);
     write_number(file, "seconds", seconds, ",\n  ");
     fprintf(file, "\"memory_bytes\": %" PRIu64 ",\n  ", report.memory_bytes);
     fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", peak_memory());
@@ -96,8 +94,8 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
     fputs("  \"min_distance\": { ", file);
     write_number(file, "garment_garment", report.garment_distance, ", ");
     write_number(file, "garment_avatar", report.avatar_distance, " },\n");
-    if (!write_distortion(session, file, message)) {
-        return false;
+    if (!write_distortion(session, file)) {
+        return fail(message, "the distortion cannot be read");
     }
     fprintf(file, "  \"active_contacts\": %" PRIu64 ",\n", report.active_contacts);
     fputs("  ", file);
@@ -112,9 +110,23 @@ bool report_write(const BespokeSession *session, double seconds, FILE *file, Mes
             report.garment_triangles);
     fprintf(file, "  \"avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.avatar_vertices,
             report.avatar_triangles);
-    fprintf(file, "  \"subdivided_avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n  \"diagnostics\": ",
+    fprintf(file, "  \"subdivided_avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n",
             report.subdivided_avatar_vertices, report.subdivided_avatar_triangles);
-    if (!diagnostics_write(session, file, message)) {
+    return true;
+}
+
+bool report_write(const Session *session, const char *status, const char *said, FILE *file, Message *message) {
+    fprintf(file, "{\n  \"library_version\": \"%s\",\n  \"status\": \"%s\",\n  \"message\": ", bespoke_version_text(),
+            status);
+    json_text(file, said);
+    fputs(",\n", file);
+    /* After a defect of the library there is nothing to be read any more. */
+    if (session->status != BESPOKE_STATUS_INTERNAL &&
+        !write_measurements(session->handle, session_seconds(session), file, message)) {
+        return false;
+    }
+    fputs("  \"diagnostics\": ", file);
+    if (!diagnostics_write(session->handle, file, message)) {
         return false;
     }
     fputs("\n}\n", file);

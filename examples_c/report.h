@@ -4,10 +4,10 @@
 
 #include <stdio.h>
 
-#include "bespoke.h"
-#include "text.h"
+#include "session.h"
 
-/* Writes what the session did. `seconds` is the time of the whole run, files included. */
-bool report_write(const BespokeSession *session, double seconds, FILE *file, Message *message);
+/* Writes how the run ended, `status` as a name and `said` as a sentence, and what the session did until then. What cannot
+   be known yet, as the distortion of a garment that has not moved, is left out. */
+bool report_write(const Session *session, const char *status, const char *said, FILE *file, Message *message);
 
 #endif

@@ -88,6 +88,9 @@ every_end() {
     run 0
     run 0 --source-avatar "$in/mannequin.obj" --skin-weights "$in/skin.txt" --no-fit "$in/no-fit.txt" \
         --output-avatar "$work/out-avatar.obj" --report "$work/report.json"
+    run 0 --curvature-weight 2 --inflation-dhat 0.02 --min-separation 1e-6 --keep-partial "$work/partial.obj"
+    run 1 --max-iterations 1 --report "$work/report.json" --keep-partial "$work/partial.obj"
+    run 1 --garment "$in/missing.obj" --report "$work/report.json" --keep-partial "$work/partial.obj"
     run 0 --help
     run 0 --version
     for bad in not-a-number index-out-of-range cut-off empty missing; do
@@ -142,7 +145,7 @@ every_end "" "$work/retarget-sanitized"
 set -- "$work/retarget-sanitized" --garment "$sample/jacket/garment.obj" --source-skeleton "$sample/skeleton.obj" \
     --source-avatar "$sample/mannequin.obj" --avatar "$sample/heavy/avatar.obj" \
     --target-skeleton "$sample/heavy/skeleton.obj" --skin-weights "$sample/heavy/skin.txt" \
-    --no-fit "$sample/jacket/no-fit.txt" -o "$work/jacket.obj"
+    --no-fit "$sample/jacket/no-fit.txt" --report "$work/report.json" --keep-partial "$work/partial.obj" -o "$work/jacket.obj"
 expect 0 "$@"
 stopped=0
 for seconds in 0.05 0.3 1 2; do

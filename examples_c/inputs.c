@@ -1,0 +1,196 @@
+#include "inputs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "numbers.h"
+
+static bool set_mesh(Session *session, const Obj *obj, const char *path,
+                     BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
+    const BespokeView positions = view_of(obj->positions, obj->vertex_count, BESPOKE_COMPONENT_F32);
+    const BespokeView triangles = view_of(obj->triangles, obj->triangle_count, BESPOKE_COMPONENT_U32);
+    return session_good(session, set(session->handle, &positions, &triangles), path);
+}
+
+static bool set_skeleton(Session *session, const char *path,
+                         BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
+    Obj obj;
+    if (!obj_read(&obj, path, &session->message)) {
+        return false;
+    }
+    const BespokeView joints = view_of(obj.positions, obj.vertex_count, BESPOKE_COMPONENT_F32);
+    const BespokeView bones = view_of(obj.segments, obj.segment_count, BESPOKE_COMPONENT_U32);
+    const bool good = session_good(session, set(session->handle, &joints, &bones), path);
+    obj_free(&obj);
+    return good;
+}
+
+/* A mesh of which nothing is needed later. */
+static bool set_further_mesh(Session *session, const char *path,
+                             BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
+    Obj obj;
+    if (!obj_read(&obj, path, &session->message)) {
+        return false;
+    }
+    const bool good = set_mesh(session, &obj, path, set);
+    obj_free(&obj);
+    return good;
+}
+
+static bool add_layers(Session *session, const Options *options) {
+    for (size_t k = 0; k < options->layer_count; k++) {
+        if (!set_further_mesh(session, options->layers[k], bespoke_session_add_layer)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool set_skin_weights(Session *session, const char *path, size_t vertex_count) {
+    Matrix matrix;
+    if (!matrix_read(&matrix, path, &session->message)) {
+        return false;
+    }
+    bool good;
+    if (matrix.columns != vertex_count) {
+        good = fail(&session->message, "%s: has %zu columns, one for each vertex, but the avatar has %zu vertices",
+                    path, matrix.columns, vertex_count);
+    } else {
+        const BespokeView rows = view_of(matrix.values, matrix.rows, BESPOKE_COMPONENT_F32);
+        const BespokeStatus status =
+            bespoke_session_set_target_skin_weights(session->handle, &rows, matrix.columns);
+        good = session_good(session, status, path);
+    }
+    matrix_free(&matrix);
+    return good;
+}
+
+static bool set_no_fit(Session *session, const char *path) {
+    List list;
+    if (!list_read(&list, path, &session->message)) {
+        return false;
+    }
+    const BespokeView vertices = view_of(list.values, list.count, BESPOKE_COMPONENT_U32);
+    const bool good = session_good(session, bespoke_session_set_no_fit_vertices(session->handle, &vertices), path);
+    list_free(&list);
+    return good;
+}
+
+static bool set_pins(Session *session, const char *path) {
+    Matrix matrix;
+    if (!matrix_read(&matrix, path, &session->message)) {
+        return false;
+    }
+    uint32_t *vertices = array_new(matrix.rows, sizeof *vertices);
+    float *places = array_new(matrix.rows, 3 * sizeof *places);
+    bool good = vertices != NULL && places != NULL;
+    if (!good) {
+        fail(&session->message, "%s: does not fit into memory", path);
+    } else if (matrix.columns != 1 && matrix.columns != 4) {
+        good = fail(&session->message, "%s: has %zu numbers in a line; a pin is a vertex, or a vertex and x y z", path,
+                    matrix.columns);
+    }
+    for (size_t k = 0; good && k < matrix.rows; k++) {
+        const float *row = matrix.values + k * matrix.columns;
+        if (!(row[0] >= 0.0f && row[0] <= 16777216.0f && row[0] == (float)(uint32_t)row[0])) {
+            good = fail(&session->message, "%s: pin %zu is for vertex %g, which is not a whole number from 0", path,
+                        k + 1, (double)row[0]);
+            break;
+        }
+        vertices[k] = (uint32_t)row[0];
+        if (matrix.columns == 4) {
+            memcpy(places + 3 * k, row + 1, 3 * sizeof *places);
+        }
+    }
+    if (good) {
+        const BespokeView pinned = view_of(vertices, matrix.rows, BESPOKE_COMPONENT_U32);
+        const BespokeView points = view_of(places, matrix.rows, BESPOKE_COMPONENT_F32);
+        const BespokeStatus status =
+            bespoke_session_set_pinned_vertices(session->handle, &pinned, matrix.columns == 4 ? &points : NULL);
+        good = session_good(session, status, path);
+    }
+    free(vertices);
+    free(places);
+    matrix_free(&matrix);
+    return good;
+}
+
+static bool add_rigid_groups(Session *session, const char *path) {
+    List list;
+    if (!list_read(&list, path, &session->message)) {
+        return false;
+    }
+    bool good = true;
+    for (size_t row = 0, begin = 0; good && row < list.rows; begin = list.ends[row++]) {
+        const BespokeView vertices = view_of(list.values + begin, list.ends[row] - begin, BESPOKE_COMPONENT_U32);
+        good = session_good(session, bespoke_session_add_rigid_group(session->handle, &vertices), path);
+    }
+    list_free(&list);
+    return good;
+}
+
+/* A weight as the library takes it: what was not given is the default, and 0 switches the term off. */
+static double weight(double given) {
+    return given < 0.0 ? 0.0 : given == 0.0 ? BESPOKE_WEIGHT_OFF : given;
+}
+
+/* A length or stiffness, which is never 0: what was not given is the default. */
+static double magnitude(double given) {
+    return given < 0.0 ? 0.0 : given;
+}
+
+/* The more special of two options, where it was given. */
+static double either(double special, double general) {
+    return special < 0.0 ? general : special;
+}
+
+static bool set_options(Session *session, const Options *given) {
+    const BespokeOptions options = {
+        .struct_size = sizeof options,
+        .threads = (uint32_t)magnitude(given->threads),
+        .fit_weight = weight(given->fit_weight),
+        .designed_clearance = weight(given->designed_clearance),
+        .offset = magnitude(given->offset),
+        .fit_distance = weight(given->fit_distance),
+        .pin_weight = magnitude(given->pin_weight),
+        .memory_limit = (uint64_t)(1e6 * magnitude(given->memory_limit)),
+        .strict = given->strict ? 1 : 0,
+        .surface_weight = weight(given->surface_weight),
+        .curvature_weight = weight(either(given->curvature_weight, given->curve_weight)),
+        .torsion_weight = weight(either(given->torsion_weight, given->curve_weight)),
+        .position_weight = weight(given->position_weight),
+        .barrier_weight = magnitude(given->barrier_weight),
+        .dhat = magnitude(given->dhat),
+        .inflation_dhat = magnitude(given->inflation_dhat),
+        .inflation_barrier_weight = magnitude(given->inflation_barrier_weight),
+        .voxel = magnitude(given->voxel_size),
+        .separation_floor = magnitude(given->min_separation),
+        .tolerance = magnitude(given->tolerance),
+        .max_iterations = (uint32_t)magnitude(given->max_iterations),
+        .surface_form = given->printed_surface ? BESPOKE_SURFACE_FORM_PRINTED : BESPOKE_SURFACE_FORM_SIMILARITY,
+    };
+    return session_good(session, bespoke_session_set_options(session->handle, &options), NULL);
+}
+
+bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
+    memset(inputs, 0, sizeof *inputs);
+        return set_options(session, options) && obj_read(&inputs->garment, options->garment, &session->message) &&
+           set_mesh(session, &inputs->garment, options->garment, bespoke_session_set_garment) &&
+           set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton) &&
+           obj_read(&inputs->avatar, options->avatar, &session->message) &&
+           set_mesh(session, &inputs->avatar, options->avatar, bespoke_session_set_target_avatar) &&
+           set_skeleton(session, options->target_skeleton, bespoke_session_set_target_skeleton) &&
+           (options->source_avatar == NULL ||
+            set_further_mesh(session, options->source_avatar, bespoke_session_set_source_avatar)) &&
+           add_layers(session, options) &&
+           (options->skin_weights == NULL ||
+            set_skin_weights(session, options->skin_weights, inputs->avatar.vertex_count)) &&
+           (options->no_fit == NULL || set_no_fit(session, options->no_fit)) &&
+           (options->pins == NULL || set_pins(session, options->pins)) &&
+           (options->rigid == NULL || add_rigid_groups(session, options->rigid));
+}
+
+void inputs_free(Inputs *inputs) {
+    obj_free(&inputs->garment);
+    obj_free(&inputs->avatar);
+}

@@ -1,0 +1,21 @@
+/* The files that the command line names, read and handed to the library. */
+#ifndef INPUTS_H
+#define INPUTS_H
+
+#include "obj.h"
+#include "options.h"
+#include "session.h"
+
+/* What is needed again when the results are written. */
+typedef struct Inputs {
+    Obj garment;
+    Obj avatar;
+} Inputs;
+
+/* False, with a sentence in the session, where a file cannot be read or the library refuses what it holds. Whatever it
+   says, inputs_free is to be called afterwards. */
+bool inputs_set(Inputs *inputs, Session *session, const Options *options);
+
+void inputs_free(Inputs *inputs);
+
+#endif

@@ -1,0 +1,146 @@
+#include "results.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "report.h"
+
+typedef BespokeStatus (*ReadVertices)(const BespokeSession *, const BespokeBuffer *, size_t *);
+
+bool results_check(const Options *options, Message *message) {
+    const char *paths[] = {options->output, options->output_avatar, options->distortion,
+                           options->report, options->keep_partial, options->partial_avatar};
+    for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
+        if (paths[k] != NULL && !output_check(paths[k], message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A mesh as the library has it now; `comment`, unless null, stands on top. */
+static bool write_mesh(Output *output, const char *path, Session *session, const Obj *obj, ReadVertices read,
+                       const char *comment) {
+    float *positions = array_new(obj->vertex_count, 3 * sizeof(float));
+    if (positions == NULL) {
+        return fail(&session->message, "%s: the vertices do not fit into memory", path);
+    }
+    const BespokeBuffer buffer = {positions, obj->vertex_count, 0, BESPOKE_COMPONENT_F32};
+    const bool good = session_good(session, read(session->handle, &buffer, NULL), NULL) &&
+                      output_open(output, path, &session->message) &&
+                      obj_write(obj, positions, comment, output->file, &session->message) &&
+                      output_finish(output, &session->message);
+    free(positions);
+    return good;
+}
+
+static bool write_distortion(Output *output, const char *path, Session *session, size_t count) {
+    double *values = array_new(count, sizeof *values);
+    if (values == NULL) {
+        return fail(&session->message, "the distortion does not fit into memory");
+    }
+    const BespokeBuffer buffer = {values, count, 0, BESPOKE_COMPONENT_F64};
+    bool good = session_good(session, bespoke_session_read_distortion(session->handle, &buffer, NULL), NULL) &&
+                output_open(output, path, &session->message);
+    if (good) {
+        for (size_t k = 0; k < count; k++) {
+            fprintf(output->file, "%.9g\n", values[k]);
+        }
+        good = output_finish(output, &session->message);
+    }
+    free(values);
+    return good;
+}
+
+static bool write_report(Output *output, const char *path, const Session *session, const char *status, const char *said,
+                         Message *message) {
+    return output_open(output, path, message) && report_write(session, status, said, output->file, message) &&
+           output_finish(output, message);
+}
+
+bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options) {
+    Output *outputs = results->outputs;
+    return write_mesh(&outputs[0], options->output, session, &inputs->garment, bespoke_session_read_garment_vertices,
+                      NULL) &&
+           (options->output_avatar == NULL || write_mesh(&outputs[1], options->output_avatar, session, &inputs->avatar,
+                                                         bespoke_session_read_avatar_vertices, NULL)) &&
+           (options->distortion == NULL ||
+            write_distortion(&outputs[2], options->distortion, session, inputs->garment.triangle_count)) &&
+           (options->report == NULL || write_report(&outputs[3], options->report, session,
+                                                    bespoke_status_name(BESPOKE_STATUS_OK), "", &session->message));
+}
+
+bool results_commit(Results *results, Message *message) {
+    for (size_t k = 0; k < RESULTS; k++) {
+        if (!output_commit(&results->outputs[k], message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void results_discard(Results *results) {
+    for (size_t k = 0; k < RESULTS; k++) {
+        output_discard(&results->outputs[k]);
+    }
+}
+
+/* A failure of a file has no status of the library. */
+static const char *status_name(const Session *session) {
+    return session->status == BESPOKE_STATUS_OK ? "FILE_ERROR" : bespoke_status_name(session->status);
+}
+
+static void leave_report(const Session *session, const char *path, FILE *file) {
+    Output output;
+    Message message;
+    memset(&output, 0, sizeof output);
+    if (!write_report(&output, path, session, status_name(session), session->message.text, &message) ||
+        !output_commit(&output, &message)) {
+        fprintf(file, "retarget: there is no report: %s\n", message.text);
+    }
+    output_discard(&output);
+}
+
+/* Both meshes or none. */
+static void leave_partial(const Session *failed, const Inputs *inputs, const Options *options, FILE *file) {
+    BespokeProgress progress = {.struct_size = sizeof progress};
+    const bool has_moved = bespoke_session_read_progress(failed->handle, &progress) == BESPOKE_STATUS_OK &&
+                           progress.stage != BESPOKE_STAGE_SETUP;
+    if (!has_moved) {
+        fputs("retarget: no partial garment: it ended before the avatar began to grow\n", file);
+        return;
+    }
+    if (progress.stage == BESPOKE_STAGE_DONE) {
+        return; /* verified, and nothing was wrong but a file */
+    }
+    char comment[192];
+    snprintf(comment, sizeof comment, "partial: %s, t = %.4f (0: shrunk onto the skeleton, 1: full size), not verified",
+             status_name(failed), progress.t);
+    Session session = *failed; /* what fails here is not what the run failed of */
+    Output garment, avatar;
+    memset(&garment, 0, sizeof garment);
+    memset(&avatar, 0, sizeof avatar);
+    if (write_mesh(&garment, options->keep_partial, &session, &inputs->garment, bespoke_session_read_garment_vertices,
+                   comment) &&
+        write_mesh(&avatar, options->partial_avatar, &session, &inputs->avatar, bespoke_session_read_avatar_vertices,
+                   comment) &&
+        output_commit(&garment, &session.message) && output_commit(&avatar, &session.message)) {
+        fprintf(file,
+                "retarget: partial, not a result: %s is the garment, %s the avatar as far as it had grown (t = %.4f; 1 is "
+                "its full size)\n",
+                options->keep_partial, options->partial_avatar, progress.t);
+    } else {
+        fprintf(file, "retarget: no partial garment: %s\n", session.message.text);
+    }
+    output_discard(&garment);
+    output_discard(&avatar);
+}
+
+void results_write_failure(Session *session, const Inputs *inputs, const Options *options, FILE *file) {
+    if (options->report != NULL) {
+        leave_report(session, options->report, file);
+    }
+    if (options->keep_partial != NULL) {
+        leave_partial(session, inputs, options, file);
+    }
+}

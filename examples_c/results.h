@@ -1,0 +1,29 @@
+/* What a run leaves: after a verified end all its files or none, after a failure the report and the partial meshes. */
+#ifndef RESULTS_H
+#define RESULTS_H
+
+#include "inputs.h"
+#include "options.h"
+#include "output.h"
+#include "session.h"
+
+/* Garment, avatar, distortion, report. */
+#define RESULTS 4
+
+typedef struct Results {
+    Output outputs[RESULTS];
+} Results;
+
+/* False, with a sentence, where one of the files that may have to be written could not be. */
+bool results_check(const Options *options, Message *message);
+
+/* Writes all files whole, but under other names; results_commit puts them in their places. False with a sentence in the
+   session. results_discard is to be called in the end, whatever came before. */
+bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options);
+bool results_commit(Results *results, Message *message);
+void results_discard(Results *results);
+
+/* Writes what a run without a result leaves behind, and says so on `file`. */
+void results_write_failure(Session *session, const Inputs *inputs, const Options *options, FILE *file);
+
+#endif
