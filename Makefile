@@ -13,8 +13,9 @@
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
+# make docs   the texts, the reference of the C header and that of the Rust modules as a book: build/docs/index.html
 #
-# As root, `demo`, `gallery`, `figures`, `dist` and `test` install what is missing with apt. Rust has to be there
+# As root, `demo`, `gallery`, `figures`, `dist`, `docs` and `test` install what is missing with apt. Rust has to be there
 # (https://rustup.rs).
 
 CC = cc
@@ -180,6 +181,11 @@ bench: dependencies
 .PHONY: header
 header:
 	BESPOKE_UPDATE_HEADER=1 cargo test --release --test capi header::committed
+
+.PHONY: docs
+docs: dependencies
+	sh .ci/dependencies mkdocs doxygen
+	sh packaging/book/build.sh
 
 .PHONY: clean
 clean:

@@ -78,8 +78,8 @@ each() { # COMMAND
     for name in BespokeConfig BespokeConfigVersion; do
         "$1" template "$root/packaging/$name.cmake.in" "$cmakedir/$name.cmake"
     done
-    for text in README.md LICENSE-MIT LICENSE-APACHE; do
-        "$1" text "$root/$text" "$docdir/$text"
+    for text in "$root"/*.md "$root"/LICENSE-MIT "$root"/LICENSE-APACHE; do
+        "$1" text "$text" "$docdir/${text##*/}"
     done
     # Beside the README, which shows the pictures.
     for text in "$root"/docs/*; do

@@ -3,7 +3,7 @@
 //! Follows "Intersection-Free Garment Retargeting" (Huang et al., SIGGRAPH 2025). Data moves one way:
 //!
 //! ```text
-//! caller's buffers -> input -> session -> stage::{initialize, inflate, fit} -> verify -> caller's buffers
+//! caller's buffers -> input -> session -> stage::{start, inflate, fit} -> verify -> caller's buffers
 //!                                             |
 //!                               energy + contact + sdf, minimised by solver
 //! ```

@@ -22,7 +22,7 @@ fn expected(bin: &str, lib: &str, include: &str) -> BTreeSet<String> {
     all.insert(format!("{lib}/pkgconfig/bespoke.pc"));
     all.extend(["Config", "ConfigVersion"].map(|name| format!("{lib}/cmake/Bespoke/Bespoke{name}.cmake")));
     all.extend(names("include", &[".h", ".hpp"]).iter().map(|name| format!("{include}/{name}")));
-    all.extend(["README.md", "LICENSE-MIT", "LICENSE-APACHE"].map(|name| format!("{doc}/{name}")));
+    all.extend(names("", &[".md", "LICENSE-MIT", "LICENSE-APACHE"]).iter().map(|name| format!("{doc}/{name}")));
     all.extend(names("docs", &[]).iter().map(|name| format!("{doc}/docs/{name}")));
     all
 }
