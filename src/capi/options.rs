@@ -23,7 +23,8 @@ pub enum BespokeSurfaceForm {
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
 /// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets.
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Fields marked "Expert." tune
+/// the solver.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeOptions {
@@ -36,32 +37,33 @@ pub struct BespokeOptions {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
     pub designed_clearance: f64,
-    /// Weight of the surface term, which keeps the design's shape. Default 1.
+    /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
-    /// Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
     pub curvature_weight: f64,
-    /// Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
     pub torsion_weight: f64,
-    /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
+    /// possible.
     pub position_weight: f64,
-    /// Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
+    /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     pub barrier_weight: f64,
-    /// Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
+    /// Expert. Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
     pub dhat: f64,
-    /// While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
+    /// Expert. While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
     pub inflation_dhat: f64,
-    /// While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
+    /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     pub inflation_barrier_weight: f64,
-    /// Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
+    /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     pub voxel: f64,
-    /// Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`. Default
-    /// 1e-5.
+    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
+    /// Default 1e-5.
     pub separation_floor: f64,
-    /// The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+    /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
-    /// Largest number of Newton iterations of each stage. Default 500.
+    /// Expert. Largest number of Newton iterations of each stage. Default 500.
     pub max_iterations: u32,
-    /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
+    /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
     /// meshes before it begins, and looked at again as it goes on.
