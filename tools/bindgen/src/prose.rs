@@ -82,32 +82,22 @@ pub fn sentence(text: &str) -> (&str, &str) {
     }
 }
 
-/// Lines of at most so many letters. A space within `<...>` ends no line.
+/// Lines of at most so many letters. A space within a tag, `<see cref="..."/>`, ends no line.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut depth = 0;
-    let mut words = vec![String::new()];
-    for letter in text.chars() {
-        match letter {
-            '<' => depth += 1,
-            '>' => depth -= 1,
-            _ => {}
-        }
-        if letter == ' ' && depth == 0 {
-            words.push(String::new());
-        } else {
-            words.last_mut().expect("a word").push(letter);
+    let mut words = Vec::<String>::new();
+    for piece in text.split(' ') {
+        match words.last_mut() {
+            Some(tag) if tag.rfind("<see").is_some_and(|begin| !tag[begin..].contains('>')) => {
+                *tag += &format!(" {piece}");
+            }
+            _ => words.push(piece.to_string()),
         }
     }
+    let mut lines = Vec::<String>::new();
     for word in words {
-        let line = lines.last_mut().expect("a line");
-        if line.is_empty() {
-            *line = word;
-        } else if line.chars().count() + 1 + word.chars().count() <= width {
-            line.push(' ');
-            line.push_str(&word);
-        } else {
-            lines.push(word);
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
+            _ => lines.push(word),
         }
     }
     lines
