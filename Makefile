@@ -13,6 +13,8 @@
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
+# make bindings  the same, and from it what the bindings repeat of it: enums, structs, calls and options of C# and C++, the
+#             pins of the layout, and bindings/bespoke.json, which describes it all
 # make docs   the texts, the reference of the C header and that of the Rust modules as a book: build/docs/index.html
 #
 # As root, `demo`, `gallery`, `figures`, `dist`, `docs` and `test` install what is missing with apt. Rust has to be there
@@ -177,6 +179,10 @@ soak:
 bench: dependencies
 	$(if $(BENCH),,cargo bench -p bench --bench kernels)
 	cargo bench -p bench --bench $(or $(firstword $(BENCH)),pipeline) -- $(wordlist 2,$(words $(BENCH)),$(BENCH))
+
+.PHONY: bindings
+bindings: header
+	cargo run --release -p bespoke-bindgen
 
 .PHONY: header
 header:

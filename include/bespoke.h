@@ -300,7 +300,7 @@ typedef uint32_t BespokeSeverity;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Which of the inputs an element belongs to.
+/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer.
 enum BespokeSubject
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -316,8 +316,7 @@ enum BespokeSubject
   BESPOKE_SUBJECT_SOURCE_SKELETON = 4,
   /// The skeleton of the body to dress.
   BESPOKE_SUBJECT_TARGET_SKELETON = 5,
-  /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
-  /// here on is a layer.
+  /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k.
   BESPOKE_SUBJECT_LAYER = 256,
 };
 #ifndef __cplusplus
@@ -380,9 +379,9 @@ typedef struct BespokeSpace {
   uint32_t struct_size;
   /// The axis to the right, one of BespokeAxis. Default: +x.
   uint32_t right;
-  /// The axis upwards. Default: +y.
+  /// The axis upwards, one of BespokeAxis. Default: +y.
   uint32_t up;
-  /// The axis forwards, into the picture. Default: -z.
+  /// The axis forwards, into the picture, one of BespokeAxis. Default: -z.
   uint32_t forward;
   /// Length of the unit in metres [1e-9, 1e9]. Default: 1.
   double metres_per_unit;
@@ -394,7 +393,8 @@ typedef struct BespokeSpace {
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
 /// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets.
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Fields marked "Expert." tune
+/// the solver.
 typedef struct BespokeOptions {
   /// sizeof(BespokeOptions).
   uint32_t struct_size;
@@ -405,32 +405,33 @@ typedef struct BespokeOptions {
   /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
   /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
   double designed_clearance;
-  /// Weight of the surface term, which keeps the design's shape. Default 1.
+  /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
-  /// Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+  /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
   double curvature_weight;
-  /// Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+  /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
   double torsion_weight;
-  /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
+  /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
+  /// possible.
   double position_weight;
-  /// Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
+  /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
   double barrier_weight;
-  /// Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
+  /// Expert. Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
   double dhat;
-  /// While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
+  /// Expert. While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
   double inflation_dhat;
-  /// While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
+  /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
   double inflation_barrier_weight;
-  /// Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
+  /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
   double voxel;
-  /// Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`. Default
-  /// 1e-5.
+  /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
+  /// Default 1e-5.
   double separation_floor;
-  /// The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+  /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
   double tolerance;
-  /// Largest number of Newton iterations of each stage. Default 500.
+  /// Expert. Largest number of Newton iterations of each stage. Default 500.
   uint32_t max_iterations;
-  /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
+  /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
   uint32_t surface_form;
   /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
   /// meshes before it begins, and looked at again as it goes on.

@@ -56,6 +56,8 @@ namespace bespoke {
 
 // ---- Enums ----------------------------------------------------------------------------------------------------------
 
+// Begin of the enums: written by `make bindings` from bespoke.h; changes by hand are lost.
+
 /// The outcome of a call: BespokeStatus.
 enum class Status : std::uint32_t {
     ok = BESPOKE_STATUS_OK,
@@ -74,6 +76,14 @@ enum class Status : std::uint32_t {
     memory_limit = BESPOKE_STATUS_MEMORY_LIMIT,
 };
 
+/// How one number of an array is stored: BespokeComponent. 0 is none of them, so that a forgotten field is noticed.
+enum class Component : std::uint32_t {
+    f32 = BESPOKE_COMPONENT_F32,
+    f64 = BESPOKE_COMPONENT_F64,
+    u16 = BESPOKE_COMPONENT_U16,
+    u32 = BESPOKE_COMPONENT_U32,
+};
+
 /// Where a session is on its way: BespokeStage.
 enum class Stage : std::uint32_t {
     setup = BESPOKE_STAGE_SETUP,
@@ -84,14 +94,6 @@ enum class Stage : std::uint32_t {
     done = BESPOKE_STAGE_DONE,
     failed = BESPOKE_STAGE_FAILED,
     cancelled = BESPOKE_STAGE_CANCELLED,
-};
-
-/// How one number of an array is stored: BespokeComponent.
-enum class Component : std::uint32_t {
-    f32 = BESPOKE_COMPONENT_F32,
-    f64 = BESPOKE_COMPONENT_F64,
-    u16 = BESPOKE_COMPONENT_U16,
-    u32 = BESPOKE_COMPONENT_U32,
 };
 
 /// A direction along one axis of the caller's coordinates: BespokeAxis.
@@ -140,7 +142,7 @@ enum class Severity : std::uint32_t {
     error = BESPOKE_SEVERITY_ERROR,
 };
 
-/// Which of the inputs an element belongs to: BespokeSubject. `layer` and any value above is a layer.
+/// Which of the inputs an element belongs to: BespokeSubject. Any number from Subject::layer on is a layer.
 enum class Subject : std::uint32_t {
     garment = BESPOKE_SUBJECT_GARMENT,
     target_avatar = BESPOKE_SUBJECT_TARGET_AVATAR,
@@ -156,6 +158,8 @@ enum class ElementKind : std::uint32_t {
     triangle = BESPOKE_ELEMENT_KIND_TRIANGLE,
     bone = BESPOKE_ELEMENT_KIND_BONE,
 };
+
+// End of the enums.
 
 // ---- Constants and versions -----------------------------------------------------------------------------------------
 
@@ -683,52 +687,59 @@ struct Space {
     }
 };
 
+// Begin of the options: written by `make bindings` from bespoke.h; changes by hand are lost.
+
 /// What may be tuned: BespokeOptions. Zero means the default, which is what a new Options has everywhere; `weight_off`
 /// switches a term off where that is possible. Lengths are in the normalised space, in which the longest side of the
 /// skeleton's bounding box is 2.
 struct Options {
-    /// Threads of this session. Default: as many as the machine has cores.
+    /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
     std::uint32_t threads = 0;
-    /// Weight of the fit term, higher is tighter. Default 2; weight_off possible.
+    /// Weight of the fit term, higher is tighter. Default 2. weight_off: no fit.
     double fit_weight = 0.0;
-    /// With a source avatar: the part of its clearance that the fit aims at. Default 1; weight_off: tight.
+    /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
+    /// the garment had on it [up to 2]. Default 1, as designed. weight_off: tight, as without a source avatar.
     double designed_clearance = 0.0;
-    /// Weight of the surface term, which keeps the design's shape. Default 1.
+    /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
-    /// Weight of the curvature of boundary curves. Default 1; weight_off possible.
+    /// Expert. Weight of the curvature of boundary curves. Default 1. weight_off possible.
     double curvature_weight = 0.0;
-    /// Weight of the torsion of boundary curves. Default 1; weight_off possible.
+    /// Expert. Weight of the torsion of boundary curves. Default 1. weight_off possible.
     double torsion_weight = 0.0;
-    /// Weight of the place of cuffs, hems and collars along their bones. Default 10; weight_off possible.
+    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. weight_off possible.
     double position_weight = 0.0;
-    /// Weight of the contact barrier, on squared distances. Default 1e8.
+    /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     double barrier_weight = 0.0;
-    /// Distance at which the barrier begins. Default 0.002.
+    /// Expert. Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
     double dhat = 0.0;
-    /// While the avatar grows: distance to it at which the barrier begins. Default 0.01.
+    /// Expert. While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
     double inflation_dhat = 0.0;
-    /// While the avatar grows: weight of the contact barrier. Default 1e4.
+    /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     double inflation_barrier_weight = 0.0;
-    /// Edge of a voxel of the distance field. Default 0.01.
+    /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     double voxel = 0.0;
-    /// Distance that nothing ever falls below, less than half of dhat. Default 1e-5.
+    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
+    /// Default 1e-5.
     double separation_floor = 0.0;
-    /// The fit ends where the relative Newton decrement falls below this. Default 1e-3.
+    /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     double tolerance = 0.0;
-    /// Largest number of Newton iterations of each stage. Default 500.
+    /// Expert. Largest number of Newton iterations of each stage. Default 500.
     std::uint32_t max_iterations = 0;
-    /// Form of the surface term.
+    /// Expert. One of SurfaceForm. Default SurfaceForm::similarity.
     SurfaceForm surface_form = SurfaceForm::similarity;
-    /// Bytes that the session may take at most. Default: no limit.
+    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
+    /// its meshes before it begins, and looked at again as it goes on.
     std::uint64_t memory_limit = 0;
-    /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
+    /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are let
+    /// off and named by Session::read_diagnostics, and no others ever join them.
     bool strict = false;
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space. Default 0.
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
+    /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
     double offset = 0.0;
-    /// With a source avatar and no fit weights: what was designed farther from it than this fits less, and not at all
-    /// from twice this distance on. Default 0.1; weight_off: the garment fits as a whole.
+    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less,
+    /// and not at all from twice this distance on. Default 0.1. weight_off: the garment fits as a whole.
     double fit_distance = 0.0;
-    /// Weight of pins. Default 1000.
+    /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
     double pin_weight = 0.0;
 
     /// As the C API takes them.
@@ -793,6 +804,8 @@ struct Options {
         return options;
     }
 };
+
+// End of the options.
 
 /// How far a step goes; 0 is no limit. With neither, it goes to the end.
 struct Budget {

@@ -3,84 +3,121 @@
 pub use crate::energy::surface::SurfaceForm;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Weights, distances and limits. Lengths are in the normalised space, in which the longest side of the skeleton's
-/// bounding box is 2.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Threads of this session; 0 takes as many as the machine has cores.
-    pub threads: u32,
-    /// Weight of the fit term (Eq. 4): higher is tighter.
-    pub fit_weight: f64,
-    /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point had on
-    /// it. 1 is as designed; 0 is tight, as without a source avatar.
-    pub designed_clearance: f64,
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space.
-    pub offset: f64,
-    /// Where a source avatar is given and no fit weights: what was designed farther from it than this fits less, and not at
-    /// all from twice this distance on; infinite for a garment that fits as a whole.
-    pub fit_distance: f64,
-    /// Weight of the pins that hold vertices in given places.
-    pub pin_weight: f64,
-    /// Weight of the surface term (Eq. 2).
-    pub surface_weight: f64,
-    /// Weight of the curvature of boundary curves (Eq. 5).
-    pub curvature_weight: f64,
-    /// Weight of the torsion of boundary curves (section 3.4.5).
-    pub torsion_weight: f64,
-    /// Weight of the position of boundaries along their bones (Eq. 3).
-    pub position_weight: f64,
-    /// Weight of the contact barrier (Eq. 1, on squared distances).
-    pub barrier_weight: f64,
-    /// Distance at which the barrier begins.
-    pub dhat: f64,
-    /// While the avatar grows: distance to it at which the barrier begins. Wider than `dhat`, so that the garment sees
-    /// the body coming before the step is cut.
-    pub inflation_dhat: f64,
-    /// While the avatar grows: weight of the barrier.
-    pub inflation_barrier_weight: f64,
-    /// Distance that no pair of primitives ever falls below; a garment that is nearer than four times this to itself or the
-    /// skeleton at the start gets a lower one.
-    pub separation_floor: f64,
-    /// Edge of a voxel of the distance field.
-    pub voxel: f64,
-    /// The fit ends where the squared Newton decrement falls below this fraction of the objective.
-    pub tolerance: f64,
-    /// Largest number of Newton iterations of each stage.
-    pub max_iterations: u32,
-    /// Which form of the surface term.
-    pub surface_form: SurfaceForm,
-    /// Bytes that the session may take at most; 0 is no limit.
-    pub memory_limit: u64,
-    /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
-    pub strict: bool,
+/// Every option in one place: its type, its default, `in` the range that is checked, and what it is where the C API
+/// switches it `off`. Options, their defaults and their check come from it here, and what takes them from and to C in
+/// capi/options.rs, whose struct has a field of the same name.
+macro_rules! option_table {
+    ($make:ident) => {
+        $make! {
+            /// Threads of this session; 0 takes as many as the machine has cores.
+            threads: u32 = 0, in AtMost(1024, "0 takes all cores");
+            /// Weight of the fit term (Eq. 4): higher is tighter.
+            fit_weight: f64 = 2.0, in NotNegative, off = 0.0;
+            /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each
+            /// point had on it. 1 is as designed; 0 is tight, as without a source avatar.
+            designed_clearance: f64 = 1.0, in Between(0.0, 2.0), off = 0.0;
+            /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space.
+            offset: f64 = 0.0, in NotNegative;
+            /// Where a source avatar is given and no fit weights: what was designed farther from it than this fits
+            /// less, and not at all from twice this distance on; infinite for a garment that fits as a whole.
+            fit_distance: f64 = 0.1, in Positive, off = f64::INFINITY;
+            /// Weight of the pins that hold vertices in given places.
+            pin_weight: f64 = 1000.0, in NotNegative;
+            /// Weight of the surface term (Eq. 2).
+            surface_weight: f64 = 1.0, in NotNegative, off = 0.0;
+            /// Weight of the curvature of boundary curves (Eq. 5).
+            curvature_weight: f64 = 1.0, in NotNegative, off = 0.0;
+            /// Weight of the torsion of boundary curves (section 3.4.5).
+            torsion_weight: f64 = 1.0, in NotNegative, off = 0.0;
+            /// Weight of the position of boundaries along their bones (Eq. 3).
+            position_weight: f64 = 10.0, in NotNegative, off = 0.0;
+            /// Weight of the contact barrier (Eq. 1, on squared distances).
+            barrier_weight: f64 = 1e8, in Between(1.0, 1e14);
+            /// Distance at which the barrier begins.
+            dhat: f64 = 0.002, in Between(1e-5, 0.1);
+            /// While the avatar grows: distance to it at which the barrier begins. Wider than `dhat`, so that the
+            /// garment sees the body coming before the step is cut.
+            inflation_dhat: f64 = 0.01, in Between(1e-5, 0.1);
+            /// While the avatar grows: weight of the barrier.
+            inflation_barrier_weight: f64 = 1e4, in Between(1.0, 1e14);
+            /// Distance that no pair of primitives ever falls below; a garment that is nearer than four times this to
+            /// itself or the skeleton at the start gets a lower one.
+            separation_floor: f64 = 1e-5, in Between(1e-8, 0.01);
+            /// Edge of a voxel of the distance field.
+            voxel: f64 = 0.01, in Between(1e-3, 0.2);
+            /// The fit ends where the squared Newton decrement falls below this fraction of the objective.
+            tolerance: f64 = 1e-3, in Between(1e-12, 1.0);
+            /// Largest number of Newton iterations of each stage.
+            max_iterations: u32 = 500, in AtLeast(1);
+            /// Which form of the surface term.
+            surface_form: SurfaceForm = SurfaceForm::Similarity;
+            /// Bytes that the session may take at most; 0 is no limit.
+            memory_limit: u64 = 0;
+            /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
+            strict: bool = false;
+        }
+    };
+}
+#[cfg(feature = "capi")]
+pub(crate) use option_table;
+
+macro_rules! define {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident: $kind:ty = $default:expr $(, in $range:expr)? $(, off = $off:expr)?;
+    )*) => {
+        /// Weights, distances and limits. Lengths are in the normalised space, in which the longest side of the skeleton's
+        /// bounding box is 2.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Options {
+            $($(#[$doc])* pub $name: $kind,)*
+        }
+
+        impl Default for Options {
+            fn default() -> Self {
+                Self { $($name: $default,)* }
+            }
+        }
+
+        impl Options {
+            /// Each value for itself.
+            fn check_ranges(&self) -> Result<()> {
+                use Range::*;
+                $($(check(stringify!($name), self.$name.into(), $range)?;)?)*
+                Ok(())
+            }
+        }
+    };
+}
+option_table!(define);
+
+/// Which values an option may have.
+enum Range {
+    /// Finite, 0 or above.
+    NotNegative,
+    /// Above 0, infinity included.
+    Positive,
+    /// From the first to the second.
+    Between(f64, f64),
+    /// This or more.
+    AtLeast(u32),
+    /// This or less; and what 0 means.
+    AtMost(u32, &'static str),
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            threads: 0,
-            fit_weight: 2.0,
-            designed_clearance: 1.0,
-            offset: 0.0,
-            fit_distance: 0.1,
-            pin_weight: 1000.0,
-            surface_weight: 1.0,
-            curvature_weight: 1.0,
-            torsion_weight: 1.0,
-            position_weight: 10.0,
-            barrier_weight: 1e8,
-            dhat: 0.002,
-            inflation_dhat: 0.01,
-            inflation_barrier_weight: 1e4,
-            separation_floor: 1e-5,
-            voxel: 0.01,
-            tolerance: 1e-3,
-            max_iterations: 500,
-            surface_form: SurfaceForm::Similarity,
-            memory_limit: 0,
-            strict: false,
-        }
-    }
+fn refuse(name: &str, value: f64, range: &str) -> Result<()> {
+    Err(Error::new(ErrorKind::InvalidArgument, format!("option {name} is {value}; it must be {range}")))
+}
+
+fn check(name: &str, value: f64, range: Range) -> Result<()> {
+    let (is_within, text) = match range {
+        Range::NotNegative => (value.is_finite() && value >= 0.0, "a finite number, 0 or above".to_string()),
+        Range::Positive => (value > 0.0, "above 0".to_string()),
+        Range::Between(low, high) => (value >= low && value <= high, format!("between {low} and {high}")),
+        Range::AtLeast(low) => (value >= f64::from(low), format!("at least {low}")),
+        Range::AtMost(high, zero) => (value <= f64::from(high), format!("at most {high} ({zero})")),
+    };
+    if is_within { Ok(()) } else { refuse(name, value, &text) }
 }
 
 impl Options {
@@ -89,39 +126,7 @@ impl Options {
     /// # Errors
     /// `InvalidArgument`, naming the option, its value and its range.
     pub fn check(&self) -> Result<()> {
-        let refuse = |name: &str, value: f64, range: &str| {
-            Err(Error::new(ErrorKind::InvalidArgument, format!("option {name} is {value}; it must be {range}")))
-        };
-        for (name, value) in [
-            ("fit_weight", self.fit_weight),
-            ("surface_weight", self.surface_weight),
-            ("curvature_weight", self.curvature_weight),
-            ("torsion_weight", self.torsion_weight),
-            ("position_weight", self.position_weight),
-            ("offset", self.offset),
-            ("pin_weight", self.pin_weight),
-        ] {
-            if !(value.is_finite() && value >= 0.0) {
-                return refuse(name, value, "a finite number, 0 or above");
-            }
-        }
-        for (name, value, low, high) in [
-            ("barrier_weight", self.barrier_weight, 1.0, 1e14),
-            ("inflation_barrier_weight", self.inflation_barrier_weight, 1.0, 1e14),
-            ("dhat", self.dhat, 1e-5, 0.1),
-            ("inflation_dhat", self.inflation_dhat, 1e-5, 0.1),
-            ("separation_floor", self.separation_floor, 1e-8, 0.01),
-            ("voxel", self.voxel, 1e-3, 0.2),
-            ("tolerance", self.tolerance, 1e-12, 1.0),
-            ("designed_clearance", self.designed_clearance, 0.0, 2.0),
-        ] {
-            if !(value >= low && value <= high) {
-                return refuse(name, value, &format!("between {low} and {high}"));
-            }
-        }
-        if self.fit_distance.is_nan() || self.fit_distance <= 0.0 {
-            return refuse("fit_distance", self.fit_distance, "above 0");
-        }
+        self.check_ranges()?;
         let narrowest = self.dhat.min(self.inflation_dhat);
         if self.separation_floor >= 0.5 * narrowest {
             let range = format!("below half of dhat and of inflation_dhat, which is {}", 0.5 * narrowest);
@@ -129,12 +134,6 @@ impl Options {
         }
         if self.surface_weight == 0.0 {
             return refuse("surface_weight", 0.0, "above 0: nothing else holds the garment together");
-        }
-        if self.max_iterations == 0 {
-            return refuse("max_iterations", 0.0, "at least 1");
-        }
-        if self.threads > 1024 {
-            return refuse("threads", f64::from(self.threads), "at most 1024 (0 takes all cores)");
         }
         Ok(())
     }

@@ -60,7 +60,7 @@ pub enum BespokeSeverity {
     Error = 3,
 }
 
-/// Which of the inputs an element belongs to.
+/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeSubject {
@@ -74,8 +74,7 @@ pub enum BespokeSubject {
     SourceSkeleton = 4,
     /// The skeleton of the body to dress.
     TargetSkeleton = 5,
-    /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k. Any value from
-    /// here on is a layer.
+    /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k.
     Layer = 256,
 }
 

@@ -235,9 +235,9 @@ pub struct BespokeSpace {
     pub struct_size: u32,
     /// The axis to the right, one of BespokeAxis. Default: +x.
     pub right: u32,
-    /// The axis upwards. Default: +y.
+    /// The axis upwards, one of BespokeAxis. Default: +y.
     pub up: u32,
-    /// The axis forwards, into the picture. Default: -z.
+    /// The axis forwards, into the picture, one of BespokeAxis. Default: -z.
     pub forward: u32,
     /// Length of the unit in metres [1e-9, 1e9]. Default: 1.
     pub metres_per_unit: f64,

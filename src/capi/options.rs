@@ -6,7 +6,7 @@ use crate::capi::session::{BespokeSession, call};
 use crate::capi::sized::{self, Sized32};
 use crate::capi::status::BespokeStatus;
 use crate::error::{Error, ErrorKind, Result};
-use crate::options::{Options, SurfaceForm};
+use crate::options::{Options, SurfaceForm, option_table};
 
 /// The value of a weight in BespokeOptions that switches its term off; 0 means the default.
 pub const BESPOKE_WEIGHT_OFF: f64 = -1.0;
@@ -23,7 +23,8 @@ pub enum BespokeSurfaceForm {
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
 /// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets.
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Fields marked "Expert." tune
+/// the solver.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeOptions {
@@ -36,32 +37,33 @@ pub struct BespokeOptions {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
     pub designed_clearance: f64,
-    /// Weight of the surface term, which keeps the design's shape. Default 1.
+    /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
-    /// Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
     pub curvature_weight: f64,
-    /// Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
     pub torsion_weight: f64,
-    /// Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
+    /// possible.
     pub position_weight: f64,
-    /// Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
+    /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     pub barrier_weight: f64,
-    /// Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
+    /// Expert. Distance at which the barrier begins [1e-5, 0.1]. Default 0.002.
     pub dhat: f64,
-    /// While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
+    /// Expert. While the avatar grows: distance to it at which the barrier begins [1e-5, 0.1]. Default 0.01.
     pub inflation_dhat: f64,
-    /// While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
+    /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     pub inflation_barrier_weight: f64,
-    /// Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
+    /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     pub voxel: f64,
-    /// Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`. Default
-    /// 1e-5.
+    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
+    /// Default 1e-5.
     pub separation_floor: f64,
-    /// The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+    /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
-    /// Largest number of Newton iterations of each stage. Default 500.
+    /// Expert. Largest number of Newton iterations of each stage. Default 500.
     pub max_iterations: u32,
-    /// One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
+    /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
     /// meshes before it begins, and looked at again as it goes on.
@@ -86,62 +88,128 @@ unsafe impl Sized32 for BespokeOptions {
     const FIRST_SIZE: usize = offset_of!(BespokeOptions, memory_limit);
 }
 
-/// `given`, or `default` where it is zero.
-fn or_default(given: f64, default: f64) -> f64 {
-    if given == 0.0 { default } else { given }
+/// An option: as it crosses, and as the library holds it.
+trait Crossing: Sized {
+    /// Its type in C.
+    type C;
+
+    /// What is meant by `given`: zero is `default`, and BESPOKE_WEIGHT_OFF is `off`, where there is such a thing.
+    ///
+    /// # Errors
+    /// `InvalidArgument` with the `name`, where it means nothing.
+    fn read(given: Self::C, default: Self, off: Option<Self>, name: &str) -> Result<Self>;
+
+    /// The same value in C.
+    fn write(self) -> Self::C;
 }
 
-/// A weight, or 0 where it is switched off.
-fn weight(given: f64, default: f64) -> f64 {
-    if given == BESPOKE_WEIGHT_OFF { 0.0 } else { or_default(given, default) }
-}
+impl Crossing for f64 {
+    type C = f64;
 
-impl BespokeOptions {
-    fn to_options(self) -> Result<Options> {
-        let default = Options::default();
-        let surface_form = match self.surface_form {
-            0 => SurfaceForm::Similarity,
-            1 => SurfaceForm::Printed,
-            other => {
-                let message = format!("option surface_form is {other}; it must be one of BespokeSurfaceForm");
-                return Err(Error::new(ErrorKind::InvalidArgument, message));
-            }
-        };
-        Ok(Options {
-            threads: self.threads,
-            fit_weight: weight(self.fit_weight, default.fit_weight),
-            designed_clearance: weight(self.designed_clearance, default.designed_clearance),
-            offset: self.offset,
-            fit_distance: match self.fit_distance {
-                BESPOKE_WEIGHT_OFF => f64::INFINITY,
-                given => or_default(given, default.fit_distance),
-            },
-            pin_weight: or_default(self.pin_weight, default.pin_weight),
-            surface_weight: weight(self.surface_weight, default.surface_weight),
-            curvature_weight: weight(self.curvature_weight, default.curvature_weight),
-            torsion_weight: weight(self.torsion_weight, default.torsion_weight),
-            position_weight: weight(self.position_weight, default.position_weight),
-            barrier_weight: or_default(self.barrier_weight, default.barrier_weight),
-            dhat: or_default(self.dhat, default.dhat),
-            inflation_dhat: or_default(self.inflation_dhat, default.inflation_dhat),
-            inflation_barrier_weight: or_default(self.inflation_barrier_weight, default.inflation_barrier_weight),
-            voxel: or_default(self.voxel, default.voxel),
-            separation_floor: or_default(self.separation_floor, default.separation_floor),
-            tolerance: or_default(self.tolerance, default.tolerance),
-            max_iterations: if self.max_iterations == 0 { default.max_iterations } else { self.max_iterations },
-            surface_form,
-            memory_limit: self.memory_limit,
-            strict: match self.strict {
-                0 => false,
-                1 => true,
-                other => {
-                    let message = format!("option strict is {other}; it must be 0 or 1");
-                    return Err(Error::new(ErrorKind::InvalidArgument, message));
-                }
-            },
-        })
+    fn read(given: f64, default: f64, off: Option<f64>, _: &str) -> Result<f64> {
+        match off {
+            Some(off) if given == BESPOKE_WEIGHT_OFF => Ok(off),
+            _ => Ok(if given == 0.0 { default } else { given }),
+        }
+    }
+
+    fn write(self) -> f64 {
+        self
     }
 }
+
+impl Crossing for u32 {
+    type C = u32;
+
+    fn read(given: u32, default: u32, _: Option<u32>, _: &str) -> Result<u32> {
+        Ok(if given == 0 { default } else { given })
+    }
+
+    fn write(self) -> u32 {
+        self
+    }
+}
+
+impl Crossing for u64 {
+    type C = u64;
+
+    fn read(given: u64, default: u64, _: Option<u64>, _: &str) -> Result<u64> {
+        Ok(if given == 0 { default } else { given })
+    }
+
+    fn write(self) -> u64 {
+        self
+    }
+}
+
+fn refuse<T>(name: &str, given: u32, range: &str) -> Result<T> {
+    Err(Error::new(ErrorKind::InvalidArgument, format!("option {name} is {given}; it must be {range}")))
+}
+
+/// False is the default of every flag.
+impl Crossing for bool {
+    type C = u32;
+
+    fn read(given: u32, _: bool, _: Option<bool>, name: &str) -> Result<bool> {
+        match given {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => refuse(name, given, "0 or 1"),
+        }
+    }
+
+    fn write(self) -> u32 {
+        self.into()
+    }
+}
+
+impl Crossing for SurfaceForm {
+    type C = u32;
+
+    fn read(given: u32, _: SurfaceForm, _: Option<SurfaceForm>, name: &str) -> Result<SurfaceForm> {
+        match given {
+            0 => Ok(SurfaceForm::Similarity),
+            1 => Ok(SurfaceForm::Printed),
+            _ => refuse(name, given, "one of BespokeSurfaceForm"),
+        }
+    }
+
+    fn write(self) -> u32 {
+        match self {
+            SurfaceForm::Similarity => BespokeSurfaceForm::Similarity as u32,
+            SurfaceForm::Printed => BespokeSurfaceForm::Printed as u32,
+        }
+    }
+}
+
+macro_rules! cross {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident: $kind:ty = $default:expr $(, in $range:expr)? $(, off = $off:expr)?;
+    )*) => {
+        impl BespokeOptions {
+            fn to_options(self) -> Result<Options> {
+                let default = Options::default();
+                let options = Options {
+                    $($name: {
+                        let off = None::<$kind>$(.or(Some($off)))?;
+                        Crossing::read(self.$name, default.$name, off, stringify!($name))?
+                    },)*
+                };
+                Ok(options)
+            }
+
+            fn from_options(options: Options) -> Self {
+                Self {
+                    struct_size: size_of::<Self>() as u32,
+                    reserved: 0,
+                    $($name: options.$name.write(),)*
+                }
+            }
+        }
+    };
+}
+option_table!(cross);
 
 /// Replaces all options by these.
 ///
@@ -161,35 +229,7 @@ pub unsafe extern "C" fn bespoke_session_set_options(
 /// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_options_read_defaults(options: *mut BespokeOptions) -> BespokeStatus {
-    let default = Options::default();
-    let filled = BespokeOptions {
-        struct_size: size_of::<BespokeOptions>() as u32,
-        threads: default.threads,
-        fit_weight: default.fit_weight,
-        designed_clearance: default.designed_clearance,
-        surface_weight: default.surface_weight,
-        curvature_weight: default.curvature_weight,
-        torsion_weight: default.torsion_weight,
-        position_weight: default.position_weight,
-        barrier_weight: default.barrier_weight,
-        dhat: default.dhat,
-        inflation_dhat: default.inflation_dhat,
-        inflation_barrier_weight: default.inflation_barrier_weight,
-        voxel: default.voxel,
-        separation_floor: default.separation_floor,
-        tolerance: default.tolerance,
-        max_iterations: default.max_iterations,
-        surface_form: match default.surface_form {
-            SurfaceForm::Similarity => BespokeSurfaceForm::Similarity,
-            SurfaceForm::Printed => BespokeSurfaceForm::Printed,
-        } as u32,
-        memory_limit: default.memory_limit,
-        strict: u32::from(default.strict),
-        reserved: 0,
-        offset: default.offset,
-        fit_distance: default.fit_distance,
-        pin_weight: default.pin_weight,
-    };
+    let filled = BespokeOptions::from_options(Options::default());
     // SAFETY: passed on from the caller.
     match unsafe { sized::write(filled, options, "options") } {
         Ok(()) => BespokeStatus::Ok,

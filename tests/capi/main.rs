@@ -11,6 +11,7 @@ mod hosts;
 mod layers;
 mod manual;
 mod meshes;
+mod options;
 mod results;
 mod retarget;
 mod states;

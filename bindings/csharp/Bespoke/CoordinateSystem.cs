@@ -1,41 +1,6 @@
 // A coordinate system.
 namespace Bespoke
 {
-    /// <summary>A direction along one axis of the caller's coordinates.</summary>
-    public enum Axis : uint
-    {
-        /// <summary>That of <see cref="CoordinateSystem"/>'s field by default.</summary>
-        Default = 0,
-
-        /// <summary>+x</summary>
-        PositiveX = 1,
-
-        /// <summary>-x</summary>
-        NegativeX = 2,
-
-        /// <summary>+y</summary>
-        PositiveY = 3,
-
-        /// <summary>-y</summary>
-        NegativeY = 4,
-
-        /// <summary>+z</summary>
-        PositiveZ = 5,
-
-        /// <summary>-z</summary>
-        NegativeZ = 6,
-    }
-
-    /// <summary>How the corners of a front face follow each other for somebody who looks at its front.</summary>
-    public enum Winding : uint
-    {
-        /// <summary>Against the hands of a clock.</summary>
-        CounterClockwise = 0,
-
-        /// <summary>With the hands of a clock.</summary>
-        Clockwise = 1,
-    }
-
     /// <summary>A coordinate system. What is not set is the default; handedness follows from the axes.</summary>
     public sealed class CoordinateSystem
     {

@@ -17,7 +17,7 @@ namespace Bespoke
         /// The binary interface that this binding was written for (BESPOKE_ABI_VERSION). A session is made only where
         /// the library has the same.
         /// </summary>
-        public const int AbiVersion = (int)NativeConstants.AbiVersion;
+        public const int AbiVersion = NativeConstants.AbiVersion;
 
         /// <summary>The binary interface of the library that is loaded.</summary>
         /// <exception cref="DllNotFoundException">The library is not found.</exception>
@@ -39,7 +39,7 @@ namespace Bespoke
         /// <exception cref="DllNotFoundException">The library is not found.</exception>
         public static unsafe string StatusName(Status status)
         {
-            return Utf8.Read(Native.bespoke_status_name((uint)status), 256);
+            return Utf8.Read(Native.bespoke_status_name(status), 256);
         }
 
         // Before anything else: with another binary interface, every further call would be a guess.

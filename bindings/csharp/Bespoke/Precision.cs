@@ -1,15 +1,6 @@
-// How a number of an array is stored.
+// The part of Component that callers see.
 namespace Bespoke
 {
-    // Of everything that can be stored in an array; callers see it by the types of their arrays.
-    internal enum Component : uint
-    {
-        F32 = 1,
-        F64 = 2,
-        U16 = 3,
-        U32 = 4,
-    }
-
     /// <summary>The floating-point type of positions.</summary>
     public enum Precision : uint
     {
