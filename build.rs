@@ -11,7 +11,7 @@ const ROOT: &str = "OPENVDB_ROOT";
 const STATIC_ROOT: &str = "BESPOKE_STATIC_OPENVDB";
 
 /// The number in the name by which the loader finds the library, `BESPOKE_ABI_VERSION`; a test compares them.
-const ABI: u32 = 1;
+const ABI: u32 = 2;
 
 fn main() {
     shim();

@@ -19,7 +19,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE] = "loose_piece",
     [BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION] = "self_intersection",
     [BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT] = "near_contact",
-    [BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES] = "avatar_pokes",
+    [BESPOKE_DIAGNOSTIC_KIND_AVATAR_PENETRATES] = "avatar_pokes",
     [BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES] = "coarse_coordinates",
     [BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION] = "result_intersection",
     [BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED] = "pin_not_reached",
@@ -51,7 +51,7 @@ static bool is_worth_a_line(const BespokeDiagnostic *list, size_t k) {
     size_t alike = 0;
     for (size_t before = 0; before < k; before++) {
         if (list[before].kind == list[k].kind && list[before].severity == list[k].severity) {
-            alike += strcmp(list[before].sentence, list[k].sentence) == 0 ? MOST_OF_A_KIND : 1;
+            alike += strcmp(list[before].message, list[k].message) == 0 ? MOST_OF_A_KIND : 1;
         }
     }
     return alike < MOST_OF_A_KIND;
@@ -68,7 +68,7 @@ void diagnostics_print(const BespokeSession *session, uint32_t least, FILE *file
                 continue;
             }
             if (lines < MOST_LINES && is_worth_a_line(list, k)) {
-                fprintf(file, "%s: %s\n", NAME(severities, severity), list[k].sentence);
+                fprintf(file, "%s: %s\n", NAME(severities, severity), list[k].message);
                 lines++;
             } else {
                 others++;
@@ -105,7 +105,7 @@ bool diagnostics_write(const BespokeSession *session, FILE *file, Message *messa
         fputs("], \"distance\": ", file);
         json_number(file, item->distance);
         fputs(", \"message\": ", file);
-        json_text(file, item->sentence);
+        json_text(file, item->message);
         fputs(" }", file);
     }
     fputs(count > 0 ? "\n  ]" : "]", file);

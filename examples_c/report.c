@@ -15,7 +15,7 @@ static void write_number(FILE *file, const char *name, double value, const char 
     fputs(end, file);
 }
 
-static void write_work(FILE *file, const char *name, const BespokeWork *work) {
+static void write_work(FILE *file, const char *name, const BespokeStageReport *work) {
     fprintf(file, "    \"%s\": { ", name);
     write_number(file, "seconds", work->seconds, ", ");
     fprintf(file, "\"iterations\": %" PRIu32 ", \"factorisations\": %" PRIu32 ", \"symbolic_factorisations\": %" PRIu32 " },\n",
@@ -99,13 +99,13 @@ static bool write_measurements(const BespokeSession *session, double seconds, FI
     }
     fprintf(file, "  \"active_contacts\": %" PRIu64 ",\n", report.active_contacts);
     fputs("  ", file);
-    write_number(file, "separation_floor", report.separation_floor, ",\n");
+    write_number(file, "min_separation", report.min_separation, ",\n");
     fprintf(file, "  \"converged\": %s,\n", report.is_converged != 0 ? "true" : "false");
     fprintf(file, "  \"verified\": %s,\n", report.is_verified != 0 ? "true" : "false");
     fprintf(file,
             "  \"intersections\": { \"garment_garment\": %" PRIu64 ", \"garment_avatar\": %" PRIu64
             ", \"garment_garment_at_start\": %" PRIu64 " },\n",
-            report.garment_intersections, report.avatar_intersections, report.garment_intersections_at_start);
+            report.garment_intersections, report.avatar_intersections, report.initial_self_intersections);
     fprintf(file, "  \"garment\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.garment_vertices,
             report.garment_triangles);
     fprintf(file, "  \"avatar\": { \"vertices\": %" PRIu64 ", \"triangles\": %" PRIu64 " },\n", report.avatar_vertices,

@@ -57,7 +57,7 @@
 
 /// Number of the binary interface that this header describes. It changes when a program built with another header
 /// would no longer work; additions at the end of a struct with a `struct_size` do not change it.
-#define BESPOKE_ABI_VERSION 1
+#define BESPOKE_ABI_VERSION 2
 
 /// The value of a weight in BespokeOptions that switches its term off; 0 means the default.
 #define BESPOKE_WEIGHT_OFF -1.0
@@ -68,8 +68,8 @@
 /// Bytes of the name in BespokeEnergy, its zero byte included.
 #define BESPOKE_ENERGY_NAME_SIZE 32
 
-/// Bytes of the sentence in BespokeDiagnostic, its zero byte included.
-#define BESPOKE_SENTENCE_SIZE 512
+/// Bytes of the message in BespokeDiagnostic, its zero byte included.
+#define BESPOKE_MESSAGE_SIZE 512
 
 /// Elements that a BespokeDiagnostic can name.
 #define BESPOKE_MAX_ELEMENTS 4
@@ -261,7 +261,7 @@ enum BespokeDiagnosticKind
   /// named.
   BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT = 8,
   /// The avatar, shrunk onto the source skeleton, passes through the garment.
-  BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES = 9,
+  BESPOKE_DIAGNOSTIC_KIND_AVATAR_PENETRATES = 9,
   /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
   BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES = 10,
   /// Two triangles that intersect in the result and did not at the start.
@@ -374,8 +374,8 @@ typedef struct BespokeView {
 ///
 /// Right, up, forward and unit of some: Unreal +y, +z, +x, 0.01; Unity +x, +y, +z, 1; Godot and glTF as by default; Maya as by
 /// default but 0.01; Blender +x, +z, +y, 1.
-typedef struct BespokeSpace {
-  /// sizeof(BespokeSpace).
+typedef struct BespokeCoordinateSystem {
+  /// sizeof(BespokeCoordinateSystem).
   uint32_t struct_size;
   /// The axis to the right, one of BespokeAxis. Default: +x.
   uint32_t right;
@@ -389,12 +389,12 @@ typedef struct BespokeSpace {
   uint32_t winding;
   /// 0.
   uint32_t reserved;
-} BespokeSpace;
+} BespokeCoordinateSystem;
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
 /// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Fields marked "Expert." tune
-/// the solver.
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. What an artist or a pipeline may want comes
+/// first; from surface_weight on ("Expert."), the fields tune the solver.
 typedef struct BespokeOptions {
   /// sizeof(BespokeOptions).
   uint32_t struct_size;
@@ -405,6 +405,22 @@ typedef struct BespokeOptions {
   /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
   /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
   double designed_clearance;
+  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
+  /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+  double offset;
+  /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
+  /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
+  double fit_distance;
+  /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
+  double pin_weight;
+  /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+  /// meshes before it begins, and looked at again as it goes on.
+  uint64_t memory_limit;
+  /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are
+  /// exempted from contact until they separate and named by bespoke_session_read_diagnostics; no others ever join them.
+  uint32_t strict;
+  /// 0.
+  uint32_t reserved;
   /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
   /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
@@ -423,32 +439,16 @@ typedef struct BespokeOptions {
   /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
   double inflation_barrier_weight;
   /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
-  double voxel;
+  double voxel_size;
   /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
   /// Default 1e-5.
-  double separation_floor;
+  double min_separation;
   /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
   double tolerance;
   /// Expert. Largest number of Newton iterations of each stage. Default 500.
   uint32_t max_iterations;
   /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
   uint32_t surface_form;
-  /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
-  /// meshes before it begins, and looked at again as it goes on.
-  uint64_t memory_limit;
-  /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
-  /// named by bespoke_session_read_diagnostics, and no others ever join them.
-  uint32_t strict;
-  /// 0.
-  uint32_t reserved;
-  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
-  /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
-  double offset;
-  /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
-  /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
-  double fit_distance;
-  /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
-  double pin_weight;
 } BespokeOptions;
 
 /// Pairs of triangles that touch or cross each other.
@@ -457,7 +457,7 @@ typedef struct BespokeIntersections {
   uint64_t garment_garment;
   /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
   /// some of them.
-  uint64_t since_start;
+  uint64_t initial;
   /// Of the garment with the avatar or the layers that it wears.
   uint64_t garment_avatar;
 } BespokeIntersections;
@@ -509,7 +509,7 @@ typedef struct BespokeBuffer {
 } BespokeBuffer;
 
 /// The work of one stage.
-typedef struct BespokeWork {
+typedef struct BespokeStageReport {
   /// Wall-clock seconds.
   double seconds;
   /// Newton iterations.
@@ -520,7 +520,7 @@ typedef struct BespokeWork {
   uint32_t symbolic_factorisations;
   /// 0.
   uint32_t reserved;
-} BespokeWork;
+} BespokeStageReport;
 
 /// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
 /// bounding box is 2.
@@ -530,11 +530,11 @@ typedef struct BespokeReport {
   /// Threads that the session works with.
   uint32_t threads;
   /// Step 1.
-  struct BespokeWork prepare;
+  struct BespokeStageReport prepare;
   /// Step 2.
-  struct BespokeWork inflate;
+  struct BespokeStageReport inflate;
   /// Step 3.
-  struct BespokeWork fit;
+  struct BespokeStageReport fit;
   /// Wall-clock seconds of the exact verifier.
   double verify_seconds;
   /// Seconds until the distance field was built, beside step 2.
@@ -567,7 +567,7 @@ typedef struct BespokeReport {
   uint64_t subdivided_avatar_triangles;
   /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
   /// coordinates of the result are coarse.
-  double separation_floor;
+  double min_separation;
   /// 1 where the verifier has looked at the result, else 0.
   uint32_t is_verified;
   /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
@@ -579,7 +579,7 @@ typedef struct BespokeReport {
   /// Bytes that the session's arrays take, without what the threads and the allocator add.
   uint64_t memory_bytes;
   /// Intersecting or touching pairs within the garment at the start, which are let off.
-  uint64_t garment_intersections_at_start;
+  uint64_t initial_self_intersections;
 } BespokeReport;
 
 /// One term of the objective.
@@ -618,7 +618,7 @@ typedef struct BespokeDiagnostic {
   /// has none.
   double distance;
   /// One sentence, UTF-8; ends with a zero byte.
-  char sentence[BESPOKE_SENTENCE_SIZE];
+  char message[BESPOKE_MESSAGE_SIZE];
 } BespokeDiagnostic;
 
 #ifdef __cplusplus
@@ -743,12 +743,14 @@ BespokeStatus bespoke_session_set_target_skin_influences(struct BespokeSession *
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
 /// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
-BespokeStatus bespoke_session_set_source_space(struct BespokeSession *session, const struct BespokeSpace *space);
+BespokeStatus bespoke_session_set_source_coordinate_system(struct BespokeSession *session,
+                                                           const struct BespokeCoordinateSystem *space);
 
 /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
 ///
-/// State, errors, threads: as for bespoke_session_set_source_space.
-BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, const struct BespokeSpace *space);
+/// State, errors, threads: as for bespoke_session_set_source_coordinate_system.
+BespokeStatus bespoke_session_set_target_coordinate_system(struct BespokeSession *session,
+                                                           const struct BespokeCoordinateSystem *space);
 
 /// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
 /// 0: not at all.
@@ -756,9 +758,9 @@ BespokeStatus bespoke_session_set_target_space(struct BespokeSession *session, c
 /// `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
 /// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
 /// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
-BespokeStatus bespoke_session_set_fit_weights(struct BespokeSession *session, const struct BespokeView *weights);
+BespokeStatus bespoke_session_set_vertex_fit_weights(struct BespokeSession *session, const struct BespokeView *weights);
 
-/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
+/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_vertex_fit_weights, which
 /// this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
 ///
 /// `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with

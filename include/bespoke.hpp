@@ -128,7 +128,7 @@ enum class DiagnosticKind : std::uint32_t {
     loose_piece = BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE,
     self_intersection = BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION,
     near_contact = BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT,
-    avatar_pokes = BESPOKE_DIAGNOSTIC_KIND_AVATAR_POKES,
+    avatar_penetrates = BESPOKE_DIAGNOSTIC_KIND_AVATAR_PENETRATES,
     coarse_coordinates = BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES,
     result_intersection = BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION,
     pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
@@ -661,7 +661,7 @@ using NumberBuffer = detail::Elements<detail::Real, 1, void>;
 
 // ---- Structs --------------------------------------------------------------------------------------------------------
 
-/// A coordinate system: BespokeSpace. Handedness follows from the axes.
+/// A coordinate system: BespokeCoordinateSystem. Handedness follows from the axes.
 struct Space {
     /// The axis to the right.
     Axis right = Axis::positive_x;
@@ -675,8 +675,8 @@ struct Space {
     Winding winding = Winding::counter_clockwise;
 
     /// As the C API takes it.
-    BespokeSpace get() const noexcept {
-        BespokeSpace space{};
+    BespokeCoordinateSystem get() const noexcept {
+        BespokeCoordinateSystem space{};
         space.struct_size = sizeof space;
         space.right = static_cast<std::uint32_t>(right);
         space.up = static_cast<std::uint32_t>(up);
@@ -700,6 +700,20 @@ struct Options {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. weight_off: tight, as without a source avatar.
     double designed_clearance = 0.0;
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
+    /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+    double offset = 0.0;
+    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less,
+    /// and not at all from twice this distance on. Default 0.1. weight_off: the garment fits as a whole.
+    double fit_distance = 0.0;
+    /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
+    double pin_weight = 0.0;
+    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
+    /// its meshes before it begins, and looked at again as it goes on.
+    std::uint64_t memory_limit = 0;
+    /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
+    /// exempted from contact until they separate and named by Session::read_diagnostics; no others ever join them.
+    bool strict = false;
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
     /// Expert. Weight of the curvature of boundary curves. Default 1. weight_off possible.
@@ -717,30 +731,16 @@ struct Options {
     /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     double inflation_barrier_weight = 0.0;
     /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
-    double voxel = 0.0;
+    double voxel_size = 0.0;
     /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
     /// Default 1e-5.
-    double separation_floor = 0.0;
+    double min_separation = 0.0;
     /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     double tolerance = 0.0;
     /// Expert. Largest number of Newton iterations of each stage. Default 500.
     std::uint32_t max_iterations = 0;
     /// Expert. One of SurfaceForm. Default SurfaceForm::similarity.
     SurfaceForm surface_form = SurfaceForm::similarity;
-    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
-    /// its meshes before it begins, and looked at again as it goes on.
-    std::uint64_t memory_limit = 0;
-    /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are let
-    /// off and named by Session::read_diagnostics, and no others ever join them.
-    bool strict = false;
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
-    /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
-    double offset = 0.0;
-    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less,
-    /// and not at all from twice this distance on. Default 0.1. weight_off: the garment fits as a whole.
-    double fit_distance = 0.0;
-    /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
-    double pin_weight = 0.0;
 
     /// As the C API takes them.
     BespokeOptions get() const noexcept {
@@ -749,6 +749,11 @@ struct Options {
         options.threads = threads;
         options.fit_weight = fit_weight;
         options.designed_clearance = designed_clearance;
+        options.offset = offset;
+        options.fit_distance = fit_distance;
+        options.pin_weight = pin_weight;
+        options.memory_limit = memory_limit;
+        options.strict = strict ? 1 : 0;
         options.surface_weight = surface_weight;
         options.curvature_weight = curvature_weight;
         options.torsion_weight = torsion_weight;
@@ -757,16 +762,11 @@ struct Options {
         options.dhat = dhat;
         options.inflation_dhat = inflation_dhat;
         options.inflation_barrier_weight = inflation_barrier_weight;
-        options.voxel = voxel;
-        options.separation_floor = separation_floor;
+        options.voxel_size = voxel_size;
+        options.min_separation = min_separation;
         options.tolerance = tolerance;
         options.max_iterations = max_iterations;
         options.surface_form = static_cast<std::uint32_t>(surface_form);
-        options.memory_limit = memory_limit;
-        options.strict = strict ? 1 : 0;
-        options.offset = offset;
-        options.fit_distance = fit_distance;
-        options.pin_weight = pin_weight;
         return options;
     }
 
@@ -783,6 +783,11 @@ struct Options {
         options.threads = read.threads;
         options.fit_weight = read.fit_weight;
         options.designed_clearance = read.designed_clearance;
+        options.offset = read.offset;
+        options.fit_distance = read.fit_distance;
+        options.pin_weight = read.pin_weight;
+        options.memory_limit = read.memory_limit;
+        options.strict = read.strict != 0;
         options.surface_weight = read.surface_weight;
         options.curvature_weight = read.curvature_weight;
         options.torsion_weight = read.torsion_weight;
@@ -791,16 +796,11 @@ struct Options {
         options.dhat = read.dhat;
         options.inflation_dhat = read.inflation_dhat;
         options.inflation_barrier_weight = read.inflation_barrier_weight;
-        options.voxel = read.voxel;
-        options.separation_floor = read.separation_floor;
+        options.voxel_size = read.voxel_size;
+        options.min_separation = read.min_separation;
         options.tolerance = read.tolerance;
         options.max_iterations = read.max_iterations;
         options.surface_form = static_cast<SurfaceForm>(read.surface_form);
-        options.memory_limit = read.memory_limit;
-        options.strict = read.strict != 0;
-        options.offset = read.offset;
-        options.fit_distance = read.fit_distance;
-        options.pin_weight = read.pin_weight;
         return options;
     }
 };
@@ -845,7 +845,7 @@ struct Progress {
 using Intersections = BespokeIntersections;
 
 /// The work of one stage.
-using Work = BespokeWork;
+using Work = BespokeStageReport;
 
 /// What a session has done so far.
 using Report = BespokeReport;
@@ -882,7 +882,7 @@ struct Diagnostic {
     /// In the normalised space; NaN where it has none.
     double distance;
     /// One sentence, UTF-8.
-    std::string sentence;
+    std::string message;
 };
 
 namespace detail {
@@ -1220,20 +1220,20 @@ public:
     }
 
     /// Optional: the space of garment, source skeleton and source avatar.
-    Result<void> set_source_space(const Space &space) {
-        const BespokeSpace given = space.get();
-        return call(bespoke_session_set_source_space, &given);
+    Result<void> set_source_coordinate_system(const Space &space) {
+        const BespokeCoordinateSystem given = space.get();
+        return call(bespoke_session_set_source_coordinate_system, &given);
     }
 
     /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
-    Result<void> set_target_space(const Space &space) {
-        const BespokeSpace given = space.get();
-        return call(bespoke_session_set_target_space, &given);
+    Result<void> set_target_coordinate_system(const Space &space) {
+        const BespokeCoordinateSystem given = space.get();
+        return call(bespoke_session_set_target_coordinate_system, &given);
     }
 
     /// Optional: how strongly each garment vertex is drawn to the body.
-    Result<void> set_fit_weights(Numbers weights) {
-        return set(bespoke_session_set_fit_weights, "fit weights", weights);
+    Result<void> set_vertex_fit_weights(Numbers weights) {
+        return set(bespoke_session_set_vertex_fit_weights, "fit weights", weights);
     }
 
     /// Optional: the garment vertices that are not drawn to the body.
@@ -1444,7 +1444,7 @@ public:
         diagnostics.reserve(read.size());
         for (const BespokeDiagnostic &from : read) {
             Diagnostic to{static_cast<DiagnosticKind>(from.kind), static_cast<Severity>(from.severity), {},
-                          from.distance, detail::text_of(from.sentence)};
+                          from.distance, detail::text_of(from.message)};
             for (std::uint32_t k = 0; k < from.element_count && k < BESPOKE_MAX_ELEMENTS; k++) {
                 const BespokeElement &element = from.elements[k];
                 to.elements.push_back({static_cast<Subject>(element.subject), static_cast<ElementKind>(element.kind),

@@ -59,7 +59,7 @@ impl MemoryLimit {
             ErrorKind::MemoryLimit,
             format!(
                 "memory: {needed} would be needed, the limit is {:.1} MB; most of it is for {what}. Raise memory_limit, or use \
-                 a coarser mesh, a larger voxel or a smaller dhat",
+                 a coarser mesh, a larger voxel_size or a smaller dhat",
                 self.total as f64 / MB
             ),
         )

@@ -23,6 +23,10 @@ macro_rules! option_table {
             fit_distance: f64 = 0.1, in Positive, off = f64::INFINITY;
             /// Weight of the pins that hold vertices in given places.
             pin_weight: f64 = 1000.0, in NotNegative;
+            /// Bytes that the session may take at most; 0 is no limit.
+            memory_limit: u64 = 0;
+            /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact.
+            strict: bool = false;
             /// Weight of the surface term (Eq. 2).
             surface_weight: f64 = 1.0, in NotNegative, off = 0.0;
             /// Weight of the curvature of boundary curves (Eq. 5).
@@ -40,21 +44,17 @@ macro_rules! option_table {
             inflation_dhat: f64 = 0.01, in Between(1e-5, 0.1);
             /// While the avatar grows: weight of the barrier.
             inflation_barrier_weight: f64 = 1e4, in Between(1.0, 1e14);
+            /// Edge of a voxel of the distance field.
+            voxel_size: f64 = 0.01, in Between(1e-3, 0.2);
             /// Distance that no pair of primitives ever falls below; a garment that is nearer than four times this to
             /// itself or the skeleton at the start gets a lower one.
-            separation_floor: f64 = 1e-5, in Between(1e-8, 0.01);
-            /// Edge of a voxel of the distance field.
-            voxel: f64 = 0.01, in Between(1e-3, 0.2);
+            min_separation: f64 = 1e-5, in Between(1e-8, 0.01);
             /// The fit ends where the squared Newton decrement falls below this fraction of the objective.
             tolerance: f64 = 1e-3, in Between(1e-12, 1.0);
             /// Largest number of Newton iterations of each stage.
             max_iterations: u32 = 500, in AtLeast(1);
             /// Which form of the surface term.
             surface_form: SurfaceForm = SurfaceForm::Similarity;
-            /// Bytes that the session may take at most; 0 is no limit.
-            memory_limit: u64 = 0;
-            /// Refuse a garment that intersects itself at the start, instead of letting those triangles off.
-            strict: bool = false;
         }
     };
 }
@@ -128,9 +128,9 @@ impl Options {
     pub fn check(&self) -> Result<()> {
         self.check_ranges()?;
         let narrowest = self.dhat.min(self.inflation_dhat);
-        if self.separation_floor >= 0.5 * narrowest {
+        if self.min_separation >= 0.5 * narrowest {
             let range = format!("below half of dhat and of inflation_dhat, which is {}", 0.5 * narrowest);
-            return refuse("separation_floor", self.separation_floor, &range);
+            return refuse("min_separation", self.min_separation, &range);
         }
         if self.surface_weight == 0.0 {
             return refuse("surface_weight", 0.0, "above 0: nothing else holds the garment together");

@@ -35,7 +35,7 @@ pub struct Verification {
     /// Pairs of garment triangles.
     pub garment_garment: u64,
     /// Those of them that intersected or touched at the start, too.
-    pub since_start: u64,
+    pub initial: u64,
     /// Pairs of a garment triangle and one of the avatar or a layer that it wears.
     pub garment_avatar: u64,
 }
@@ -43,7 +43,7 @@ pub struct Verification {
 impl Verification {
     /// Pairs of garment triangles that were apart at the start.
     pub fn new_garment_garment(&self) -> u64 {
-        self.garment_garment - self.since_start
+        self.garment_garment - self.initial
     }
 
     /// True where nothing intersects that did not from the start.
@@ -79,7 +79,7 @@ pub struct Report {
     pub verification: Option<Verification>,
     /// The minimum separation in force: lower than the option's where the garment is nearer to something than that, higher
     /// where the coordinates of the result are coarse.
-    pub separation_floor: f64,
+    pub min_separation: f64,
     /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
     /// Pairs of garment triangles that intersect or touch at the start, and are let off.

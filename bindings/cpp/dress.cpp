@@ -135,7 +135,7 @@ Result<void> dress(char **paths) {
             .and_then([&] { return session.run(show); });
     running = nullptr;
     if (const auto diagnostics = session.read_diagnostics()) {
-        for (const auto &diagnostic : *diagnostics) std::printf("%s\n", diagnostic.sentence.c_str());
+        for (const auto &diagnostic : *diagnostics) std::printf("%s\n", diagnostic.message.c_str());
     }
     if (!dressed) return dressed;
 

@@ -8,8 +8,8 @@ use crate::capi::text;
 use crate::capi::view::invalid;
 use crate::input::diagnostic::{Element, ElementKind, Finding, FindingKind, Severity, Subject};
 
-/// Bytes of the sentence in BespokeDiagnostic, its zero byte included.
-pub const BESPOKE_SENTENCE_SIZE: usize = 512;
+/// Bytes of the message in BespokeDiagnostic, its zero byte included.
+pub const BESPOKE_MESSAGE_SIZE: usize = 512;
 
 /// Elements that a BespokeDiagnostic can name.
 pub const BESPOKE_MAX_ELEMENTS: usize = 4;
@@ -37,7 +37,7 @@ pub enum BespokeDiagnosticKind {
     /// named.
     NearContact = 8,
     /// The avatar, shrunk onto the source skeleton, passes through the garment.
-    AvatarPokes = 9,
+    AvatarPenetrates = 9,
     /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
     CoarseCoordinates = 10,
     /// Two triangles that intersect in the result and did not at the start.
@@ -120,7 +120,7 @@ pub struct BespokeDiagnostic {
     /// has none.
     pub distance: f64,
     /// One sentence, UTF-8; ends with a zero byte.
-    pub sentence: [c_char; BESPOKE_SENTENCE_SIZE],
+    pub message: [c_char; BESPOKE_MESSAGE_SIZE],
 }
 
 impl From<&Element> for BespokeElement {
@@ -153,7 +153,7 @@ impl From<&Finding> for BespokeDiagnostic {
             FindingKind::LoosePiece => BespokeDiagnosticKind::LoosePiece,
             FindingKind::SelfIntersection => BespokeDiagnosticKind::SelfIntersection,
             FindingKind::NearContact => BespokeDiagnosticKind::NearContact,
-            FindingKind::AvatarPokes => BespokeDiagnosticKind::AvatarPokes,
+            FindingKind::AvatarPenetrates => BespokeDiagnosticKind::AvatarPenetrates,
             FindingKind::CoarseCoordinates => BespokeDiagnosticKind::CoarseCoordinates,
             FindingKind::ResultIntersection => BespokeDiagnosticKind::ResultIntersection,
             FindingKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
@@ -167,9 +167,9 @@ impl From<&Finding> for BespokeDiagnostic {
         let named = &finding.elements[..finding.elements.len().min(BESPOKE_MAX_ELEMENTS)];
         let mut elements = [BespokeElement::default(); BESPOKE_MAX_ELEMENTS];
         elements.iter_mut().zip(named).for_each(|(to, from)| *to = from.into());
-        let mut sentence = [0; BESPOKE_SENTENCE_SIZE];
-        let text = text::cut(&finding.sentence, BESPOKE_SENTENCE_SIZE - 1);
-        sentence.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
+        let mut message = [0; BESPOKE_MESSAGE_SIZE];
+        let text = text::cut(&finding.sentence, BESPOKE_MESSAGE_SIZE - 1);
+        message.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
         Self {
             kind: kind as u32,
             severity: severity as u32,
@@ -177,7 +177,7 @@ impl From<&Finding> for BespokeDiagnostic {
             elements,
             reserved: 0,
             distance: finding.distance,
-            sentence,
+            message,
         }
     }
 }

@@ -14,18 +14,20 @@ use crate::session::Pin;
 /// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
 /// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn bespoke_session_set_fit_weights(
+pub unsafe extern "C" fn bespoke_session_set_vertex_fit_weights(
     session: *mut BespokeSession,
     weights: *const BespokeView,
 ) -> BespokeStatus {
     let what = "fit weights";
     // SAFETY: passed on from the caller.
     unsafe {
-        call(session, |session| session.set_fit_weights(buffer::read_scalars(&view::floats(weights, what)?, what)?))
+        call(session, |session| {
+            session.set_vertex_fit_weights(buffer::read_scalars(&view::floats(weights, what)?, what)?)
+        })
     }
 }
 
-/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_fit_weights, which
+/// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_vertex_fit_weights, which
 /// this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
 ///
 /// `vertices`: garment vertices, from 0, in any order, U16 or U32. Ownership: copied during the call. State: SETUP, with
@@ -51,7 +53,7 @@ pub unsafe extern "C" fn bespoke_session_set_no_fit_vertices(
                     None => return invalid(format!("{what}: lists vertex {vertex}, the garment has {count} vertices")),
                 }
             }
-            session.set_fit_weights(weights)
+            session.set_vertex_fit_weights(weights)
         })
     }
 }

@@ -230,8 +230,8 @@ pub enum BespokeWinding {
 /// default but 0.01; Blender +x, +z, +y, 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BespokeSpace {
-    /// sizeof(BespokeSpace).
+pub struct BespokeCoordinateSystem {
+    /// sizeof(BespokeCoordinateSystem).
     pub struct_size: u32,
     /// The axis to the right, one of BespokeAxis. Default: +x.
     pub right: u32,
@@ -248,9 +248,9 @@ pub struct BespokeSpace {
 }
 
 // SAFETY: repr(C) of u32 pairs and f64 without padding.
-unsafe impl Sized32 for BespokeSpace {}
+unsafe impl Sized32 for BespokeCoordinateSystem {}
 
-impl BespokeSpace {
+impl BespokeCoordinateSystem {
     fn to_space(self, what: &str) -> Result<CoordinateSystem> {
         let default = CoordinateSystem::default();
         let axis = |code: u32, default: Axis, name: &str| match code {
@@ -285,24 +285,24 @@ impl BespokeSpace {
 /// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
 /// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn bespoke_session_set_source_space(
+pub unsafe extern "C" fn bespoke_session_set_source_coordinate_system(
     session: *mut BespokeSession,
-    space: *const BespokeSpace,
+    space: *const BespokeCoordinateSystem,
 ) -> BespokeStatus {
     let what = "source space";
     // SAFETY: passed on from the caller.
-    unsafe { call(session, |session| session.set_source_space(sized::read(space, what)?.to_space(what)?)) }
+    unsafe { call(session, |session| session.set_source_coordinate_system(sized::read(space, what)?.to_space(what)?)) }
 }
 
 /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
 ///
-/// State, errors, threads: as for bespoke_session_set_source_space.
+/// State, errors, threads: as for bespoke_session_set_source_coordinate_system.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn bespoke_session_set_target_space(
+pub unsafe extern "C" fn bespoke_session_set_target_coordinate_system(
     session: *mut BespokeSession,
-    space: *const BespokeSpace,
+    space: *const BespokeCoordinateSystem,
 ) -> BespokeStatus {
     let what = "target space";
     // SAFETY: passed on from the caller.
-    unsafe { call(session, |session| session.set_target_space(sized::read(space, what)?.to_space(what)?)) }
+    unsafe { call(session, |session| session.set_target_coordinate_system(sized::read(space, what)?.to_space(what)?)) }
 }

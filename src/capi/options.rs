@@ -23,8 +23,8 @@ pub enum BespokeSurfaceForm {
 
 /// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
 /// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Fields marked "Expert." tune
-/// the solver.
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. What an artist or a pipeline may want comes
+/// first; from surface_weight on ("Expert."), the fields tune the solver.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeOptions {
@@ -37,6 +37,22 @@ pub struct BespokeOptions {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
     pub designed_clearance: f64,
+    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
+    /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+    pub offset: f64,
+    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
+    /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
+    pub fit_distance: f64,
+    /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
+    pub pin_weight: f64,
+    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
+    /// meshes before it begins, and looked at again as it goes on.
+    pub memory_limit: u64,
+    /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are
+    /// exempted from contact until they separate and named by bespoke_session_read_diagnostics; no others ever join them.
+    pub strict: u32,
+    /// 0.
+    pub reserved: u32,
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
     /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
@@ -55,37 +71,22 @@ pub struct BespokeOptions {
     /// Expert. While the avatar grows: weight of the contact barrier [1, 1e14]. Default 1e4.
     pub inflation_barrier_weight: f64,
     /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
-    pub voxel: f64,
+    pub voxel_size: f64,
     /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
     /// Default 1e-5.
-    pub separation_floor: f64,
+    pub min_separation: f64,
     /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
     /// Expert. Largest number of Newton iterations of each stage. Default 500.
     pub max_iterations: u32,
     /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
-    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
-    /// meshes before it begins, and looked at again as it goes on.
-    pub memory_limit: u64,
-    /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are let off and
-    /// named by bespoke_session_read_diagnostics, and no others ever join them.
-    pub strict: u32,
-    /// 0.
-    pub reserved: u32,
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
-    /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
-    pub offset: f64,
-    /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
-    /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
-    pub fit_distance: f64,
-    /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
-    pub pin_weight: f64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers without padding.
 unsafe impl Sized32 for BespokeOptions {
-    const FIRST_SIZE: usize = offset_of!(BespokeOptions, memory_limit);
+    // The artist's part is enough: a caller that knows no other leaves the solver at its defaults.
+    const FIRST_SIZE: usize = offset_of!(BespokeOptions, surface_weight);
 }
 
 /// An option: as it crosses, and as the library holds it.

@@ -115,7 +115,7 @@ pub unsafe extern "C" fn bespoke_session_read_distortion(
 /// The work of one stage.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BespokeWork {
+pub struct BespokeStageReport {
     /// Wall-clock seconds.
     pub seconds: f64,
     /// Newton iterations.
@@ -128,7 +128,7 @@ pub struct BespokeWork {
     pub reserved: u32,
 }
 
-impl From<&StageReport> for BespokeWork {
+impl From<&StageReport> for BespokeStageReport {
     fn from(stage: &StageReport) -> Self {
         Self {
             seconds: stage.seconds,
@@ -150,11 +150,11 @@ pub struct BespokeReport {
     /// Threads that the session works with.
     pub threads: u32,
     /// Step 1.
-    pub prepare: BespokeWork,
+    pub prepare: BespokeStageReport,
     /// Step 2.
-    pub inflate: BespokeWork,
+    pub inflate: BespokeStageReport,
     /// Step 3.
-    pub fit: BespokeWork,
+    pub fit: BespokeStageReport,
     /// Wall-clock seconds of the exact verifier.
     pub verify_seconds: f64,
     /// Seconds until the distance field was built, beside step 2.
@@ -187,7 +187,7 @@ pub struct BespokeReport {
     pub subdivided_avatar_triangles: u64,
     /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
     /// coordinates of the result are coarse.
-    pub separation_floor: f64,
+    pub min_separation: f64,
     /// 1 where the verifier has looked at the result, else 0.
     pub is_verified: u32,
     /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
@@ -199,7 +199,7 @@ pub struct BespokeReport {
     /// Bytes that the session's arrays take, without what the threads and the allocator add.
     pub memory_bytes: u64,
     /// Intersecting or touching pairs within the garment at the start, which are let off.
-    pub garment_intersections_at_start: u64,
+    pub initial_self_intersections: u64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
@@ -241,13 +241,13 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 avatar_triangles: own.avatar_size[1] as u64,
                 subdivided_avatar_vertices: own.projected_size[0] as u64,
                 subdivided_avatar_triangles: own.projected_size[1] as u64,
-                separation_floor: own.separation_floor,
+                min_separation: own.min_separation,
                 is_verified: u32::from(own.verification.is_some()),
                 is_converged: u32::from(own.converged),
                 energy_count: own.terms.len() as u32,
                 reserved: 0,
                 memory_bytes: own.memory,
-                garment_intersections_at_start: own.initial_self_intersections as u64,
+                initial_self_intersections: own.initial_self_intersections as u64,
             };
             sized::write(filled, report, "report")
         })

@@ -106,7 +106,7 @@ pub struct BespokeIntersections {
     pub garment_garment: u64,
     /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
     /// some of them.
-    pub since_start: u64,
+    pub initial: u64,
     /// Of the garment with the avatar or the layers that it wears.
     pub garment_avatar: u64,
 }
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn bespoke_session_verify(
             let counts = session.verify(view::precision(component, "intersections")?)?;
             intersections.write(BespokeIntersections {
                 garment_garment: counts.garment_garment,
-                since_start: counts.since_start,
+                initial: counts.initial,
                 garment_avatar: counts.garment_avatar,
             });
             Ok(())

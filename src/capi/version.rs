@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char};
 
 /// Number of the binary interface that this header describes. It changes when a program built with another header
 /// would no longer work; additions at the end of a struct with a `struct_size` do not change it.
-pub const BESPOKE_ABI_VERSION: u32 = 1;
+pub const BESPOKE_ABI_VERSION: u32 = 2;
 
 /// The crate's version with the zero byte that C wants.
 const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {

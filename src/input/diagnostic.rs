@@ -78,7 +78,7 @@ pub enum FindingKind {
     /// Parts of the garment, or garment and skeleton, that are so near at the start that the minimum separation is lowered.
     NearContact,
     /// The shrunk avatar passes through the garment at the start.
-    AvatarPokes,
+    AvatarPenetrates,
     /// The coordinates in which the result is read are so coarse that the garment keeps a wider gap.
     CoarseCoordinates,
     /// The result intersects where the input did not.

@@ -369,7 +369,7 @@ fn layout(low: DVec3, high: DVec3, voxel: f64) -> Result<(DVec3, [usize; 3])> {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "distance field: a voxel of {voxel} is too small for an avatar of size {longest}: choose a larger one"
+                    "distance field: a voxel of {voxel} is too small for an avatar of size {longest}: choose a larger voxel_size"
                 ),
             ));
         }

@@ -161,7 +161,7 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidWeights` for a negative weight or one that is not finite, `InvalidState`.
-    pub fn set_fit_weights(&mut self, weights: Vec<f64>) -> Result<()> {
+    pub fn set_vertex_fit_weights(&mut self, weights: Vec<f64>) -> Result<()> {
         self.setting("the fit weights")?;
         if let Some((v, w)) = weights.iter().enumerate().find(|(_, w)| !(w.is_finite() && **w >= 0.0)) {
             return Err(Error::new(
@@ -177,7 +177,7 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
-    pub fn set_source_space(&mut self, space: CoordinateSystem) -> Result<()> {
+    pub fn set_source_coordinate_system(&mut self, space: CoordinateSystem) -> Result<()> {
         self.setting("the source space")?;
         space.check("source space")?;
         self.inputs.source_coordinate_system = space;
@@ -188,7 +188,7 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
-    pub fn set_target_space(&mut self, space: CoordinateSystem) -> Result<()> {
+    pub fn set_target_coordinate_system(&mut self, space: CoordinateSystem) -> Result<()> {
         self.setting("the target space")?;
         space.check("target space")?;
         self.inputs.target_coordinate_system = space;

@@ -81,10 +81,10 @@ impl Run {
         limit.reserving(held).check(&sizes.estimate())?;
         let (problem, body) = inputs.pose_problem(stop, findings)?;
         stop.check()?;
-        let expected = Field::estimate(&problem.avatar, inputs.options.voxel)?;
+        let expected = Field::estimate(&problem.avatar, inputs.options.voxel_size)?;
         let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
         limit.reserving(held).check(&sizes.estimate())?;
-        let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
+        let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel_size, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.inflation_objective(&inputs.options, stop, findings)?;
         stop.check()?;
@@ -95,7 +95,7 @@ impl Run {
             garment_size: [problem.rest.len(), problem.triangles.len()],
             avatar_size: body.avatar_size(),
             projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
-            separation_floor: objective.contact.min_separation(),
+            min_separation: objective.contact.min_separation(),
             initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
             threads,
             ..Report::default()
@@ -246,7 +246,7 @@ impl Run {
         report.min_distance_self = contact.min_distance_self;
         report.min_distance_avatar = contact.min_distance_avatar;
         report.gradient_norm = self.newton.gradient_norm();
-        report.separation_floor = self.objective.contact.min_separation();
+        report.min_separation = self.objective.contact.min_separation();
         report.t = self.state.t;
         let terms = self.objective.terms();
         let values = self.newton.values(&terms, at);

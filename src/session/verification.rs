@@ -42,7 +42,7 @@ impl Verdict {
         Ok(Self {
             counted: Verification {
                 garment_garment: own.count,
-                since_start: own.count - new.len() as u64,
+                initial: own.count - new.len() as u64,
                 garment_avatar: avatar.count,
             },
             own: new,

@@ -75,7 +75,7 @@ static BespokeOptions coarse_options(void) {
     memset(&options, 0, sizeof options);
     options.struct_size = sizeof options;
     options.threads = 2;
-    options.voxel = 0.1;
+    options.voxel_size = 0.1;
     options.max_iterations = 200;
     return options;
 }
@@ -153,10 +153,10 @@ static void to_the_end(const Scene *scene) {
     const BespokeView no_fit = view_of(hem, 4, BESPOKE_COMPONENT_U32);
     accepted(session, bespoke_session_set_no_fit_vertices(session, &no_fit));
     const BespokeView fit = view_of(weights, scene->garment.points.count, BESPOKE_COMPONENT_F32);
-    accepted(session, bespoke_session_set_fit_weights(session, &fit));
-    const BespokeSpace space = {sizeof space, 0, 0, 0, 0.01, BESPOKE_WINDING_CLOCKWISE, 0};
-    accepted(session, bespoke_session_set_source_space(session, &space));
-    accepted(session, bespoke_session_set_target_space(session, &space));
+    accepted(session, bespoke_session_set_vertex_fit_weights(session, &fit));
+    const BespokeCoordinateSystem space = {sizeof space, 0, 0, 0, 0.01, BESPOKE_WINDING_CLOCKWISE, 0};
+    accepted(session, bespoke_session_set_source_coordinate_system(session, &space));
+    accepted(session, bespoke_session_set_target_coordinate_system(session, &space));
     /* All of it was copied. */
     free(weights);
     free(influences);
@@ -280,8 +280,8 @@ static void refusals(const Scene *scene) {
     const BespokeView negative = view_of(weights, 3, BESPOKE_COMPONENT_F32);
     const BespokeView beyond = view_of(numbers, 3, BESPOKE_COMPONENT_U32);
     const BespokeView no_rows = {NULL, 0, 0, BESPOKE_COMPONENT_F32};
-    refused(session, bespoke_session_set_fit_weights(session, &negative), BESPOKE_STATUS_INVALID_WEIGHTS);
-    refused(session, bespoke_session_set_fit_weights(session, NULL), BESPOKE_STATUS_INVALID_ARGUMENT);
+    refused(session, bespoke_session_set_vertex_fit_weights(session, &negative), BESPOKE_STATUS_INVALID_WEIGHTS);
+    refused(session, bespoke_session_set_vertex_fit_weights(session, NULL), BESPOKE_STATUS_INVALID_ARGUMENT);
     refused(session, bespoke_session_set_no_fit_vertices(session, &beyond), BESPOKE_STATUS_INVALID_ARGUMENT);
     refused(session, bespoke_session_set_target_skin_weights(session, &negative, 1), BESPOKE_STATUS_INVALID_WEIGHTS);
     refused(session, bespoke_session_set_target_skin_weights(session, &negative, SIZE_MAX),
@@ -290,12 +290,12 @@ static void refusals(const Scene *scene) {
             BESPOKE_STATUS_INVALID_WEIGHTS);
     refused(session, bespoke_session_set_target_skin_influences(session, &beyond, &negative, 1, JOINTS),
             BESPOKE_STATUS_INVALID_WEIGHTS);
-    BespokeSpace space;
+    BespokeCoordinateSystem space;
     memset(&space, 0, sizeof space);
-    refused(session, bespoke_session_set_source_space(session, &space), BESPOKE_STATUS_INVALID_ARGUMENT);
+    refused(session, bespoke_session_set_source_coordinate_system(session, &space), BESPOKE_STATUS_INVALID_ARGUMENT);
     space.struct_size = sizeof space;
     space.right = space.up = BESPOKE_AXIS_NEGATIVE_X;
-    refused(session, bespoke_session_set_target_space(session, &space), BESPOKE_STATUS_INVALID_ARGUMENT);
+    refused(session, bespoke_session_set_target_coordinate_system(session, &space), BESPOKE_STATUS_INVALID_ARGUMENT);
     BespokeOptions options = coarse_options();
     options.dhat = NAN;
     refused(session, bespoke_session_set_options(session, &options), BESPOKE_STATUS_INVALID_ARGUMENT);
@@ -322,7 +322,7 @@ static void failures(const Scene *scene) {
     BespokeSession *session = session_make(scene);
     const float one = 1.0f;
     const BespokeView single = view_of(&one, 1, BESPOKE_COMPONENT_F32);
-    accepted(session, bespoke_session_set_fit_weights(session, &single));
+    accepted(session, bespoke_session_set_vertex_fit_weights(session, &single));
     refused(session, bespoke_session_run(session), BESPOKE_STATUS_INVALID_WEIGHTS);
     accepted(session, bespoke_session_destroy(session));
 

@@ -38,13 +38,13 @@ fn null_sessions_are_refused() {
             bespoke_session_set_target_skeleton(session, &j, &b),
             bespoke_session_set_target_skin_weights(session, &p, 3),
             bespoke_session_set_target_skin_influences(session, &t, &p, 3, 3),
-            bespoke_session_set_fit_weights(session, &p),
+            bespoke_session_set_vertex_fit_weights(session, &p),
             bespoke_session_set_no_fit_vertices(session, &t),
             bespoke_session_set_pinned_vertices(session, &t, null()),
             bespoke_session_add_rigid_group(session, &t),
             bespoke_session_clear_rigid_groups(session),
-            bespoke_session_set_source_space(session, null()),
-            bespoke_session_set_target_space(session, null()),
+            bespoke_session_set_source_coordinate_system(session, null()),
+            bespoke_session_set_target_coordinate_system(session, null()),
             bespoke_session_set_options(session, &no_options()),
             bespoke_options_read_defaults(null_mut()),
             bespoke_session_prepare(session),
@@ -86,10 +86,10 @@ fn null_views_and_null_data_are_named() {
         refused(bespoke_session_set_target_skeleton(caller.session, &p, null()), "target skeleton bones");
         refused(bespoke_session_set_target_skin_weights(caller.session, null(), 1), "skin weights");
         refused(bespoke_session_set_target_skin_influences(caller.session, null(), &p, 1, 1), "skin weights");
-        refused(bespoke_session_set_fit_weights(caller.session, null()), "fit weights");
+        refused(bespoke_session_set_vertex_fit_weights(caller.session, null()), "fit weights");
         refused(bespoke_session_set_no_fit_vertices(caller.session, null()), "no-fit vertices");
-        refused(bespoke_session_set_source_space(caller.session, null()), "source space");
-        refused(bespoke_session_set_target_space(caller.session, null()), "target space");
+        refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source space");
+        refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target space");
         refused(bespoke_session_set_options(caller.session, null()), "options");
         refused(bespoke_session_read_report(caller.session, null_mut()), "report");
         refused(bespoke_session_read_energy(caller.session, 0, null_mut()), "energy");
@@ -155,8 +155,8 @@ fn options_are_checked() {
         (BespokeOptions { surface_weight: BESPOKE_WEIGHT_OFF, ..no_options() }, "surface_weight"),
         (BespokeOptions { barrier_weight: -1.0, ..no_options() }, "barrier_weight"),
         (BespokeOptions { dhat: 1e9, ..no_options() }, "dhat"),
-        (BespokeOptions { voxel: f64::NAN, ..no_options() }, "voxel"),
-        (BespokeOptions { separation_floor: 0.01, ..no_options() }, "separation_floor"),
+        (BespokeOptions { voxel_size: f64::NAN, ..no_options() }, "voxel_size"),
+        (BespokeOptions { min_separation: 0.01, ..no_options() }, "min_separation"),
         (BespokeOptions { tolerance: -1.0, ..no_options() }, "tolerance"),
         (BespokeOptions { threads: 100_000, ..no_options() }, "threads"),
         (BespokeOptions { surface_form: 2, ..no_options() }, "surface_form is 2"),
@@ -167,22 +167,24 @@ fn options_are_checked() {
 
 /// A program that was built with an earlier header: its struct ends where a later field begins.
 #[test]
-fn shorter_options_of_an_earlier_header_are_accepted() {
+fn the_first_part_of_the_options_is_accepted_alone() {
     let (caller, _sample) = Caller::with_sample();
-    let end = std::mem::offset_of!(BespokeOptions, memory_limit);
+    let end = std::mem::offset_of!(BespokeOptions, surface_weight);
     // What lies behind it is none of the library's.
-    let options = BespokeOptions { struct_size: end as u32, memory_limit: 1, ..no_options() };
+    let options = BespokeOptions { struct_size: end as u32, memory_limit: 1, dhat: 7.0, ..no_options() };
     // SAFETY: the session is alive, the options larger than they say.
     unsafe {
         caller.accepted(bespoke_session_set_options(caller.session, &options));
+        caller.refused(bespoke_session_prepare(caller.session), MemoryLimit, &["MB", "memory_limit"]);
+        let options = BespokeOptions { struct_size: end as u32, dhat: 7.0, ..no_options() };
+        caller.accepted(bespoke_session_set_options(caller.session, &options));
         caller.accepted(bespoke_session_prepare(caller.session));
         caller.accepted(bespoke_session_reset(caller.session));
-        let options = BespokeOptions { memory_limit: 1, ..no_options() };
-        caller.accepted(bespoke_session_set_options(caller.session, &options));
-        caller.refused(bespoke_session_prepare(caller.session), MemoryLimit, &["MB", "memory_limit"]);
-        let mut defaults = BespokeOptions { struct_size: end as u32, memory_limit: 77, ..no_options() };
+        let options = BespokeOptions { dhat: 7.0, ..no_options() };
+        caller.refused(bespoke_session_set_options(caller.session, &options), InvalidArgument, &["dhat", "7"]);
+        let mut defaults = BespokeOptions { struct_size: end as u32, dhat: 77.0, ..no_options() };
         assert_eq!(bespoke_options_read_defaults(&mut defaults), Ok);
-        assert_eq!((defaults.memory_limit, defaults.dhat), (77, 0.002));
+        assert_eq!((defaults.dhat, defaults.fit_weight), (77.0, 2.0));
     }
 }
 
@@ -223,8 +225,8 @@ fn longer_structs_of_later_headers_work() {
 #[test]
 fn spaces_are_checked() {
     let caller = Caller::new();
-    let default = BespokeSpace {
-        struct_size: size_of::<BespokeSpace>() as u32,
+    let default = BespokeCoordinateSystem {
+        struct_size: size_of::<BespokeCoordinateSystem>() as u32,
         right: 0,
         up: 0,
         forward: 0,
@@ -233,18 +235,20 @@ fn spaces_are_checked() {
         reserved: 0,
     };
     // SAFETY: the space is as large as it says.
-    let set = |space: BespokeSpace| unsafe { bespoke_session_set_target_space(caller.session, &space) };
+    let set = |space: BespokeCoordinateSystem| unsafe {
+        bespoke_session_set_target_coordinate_system(caller.session, &space)
+    };
     caller.accepted(set(default));
     let z_up = [BespokeAxis::PositiveX, BespokeAxis::PositiveZ, BespokeAxis::PositiveY].map(|axis| axis as u32);
-    caller.accepted(set(BespokeSpace { right: z_up[0], up: z_up[1], forward: z_up[2], ..default }));
+    caller.accepted(set(BespokeCoordinateSystem { right: z_up[0], up: z_up[1], forward: z_up[2], ..default }));
     for (space, word) in [
-        (BespokeSpace { struct_size: 4, ..default }, "struct_size is 4"),
-        (BespokeSpace { up: BespokeAxis::NegativeX as u32, ..default }, "perpendicular"),
-        (BespokeSpace { right: 7, ..default }, "right is 7"),
-        (BespokeSpace { winding: 2, ..default }, "winding is 2"),
-        (BespokeSpace { reserved: 1, ..default }, "reserved is 1"),
-        (BespokeSpace { metres_per_unit: -1.0, ..default }, "-1"),
-        (BespokeSpace { metres_per_unit: f64::NAN, ..default }, "NaN"),
+        (BespokeCoordinateSystem { struct_size: 4, ..default }, "struct_size is 4"),
+        (BespokeCoordinateSystem { up: BespokeAxis::NegativeX as u32, ..default }, "perpendicular"),
+        (BespokeCoordinateSystem { right: 7, ..default }, "right is 7"),
+        (BespokeCoordinateSystem { winding: 2, ..default }, "winding is 2"),
+        (BespokeCoordinateSystem { reserved: 1, ..default }, "reserved is 1"),
+        (BespokeCoordinateSystem { metres_per_unit: -1.0, ..default }, "-1"),
+        (BespokeCoordinateSystem { metres_per_unit: f64::NAN, ..default }, "NaN"),
     ] {
         caller.refused(set(space), InvalidArgument, &["target space", word]);
     }
@@ -300,7 +304,7 @@ fn fit_weights_are_checked() {
     let set = |weights: &[f64]| {
         let view = testing::caller::view(weights, BespokeComponent::F64);
         // SAFETY: the view tells the truth.
-        unsafe { bespoke_session_set_fit_weights(caller.session, &view) }
+        unsafe { bespoke_session_set_vertex_fit_weights(caller.session, &view) }
     };
     let mut weights = vec![1.0; count];
     caller.accepted(set(&weights));

@@ -26,7 +26,7 @@ fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
 
 fn sentence(diagnostic: &BespokeDiagnostic) -> &str {
     // SAFETY: a zero byte ends the sentence.
-    unsafe { CStr::from_ptr(diagnostic.sentence.as_ptr()) }.to_str().expect("UTF-8")
+    unsafe { CStr::from_ptr(diagnostic.message.as_ptr()) }.to_str().expect("UTF-8")
 }
 
 /// The sample with each triangle's corners as vertices of its own, one triangle twice, a vertex that nothing uses, and a

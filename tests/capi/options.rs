@@ -93,7 +93,7 @@ fn ranges_are_those_of_the_comments() {
     // SAFETY: the options are as large as they say.
     let set = |options: BespokeOptions| unsafe { bespoke_session_set_options(caller.session, &options) };
     // What one option allows another, it allows all of them.
-    let base = BespokeOptions { dhat: 0.1, inflation_dhat: 0.1, separation_floor: 1e-8, ..no_options() };
+    let base = BespokeOptions { dhat: 0.1, inflation_dhat: 0.1, min_separation: 1e-8, ..no_options() };
     for entry in entries() {
         let accepted = |value| caller.accepted(set(entry.with(base, value)));
         let refused = |value| caller.refused(set(entry.with(base, value)), InvalidArgument, &[entry.name()]);

@@ -50,7 +50,7 @@ fn steps_and_run_give_the_same_verified_result() {
     ran.accepted(unsafe { bespoke_session_run(ran.session) });
     assert_eq!(read(&stepped, count), read(&ran, count));
 
-    let mut counts = BespokeIntersections { garment_garment: 9, since_start: 9, garment_avatar: 9 };
+    let mut counts = BespokeIntersections { garment_garment: 9, initial: 9, garment_avatar: 9 };
     let component = BespokeComponent::F32 as u32;
     // SAFETY: the session is alive and the pointer good.
     ran.accepted(unsafe { bespoke_session_verify(ran.session, component, &mut counts) });

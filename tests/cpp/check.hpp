@@ -70,7 +70,7 @@ struct Scene {
 inline bespoke::Options coarse_options() {
     bespoke::Options options;
     options.threads = 2;
-    options.voxel = 0.1;
+    options.voxel_size = 0.1;
     return options;
 }
 

@@ -82,7 +82,7 @@ void refusals() {
     broken.points[5][1] = NAN;
     REFUSED(session.set_target_avatar(broken.points, scene.garment.triangles), Status::invalid_mesh, "vertex 5");
     REFUSED(session.set_garment(Points(), Triangles()), Status::invalid_mesh, "garment");
-    REFUSED(session.set_fit_weights(std::array{1.0f, -1.0f}), Status::invalid_weights, "1");
+    REFUSED(session.set_vertex_fit_weights(std::array{1.0f, -1.0f}), Status::invalid_weights, "1");
     REFUSED(session.set_no_fit_vertices(std::array{0u, 100000u}), Status::invalid_argument, "100000");
     const std::array<std::uint16_t, 2> bone{0, 9};
     REFUSED(session.set_source_skeleton(scene.joints, bone), Status::invalid_skeleton, "9");
@@ -94,7 +94,7 @@ void refusals() {
     REFUSED(session.verify(Component::u16), Status::invalid_argument, "component");
     Space space;
     space.up = Axis::negative_x;
-    REFUSED(session.set_source_space(space), Status::invalid_argument, "x");
+    REFUSED(session.set_source_coordinate_system(space), Status::invalid_argument, "x");
     Options options;
     options.dhat = 5.0;
     REFUSED(session.set_options(options), Status::invalid_argument, "dhat");
@@ -120,7 +120,7 @@ void optional_inputs() {
     ACCEPTED(session.set_target_skin_influences({vertices, &Vertex::joints}, {vertices, &Vertex::weights}, 3));
     ACCEPTED(session.set_target_skin_weights({matrix, vertices.size()}));
     std::vector<float> fit(scene.garment.points.size(), 1.0f);
-    ACCEPTED(session.set_fit_weights(fit));
+    ACCEPTED(session.set_vertex_fit_weights(fit));
     ACCEPTED(session.set_no_fit_vertices(std::array<std::uint16_t, 3>{0, 1, 2}));
     ACCEPTED(session.set_pinned_vertices(std::array{0u, 70u}));
     ACCEPTED(session.set_pinned_vertices({}));
@@ -152,7 +152,7 @@ void pins_groups_and_layers() {
     for (const Diagnostic &diagnostic : session.read_diagnostics().value()) {
         if (diagnostic.kind != DiagnosticKind::pin_not_reached) continue;
         is_told = true;
-        CHECK(diagnostic.severity == Severity::warning && diagnostic.distance > 0 && !diagnostic.sentence.empty());
+        CHECK(diagnostic.severity == Severity::warning && diagnostic.distance > 0 && !diagnostic.message.empty());
         CHECK(diagnostic.elements.size() == 1 && diagnostic.elements[0].index == 70);
         CHECK(diagnostic.elements[0].subject == Subject::garment && diagnostic.elements[0].kind == ElementKind::vertex);
         CHECK(!diagnostic.elements[0].layer());
@@ -183,7 +183,7 @@ void fields_of_options() {
     for (double *field : {&options.fit_weight, &options.designed_clearance, &options.surface_weight,
                           &options.curvature_weight, &options.torsion_weight, &options.position_weight,
                           &options.barrier_weight, &options.dhat, &options.inflation_dhat,
-                          &options.inflation_barrier_weight, &options.voxel, &options.separation_floor,
+                          &options.inflation_barrier_weight, &options.voxel_size, &options.min_separation,
                           &options.tolerance, &options.offset, &options.fit_distance, &options.pin_weight}) {
         *field = ++value;
     }
@@ -196,7 +196,7 @@ void fields_of_options() {
     value = 0.0;
     for (const double field :
          {c.fit_weight, c.designed_clearance, c.surface_weight, c.curvature_weight, c.torsion_weight, c.position_weight,
-          c.barrier_weight, c.dhat, c.inflation_dhat, c.inflation_barrier_weight, c.voxel, c.separation_floor,
+          c.barrier_weight, c.dhat, c.inflation_dhat, c.inflation_barrier_weight, c.voxel_size, c.min_separation,
           c.tolerance, c.offset, c.fit_distance, c.pin_weight}) {
         CHECK(field == ++value);
     }
@@ -204,8 +204,8 @@ void fields_of_options() {
     CHECK(c.surface_form == BESPOKE_SURFACE_FORM_PRINTED && c.reserved == 0);
 
 #if __cplusplus >= 202002L
-    const BespokeOptions named = Options{.threads = 3, .voxel = 0.1}.get();
-    CHECK(named.threads == 3 && named.voxel == 0.1 && named.dhat == 0.0);
+    const BespokeOptions named = Options{.threads = 3, .voxel_size = 0.1}.get();
+    CHECK(named.threads == 3 && named.voxel_size == 0.1 && named.dhat == 0.0);
 #endif
 
     // The defaults, read and handed back, are those that the library wrote.
@@ -218,7 +218,7 @@ void fields_of_options() {
 
 /// A new space is the default; centimetres, z up and a mirrored winding give the same garment.
 void spaces() {
-    const BespokeSpace plain = Space().get();
+    const BespokeCoordinateSystem plain = Space().get();
     CHECK(plain.struct_size == sizeof plain && plain.right == BESPOKE_AXIS_POSITIVE_X);
     CHECK(plain.up == BESPOKE_AXIS_POSITIVE_Y && plain.forward == BESPOKE_AXIS_NEGATIVE_Z && plain.reserved == 0);
     CHECK(plain.metres_per_unit == 1.0 && plain.winding == BESPOKE_WINDING_COUNTER_CLOCKWISE);
@@ -227,8 +227,8 @@ void spaces() {
     Session metres = session_with(scene);
     const auto expected = dressed(metres);
     ACCEPTED(metres.reset());
-    ACCEPTED(metres.set_source_space(Space()));
-    ACCEPTED(metres.set_target_space(Space()));
+    ACCEPTED(metres.set_source_coordinate_system(Space()));
+    ACCEPTED(metres.set_target_coordinate_system(Space()));
     CHECK(same_bits(dressed(metres), expected));
 
     Space space;
@@ -244,7 +244,7 @@ void spaces() {
     for (const auto &p : scene.body.points) body.push_back(turned(p));
     for (const auto &p : scene.joints) joints.push_back(turned(p));
     Session session = session_with(scene);
-    ACCEPTED(session.set_target_space(space));
+    ACCEPTED(session.set_target_coordinate_system(space));
     ACCEPTED(session.set_target_avatar(body, scene.body.triangles));
     ACCEPTED(session.set_target_skeleton(joints, scene.bones));
     const auto points = dressed(session);

@@ -34,9 +34,9 @@ void empty(Session &session) {
     refused(session.set_target_skin_weights({std::vector<float>(4), 2}));
     refused(session.set_target_skin_influences(triangles, points, 3));
     refused(session.set_target_skin_influences(scene.bones, points, 3));
-    refused(session.set_source_space(Space()));
-    refused(session.set_target_space(Space()));
-    refused(session.set_fit_weights(std::vector<float>(4)));
+    refused(session.set_source_coordinate_system(Space()));
+    refused(session.set_target_coordinate_system(Space()));
+    refused(session.set_vertex_fit_weights(std::vector<float>(4)));
     refused(session.set_no_fit_vertices(std::vector<std::uint32_t>(4)));
     refused(session.set_pinned_vertices(std::vector<std::uint32_t>(4)));
     refused(session.set_pinned_vertices(std::vector<std::uint32_t>(4), std::vector<float>(12)));
@@ -106,7 +106,7 @@ std::vector<Triple<float>> by_c(const Scene &scene) {
     BespokeOptions options{};
     options.struct_size = sizeof options;
     options.threads = 2;
-    options.voxel = 0.1;
+    options.voxel_size = 0.1;
     const auto floats = [](const auto &p) { return BespokeView{p.data(), p.size(), 0, BESPOKE_COMPONENT_F32}; };
     const auto indices = [](const auto &t) { return BespokeView{t.data(), t.size(), 0, BESPOKE_COMPONENT_U32}; };
     const BespokeView points = floats(scene.garment.points), triangles = indices(scene.garment.triangles);
@@ -238,7 +238,7 @@ void diagnostics() {
     ACCEPTED(session.prepare());
     int found = 0;
     for (const Diagnostic &diagnostic : *session.read_diagnostics()) {
-        CHECK(!diagnostic.sentence.empty() && diagnostic.sentence.find('\0') == std::string::npos);
+        CHECK(!diagnostic.message.empty() && diagnostic.message.find('\0') == std::string::npos);
         if (diagnostic.kind == DiagnosticKind::unused_vertex) {
             CHECK(diagnostic.elements.size() == 1 && diagnostic.elements[0].index == unused);
             found++;

@@ -173,7 +173,7 @@ internal static class Dressing
         Check.That(differs(s => s.SetOptions(new Options { FitWeight = Options.WeightOff })), "options");
         Check.That(!differs(s => s.SetOptions(Options.ReadDefaults())), "the defaults, written out");
         float[] weights = Enumerable.Range(0, vertices).Select(v => v % 2f).ToArray();
-        Check.That(differs(s => s.SetFitWeights(weights)), "weights");
+        Check.That(differs(s => s.SetVertexFitWeights(weights)), "weights");
         Check.That(differs(s => s.SetNoFitVertices(Enumerable.Range(0, 48).ToArray())), "no-fit vertices");
         Check.That(differs(s => s.SetPinnedVertices(new[] { 70 })), "pins");
         Check.That(differs(s => s.AddRigidGroup(new ushort[] { 40, 41, 56 })), "rigid group");
@@ -286,8 +286,8 @@ internal static class Dressing
                 $"Garment Triangle 0 Garment Triangle {count - 1}", "elements of the duplicate");
             Check.That(double.IsNaN(twice.Distance) && twice.Elements.All(e => e.Layer == null), "the duplicate");
             Diagnostic pin = diagnostics.Single(d => d.Kind == DiagnosticKind.PinNotReached);
-            Check.That(pin.Severity == Severity.Warning && pin.Elements[0].Index == 70, pin.Sentence);
-            Check.That(pin.Distance > 0.1 && pin.Sentence.Contains("70") && !pin.Sentence.Contains("\0"), pin.Sentence);
+            Check.That(pin.Severity == Severity.Warning && pin.Elements[0].Index == 70, pin.Message);
+            Check.That(pin.Distance > 0.1 && pin.Message.Contains("70") && !pin.Message.Contains("\0"), pin.Message);
         }
         LayersAreNumbered();
     }
@@ -312,8 +312,8 @@ internal static class Dressing
         Func<float[], float[]> mirrored = points => points.Select((x, k) => k % 3 == 2 ? -x : x).ToArray();
         using (Session session = new Session())
         {
-            session.SetSourceSpace(CoordinateSystem.Unity);
-            session.SetTargetSpace(CoordinateSystem.Unity);
+            session.SetSourceCoordinateSystem(CoordinateSystem.Unity);
+            session.SetTargetCoordinateSystem(CoordinateSystem.Unity);
             session.SetGarment(mirrored(inputs.GarmentPositions), inputs.GarmentTriangles);
             session.SetTargetAvatar(mirrored(inputs.AvatarPositions), inputs.AvatarTriangles);
             session.SetSourceSkeleton(mirrored(inputs.SourceJoints), inputs.Bones);
@@ -325,7 +325,7 @@ internal static class Dressing
             session.Reset();
             CoordinateSystem bad = CoordinateSystem.Unity;
             bad.Up = Axis.NegativeX;
-            Check.Refused(Status.InvalidArgument, () => session.SetTargetSpace(bad), "target space");
+            Check.Refused(Status.InvalidArgument, () => session.SetTargetCoordinateSystem(bad), "target space");
         }
     }
 }

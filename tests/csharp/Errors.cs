@@ -58,9 +58,9 @@ internal static class Errors
         Invalid(() => session.SetGarment(new float[4], triangles), "positions", "4", "3");
         Invalid(() => session.SetGarment(positions, new int[7]), "triangles", "7");
         Invalid(() => session.SetSourceSkeleton(new float[6], new int[3]), "bones", "3");
-        Invalid(() => session.SetFitWeights(FloatView.F32(positions, 4)), "byte 4");
+        Invalid(() => session.SetVertexFitWeights(FloatView.F32(positions, 4)), "byte 4");
         Invalid(() => session.SetGarment(FloatView.F32(new long[6]), triangles), "8 bytes");
-        Invalid(() => session.SetFitWeights(FloatView.F32(positions, -4)), "byte -4");
+        Invalid(() => session.SetVertexFitWeights(FloatView.F32(positions, -4)), "byte -4");
         Check.Refused(Status.InvalidMesh, () => session.SetGarment(positions, new[] { 0, 1, 2, 3, -7, 5 }),
             "garment: triangle 1 has index -7");
         Check.Refused(Status.InvalidMesh, () => session.SetSourceAvatar(positions, new[] { -1, 1, 2 }),
@@ -71,7 +71,7 @@ internal static class Errors
         Check.Throws<ArgumentOutOfRangeException>(() => session.SetTargetSkinWeights(positions, 0));
         Check.Throws<ArgumentOutOfRangeException>(() => session.SetTargetSkinInfluences(triangles, positions, 0, 1));
         Check.Throws<ArgumentNullException>(() => session.SetOptions(null));
-        Check.Throws<ArgumentNullException>(() => session.SetSourceSpace(null));
+        Check.Throws<ArgumentNullException>(() => session.SetSourceCoordinateSystem(null));
         Check.Throws<ArgumentException>(() => FloatView.F32(new[] { "text" }.Select(t => new Named(t)).ToArray()));
     }
 

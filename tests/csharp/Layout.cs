@@ -34,11 +34,11 @@ internal static class Layout
         {
             { "BespokeView", sizeof(NativeView) },
             { "BespokeBuffer", sizeof(NativeBuffer) },
-            { "BespokeSpace", sizeof(NativeSpace) },
+            { "BespokeCoordinateSystem", sizeof(NativeCoordinateSystem) },
             { "BespokeOptions", sizeof(NativeOptions) },
             { "BespokeIntersections", sizeof(NativeIntersections) },
             { "BespokeProgress", sizeof(NativeProgress) },
-            { "BespokeWork", sizeof(NativeWork) },
+            { "BespokeStageReport", sizeof(NativeStageReport) },
             { "BespokeReport", sizeof(NativeReport) },
             { "BespokeEnergy", sizeof(NativeEnergy) },
             { "BespokeElement", sizeof(NativeElement) },
@@ -106,7 +106,7 @@ internal static class Layout
             { "BESPOKE_ABI_VERSION", NativeConstants.AbiVersion },
             { "BESPOKE_MAX_TERMS", NativeConstants.MaxTerms },
             { "BESPOKE_ENERGY_NAME_SIZE", NativeConstants.EnergyNameSize },
-            { "BESPOKE_SENTENCE_SIZE", NativeConstants.SentenceSize },
+            { "BESPOKE_MESSAGE_SIZE", NativeConstants.MessageSize },
             { "BESPOKE_MAX_ELEMENTS", NativeConstants.MaxElements },
         };
         // Precision is the part of Component that callers see.

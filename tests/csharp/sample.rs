@@ -87,7 +87,7 @@ fn dressed() -> Vec<f32> {
     session.set_target_skin(skin).expect("skin weights");
     let mut weights = vec![1.0; JACKET.mesh.positions.len()];
     JACKET.no_fit.iter().for_each(|&v| weights[v as usize] = 0.0);
-    session.set_fit_weights(weights).expect("fit weights");
+    session.set_vertex_fit_weights(weights).expect("fit weights");
     result(session)
 }
 

@@ -79,7 +79,7 @@ uint64_t tube_dress(void *library) {
     const BespokeView joint_view = {joints, 3, 0, BESPOKE_COMPONENT_F32};
     const BespokeView bone_view = {bones, 2, 0, BESPOKE_COMPONENT_U32};
     const BespokeBuffer buffer = {result, RINGS * AROUND, 0, BESPOKE_COMPONENT_F32};
-    BespokeOptions options = {.struct_size = sizeof options, .threads = 2, .voxel = 0.02};
+    BespokeOptions options = {.struct_size = sizeof options, .threads = 2, .voxel_size = 0.02};
     BespokeSession *session = NULL;
     CALL(bespoke_session_create, &session);
     CALL(bespoke_session_set_options, session, &options);

@@ -134,7 +134,7 @@ proptest! {
     #[test]
     fn bad_meshes_are_told(seed in 0u64..8, bad in bad(), precise in any::<bool>()) {
         let mut scene = Scene::new(&Recipe::sound(seed));
-        scene.options = Options { threads: 1, voxel: 0.04, max_iterations: 8, ..Options::default() };
+        scene.options = Options { threads: 1, voxel_size: 0.04, max_iterations: 8, ..Options::default() };
         scene.precision = if precise { Precision::F64 } else { Precision::F32 };
         (scene.skin, scene.fit_weights) = (None, None);
         match bad {

@@ -123,8 +123,8 @@ fn can_be_lived_with(scene: &Scene, sound: &Scene) -> Result<(), TestCaseError> 
     // As good as new, and with no memory of what was.
     let mut fresh = sound.session().unwrap();
     session.set_options(sound.options.clone()).unwrap();
-    session.set_source_space(sound.source_coordinate_system).unwrap();
-    session.set_target_space(sound.target_coordinate_system).unwrap();
+    session.set_source_coordinate_system(sound.source_coordinate_system).unwrap();
+    session.set_target_coordinate_system(sound.target_coordinate_system).unwrap();
     session.set_garment(sound.garment.clone(), sound.precision).unwrap();
     session.set_source_skeleton(sound.source_skeleton.clone()).unwrap();
     session.set_target_avatar(sound.avatar.clone()).unwrap();

@@ -25,7 +25,7 @@ pub fn load(garment: &str, avatar: &str, options: Options, change: fn(&mut Trian
     if let Ok(text) = std::fs::read_to_string(garment.join("no-fit.txt")) {
         let mut weights = vec![1.0; cloth.positions.len()];
         text.split_whitespace().for_each(|v| weights[v.parse::<usize>().unwrap()] = 0.0);
-        session.set_fit_weights(weights).unwrap();
+        session.set_vertex_fit_weights(weights).unwrap();
     }
     session.set_garment(cloth, Precision::F32).unwrap();
     session.set_source_skeleton(read_skeleton(&garment.join("skeleton.obj"))).unwrap();

@@ -62,7 +62,7 @@ fn an_offset_is_in_the_unit_of_the_target() {
     body.positions = body.positions.iter().map(larger).collect();
     centimetres.set_target_avatar(body).unwrap();
     centimetres.set_target_skeleton(arm(100.0, DVec3::ZERO)).unwrap();
-    centimetres.set_target_space(space).unwrap();
+    centimetres.set_target_coordinate_system(space).unwrap();
     let (x, y) = (dressed(&mut metres), dressed(&mut centimetres));
     let apart = x.iter().zip(&y).map(|(p, q)| (100.0 * *p).distance(*q)).fold(0.0, f64::max);
     assert!(apart < 0.1, "{apart}");

@@ -134,7 +134,7 @@ fn three_layers_in_another_space_and_unit() {
             let mut session = session(1.0, DVec3::ZERO);
             session.set_garment(garment.clone(), Precision::F64).unwrap();
             if is_there {
-                session.set_target_space(space).unwrap();
+                session.set_target_coordinate_system(space).unwrap();
                 session.set_target_avatar(there(&thick_arm())).unwrap();
                 session.set_target_skeleton(skeleton(arm(1.0, DVec3::ZERO))).unwrap();
             }
@@ -245,7 +245,7 @@ fn a_layer_that_pokes_through_is_named() {
     let long = tube(-1.1, 1.1, |_, _| 0.25, 14, 12, false);
     session.add_layer(long.clone()).unwrap();
     assert_eq!(session.prepare().unwrap_err().kind, ErrorKind::NotEnclosed);
-    let pokes: Vec<_> = session.findings().iter().filter(|f| f.kind == FindingKind::AvatarPokes).collect();
+    let pokes: Vec<_> = session.findings().iter().filter(|f| f.kind == FindingKind::AvatarPenetrates).collect();
     assert!(!pokes.is_empty());
     for finding in pokes {
         let element = finding.elements.last().unwrap();

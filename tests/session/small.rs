@@ -138,7 +138,7 @@ fn no_iterate_of_the_inflation_intersects() {
     let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
     let problem = problem(&garment);
     let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut findings).unwrap();
-    assert!(findings.is_empty() && objective.contact.min_separation() == options.separation_floor, "{findings:?}");
+    assert!(findings.is_empty() && objective.contact.min_separation() == options.min_separation, "{findings:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut inflation = Inflation::default();
@@ -282,9 +282,9 @@ fn calls_out_of_order_are_named() {
     let error = session.prepare().unwrap_err();
     assert!(error.message.contains("the garment is missing"), "{error}");
     let mut session = self::session(1.0, DVec3::ZERO);
-    session.set_fit_weights(vec![1.0; 3]).unwrap();
+    session.set_vertex_fit_weights(vec![1.0; 3]).unwrap();
     assert_eq!(session.prepare().unwrap_err().kind, ErrorKind::InvalidWeights);
-    session.set_fit_weights(vec![1.0; sleeve().positions.len()]).unwrap();
+    session.set_vertex_fit_weights(vec![1.0; sleeve().positions.len()]).unwrap();
     session.prepare().unwrap();
     assert_eq!(session.set_garment(sleeve(), Precision::F32).unwrap_err().kind, ErrorKind::InvalidState);
     assert_eq!(session.prepare().unwrap_err().kind, ErrorKind::InvalidState);

@@ -90,7 +90,7 @@ fn what_intersects_from_the_start_never_gets_more() {
         }
         let report = session.report();
         let counted = report.verification.unwrap();
-        assert_eq!((counted.garment_garment, counted.since_start), (last.len() as u64, last.len() as u64));
+        assert_eq!((counted.garment_garment, counted.initial), (last.len() as u64, last.len() as u64));
         assert!(counted.is_clean() && report.converged, "{:?}", report.fit);
     }
 }

@@ -106,14 +106,14 @@ impl Case {
         let problem = self.problem(&mut findings).unwrap();
         assert!(!findings.is_empty());
         for finding in &findings {
-            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPokes, Severity::Warning));
+            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPenetrates, Severity::Warning));
             assert!((1..=4).contains(&finding.elements.len()), "{finding}");
         }
         let crossings =
             edge_crossings(&problem.rest, &problem.triangles, &problem.projected.start, &problem.projected.triangles);
         assert_eq!(crossings, 0);
         let objective = problem.inflation_objective(&Options::default(), &Cancel::new(), &mut Vec::new()).unwrap();
-        assert_eq!(objective.contact.min_separation(), Options::default().separation_floor);
+        assert_eq!(objective.contact.min_separation(), Options::default().min_separation);
         // The pieces still tile the avatar at the end, and know what they are pieces of.
         let area = |p: &[DVec3], t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| p[v as usize]);
@@ -141,7 +141,7 @@ impl Case {
         let error = self.problem(&mut findings).err().expect("refused");
         assert_eq!(error.kind, ErrorKind::NotEnclosed);
         for finding in &findings {
-            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPokes, Severity::Error));
+            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPenetrates, Severity::Error));
             let [garment, bone, avatar] = finding.elements[..] else { panic!("three elements: {finding:?}") };
             assert_eq!((garment.subject, garment.kind), (Subject::Garment, ElementKind::Triangle));
             assert_eq!((bone.subject, bone.kind), (Subject::SourceSkeleton, ElementKind::Bone));

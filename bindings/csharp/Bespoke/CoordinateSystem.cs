@@ -35,11 +35,11 @@ namespace Bespoke
             }
         }
 
-        internal unsafe NativeSpace ToNative()
+        internal unsafe NativeCoordinateSystem ToNative()
         {
-            return new NativeSpace
+            return new NativeCoordinateSystem
             {
-                struct_size = (uint)sizeof(NativeSpace),
+                struct_size = (uint)sizeof(NativeCoordinateSystem),
                 right = Right,
                 up = Up,
                 forward = Forward,

@@ -44,7 +44,7 @@ namespace Bespoke
             }
             Elements = elements;
             Distance = native->distance;
-            Sentence = Utf8.Read(native->sentence, NativeConstants.SentenceSize);
+            Message = Utf8.Read(native->message, NativeConstants.MessageSize);
         }
 
         /// <summary>What it is about.</summary>
@@ -63,6 +63,6 @@ namespace Bespoke
         public double Distance { get; }
 
         /// <summary>One sentence.</summary>
-        public string Sentence { get; }
+        public string Message { get; }
     }
 }

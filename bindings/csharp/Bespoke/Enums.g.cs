@@ -188,7 +188,7 @@ namespace Bespoke
         NearContact = 8,
 
         /// <summary>The avatar, shrunk onto the source skeleton, passes through the garment.</summary>
-        AvatarPokes = 9,
+        AvatarPenetrates = 9,
 
         /// <summary>
         /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.

@@ -68,13 +68,16 @@ namespace Bespoke
             SessionHandle session, NativeView* joints, NativeView* weights, UIntPtr influences, UIntPtr jointCount);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
-        internal static extern Status bespoke_session_set_source_space(SessionHandle session, NativeSpace* space);
+        internal static extern Status bespoke_session_set_source_coordinate_system(
+            SessionHandle session, NativeCoordinateSystem* space);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
-        internal static extern Status bespoke_session_set_target_space(SessionHandle session, NativeSpace* space);
+        internal static extern Status bespoke_session_set_target_coordinate_system(
+            SessionHandle session, NativeCoordinateSystem* space);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
-        internal static extern Status bespoke_session_set_fit_weights(SessionHandle session, NativeView* weights);
+        internal static extern Status bespoke_session_set_vertex_fit_weights(
+            SessionHandle session, NativeView* weights);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_no_fit_vertices(SessionHandle session, NativeView* vertices);

@@ -10,11 +10,11 @@ namespace Bespoke
 {
     internal static class NativeConstants
     {
-        internal const int AbiVersion = 1;
+        internal const int AbiVersion = 2;
         internal const double WeightOff = -1.0;
         internal const int MaxTerms = 12;
         internal const int EnergyNameSize = 32;
-        internal const int SentenceSize = 512;
+        internal const int MessageSize = 512;
         internal const int MaxElements = 4;
     }
 
@@ -28,7 +28,7 @@ namespace Bespoke
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal struct NativeSpace
+    internal struct NativeCoordinateSystem
     {
         internal uint struct_size;
         internal Axis right;
@@ -46,6 +46,12 @@ namespace Bespoke
         internal uint threads;
         internal double fit_weight;
         internal double designed_clearance;
+        internal double offset;
+        internal double fit_distance;
+        internal double pin_weight;
+        internal ulong memory_limit;
+        internal uint strict;
+        internal uint reserved;
         internal double surface_weight;
         internal double curvature_weight;
         internal double torsion_weight;
@@ -54,24 +60,18 @@ namespace Bespoke
         internal double dhat;
         internal double inflation_dhat;
         internal double inflation_barrier_weight;
-        internal double voxel;
-        internal double separation_floor;
+        internal double voxel_size;
+        internal double min_separation;
         internal double tolerance;
         internal uint max_iterations;
         internal SurfaceForm surface_form;
-        internal ulong memory_limit;
-        internal uint strict;
-        internal uint reserved;
-        internal double offset;
-        internal double fit_distance;
-        internal double pin_weight;
     }
 
     [StructLayout(LayoutKind.Sequential)]
     internal struct NativeIntersections
     {
         internal ulong garment_garment;
-        internal ulong since_start;
+        internal ulong initial;
         internal ulong garment_avatar;
     }
 
@@ -104,7 +104,7 @@ namespace Bespoke
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    internal struct NativeWork
+    internal struct NativeStageReport
     {
         internal double seconds;
         internal uint iterations;
@@ -118,9 +118,9 @@ namespace Bespoke
     {
         internal uint struct_size;
         internal uint threads;
-        internal NativeWork prepare;
-        internal NativeWork inflate;
-        internal NativeWork fit;
+        internal NativeStageReport prepare;
+        internal NativeStageReport inflate;
+        internal NativeStageReport fit;
         internal double verify_seconds;
         internal double field_seconds;
         internal double t;
@@ -136,13 +136,13 @@ namespace Bespoke
         internal ulong avatar_triangles;
         internal ulong subdivided_avatar_vertices;
         internal ulong subdivided_avatar_triangles;
-        internal double separation_floor;
+        internal double min_separation;
         internal uint is_verified;
         internal uint is_converged;
         internal uint energy_count;
         internal uint reserved;
         internal ulong memory_bytes;
-        internal ulong garment_intersections_at_start;
+        internal ulong initial_self_intersections;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -180,6 +180,6 @@ namespace Bespoke
         internal NativeElements elements;
         internal uint reserved;
         internal double distance;
-        internal fixed byte sentence[NativeConstants.SentenceSize];
+        internal fixed byte message[NativeConstants.MessageSize];
     }
 }

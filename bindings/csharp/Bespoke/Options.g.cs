@@ -21,6 +21,35 @@ namespace Bespoke
         /// </summary>
         public double DesignedClearance { get; set; }
 
+        /// <summary>
+        /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
+        /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+        /// </summary>
+        public double Offset { get; set; }
+
+        /// <summary>
+        /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits
+        /// less, and not at all from twice this distance on. Default 0.1. <see cref="Options.WeightOff"/>: the garment
+        /// fits as a whole.
+        /// </summary>
+        public double FitDistance { get; set; }
+
+        /// <summary>Weight of pins (<c>Session.SetPinnedVertices</c>), which are springs. Default 1000.</summary>
+        public double PinWeight { get; set; }
+
+        /// <summary>
+        /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes
+        /// of its meshes before it begins, and looked at again as it goes on.
+        /// </summary>
+        public ulong MemoryLimit { get; set; }
+
+        /// <summary>
+        /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
+        /// exempted from contact until they separate and named by <c>Session.ReadDiagnostics</c>; no others ever join
+        /// them.
+        /// </summary>
+        public bool Strict { get; set; }
+
         /// <summary>Expert. Weight of the surface term, which keeps the design's shape. Default 1.</summary>
         public double SurfaceWeight { get; set; }
 
@@ -55,13 +84,13 @@ namespace Bespoke
         public double InflationBarrierWeight { get; set; }
 
         /// <summary>Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.</summary>
-        public double Voxel { get; set; }
+        public double VoxelSize { get; set; }
 
         /// <summary>
         /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of <see cref="Options.Dhat"/>
         /// and of <see cref="Options.InflationDhat"/>. Default 1e-5.
         /// </summary>
-        public double SeparationFloor { get; set; }
+        public double MinSeparation { get; set; }
 
         /// <summary>
         /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
@@ -76,34 +105,6 @@ namespace Bespoke
         /// </summary>
         public SurfaceForm SurfaceForm { get; set; }
 
-        /// <summary>
-        /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes
-        /// of its meshes before it begins, and looked at again as it goes on.
-        /// </summary>
-        public ulong MemoryLimit { get; set; }
-
-        /// <summary>
-        /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
-        /// let off and named by <c>Session.ReadDiagnostics</c>, and no others ever join them.
-        /// </summary>
-        public bool Strict { get; set; }
-
-        /// <summary>
-        /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
-        /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
-        /// </summary>
-        public double Offset { get; set; }
-
-        /// <summary>
-        /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits
-        /// less, and not at all from twice this distance on. Default 0.1. <see cref="Options.WeightOff"/>: the garment
-        /// fits as a whole.
-        /// </summary>
-        public double FitDistance { get; set; }
-
-        /// <summary>Weight of pins (<c>Session.SetPinnedVertices</c>), which are springs. Default 1000.</summary>
-        public double PinWeight { get; set; }
-
         private static Options FromNative(NativeOptions native)
         {
             return new Options
@@ -111,6 +112,11 @@ namespace Bespoke
                 Threads = native.threads,
                 FitWeight = native.fit_weight,
                 DesignedClearance = native.designed_clearance,
+                Offset = native.offset,
+                FitDistance = native.fit_distance,
+                PinWeight = native.pin_weight,
+                MemoryLimit = native.memory_limit,
+                Strict = native.strict != 0,
                 SurfaceWeight = native.surface_weight,
                 CurvatureWeight = native.curvature_weight,
                 TorsionWeight = native.torsion_weight,
@@ -119,16 +125,11 @@ namespace Bespoke
                 Dhat = native.dhat,
                 InflationDhat = native.inflation_dhat,
                 InflationBarrierWeight = native.inflation_barrier_weight,
-                Voxel = native.voxel,
-                SeparationFloor = native.separation_floor,
+                VoxelSize = native.voxel_size,
+                MinSeparation = native.min_separation,
                 Tolerance = native.tolerance,
                 MaxIterations = native.max_iterations,
                 SurfaceForm = native.surface_form,
-                MemoryLimit = native.memory_limit,
-                Strict = native.strict != 0,
-                Offset = native.offset,
-                FitDistance = native.fit_distance,
-                PinWeight = native.pin_weight,
             };
         }
 
@@ -140,6 +141,11 @@ namespace Bespoke
                 threads = Threads,
                 fit_weight = FitWeight,
                 designed_clearance = DesignedClearance,
+                offset = Offset,
+                fit_distance = FitDistance,
+                pin_weight = PinWeight,
+                memory_limit = MemoryLimit,
+                strict = Strict ? 1u : 0u,
                 surface_weight = SurfaceWeight,
                 curvature_weight = CurvatureWeight,
                 torsion_weight = TorsionWeight,
@@ -148,16 +154,11 @@ namespace Bespoke
                 dhat = Dhat,
                 inflation_dhat = InflationDhat,
                 inflation_barrier_weight = InflationBarrierWeight,
-                voxel = Voxel,
-                separation_floor = SeparationFloor,
+                voxel_size = VoxelSize,
+                min_separation = MinSeparation,
                 tolerance = Tolerance,
                 max_iterations = MaxIterations,
                 surface_form = SurfaceForm,
-                memory_limit = MemoryLimit,
-                strict = Strict ? 1u : 0u,
-                offset = Offset,
-                fit_distance = FitDistance,
-                pin_weight = PinWeight,
             };
         }
     }

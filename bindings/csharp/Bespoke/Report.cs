@@ -4,7 +4,7 @@ namespace Bespoke
     /// <summary>The work of one stage.</summary>
     public sealed class Work
     {
-        internal Work(NativeWork native)
+        internal Work(NativeStageReport native)
         {
             Seconds = native.seconds;
             Iterations = checked((int)native.iterations);
@@ -52,12 +52,12 @@ namespace Bespoke
             AvatarTriangles = checked((long)native->avatar_triangles);
             SubdividedAvatarVertices = checked((long)native->subdivided_avatar_vertices);
             SubdividedAvatarTriangles = checked((long)native->subdivided_avatar_triangles);
-            SeparationFloor = native->separation_floor;
+            MinSeparation = native->min_separation;
             IsVerified = native->is_verified != 0;
             IsConverged = native->is_converged != 0;
             EnergyCount = checked((int)native->energy_count);
             MemoryBytes = checked((long)native->memory_bytes);
-            GarmentIntersectionsAtStart = checked((long)native->garment_intersections_at_start);
+            InitialSelfIntersections = checked((long)native->initial_self_intersections);
         }
 
         /// <summary>Threads that the session works with.</summary>
@@ -123,7 +123,7 @@ namespace Bespoke
         /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where
         /// the coordinates of the result are coarse.
         /// </summary>
-        public double SeparationFloor { get; }
+        public double MinSeparation { get; }
 
         /// <summary>Whether the verifier has looked at the result.</summary>
         public bool IsVerified { get; }
@@ -138,7 +138,7 @@ namespace Bespoke
         public long MemoryBytes { get; }
 
         /// <summary>Intersecting or touching pairs within the garment at the start, which are let off.</summary>
-        public long GarmentIntersectionsAtStart { get; }
+        public long InitialSelfIntersections { get; }
     }
 
     /// <summary>One term of the objective.</summary>
@@ -167,7 +167,7 @@ namespace Bespoke
         internal Intersections(NativeIntersections native)
         {
             GarmentGarment = checked((long)native.garment_garment);
-            SinceStart = checked((long)native.since_start);
+            Initial = checked((long)native.initial);
             GarmentAvatar = checked((long)native.garment_avatar);
         }
 
@@ -178,7 +178,7 @@ namespace Bespoke
         /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may
         /// keep some of them.
         /// </summary>
-        public long SinceStart { get; }
+        public long Initial { get; }
 
         /// <summary>Of the garment with the avatar or the layers that it wears.</summary>
         public long GarmentAvatar { get; }

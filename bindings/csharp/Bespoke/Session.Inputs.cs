@@ -153,21 +153,21 @@ namespace Bespoke
         /// <param name="space">The space.</param>
         /// <exception cref="BespokeException">InvalidArgument (two axes along one coordinate, an absurd unit),
         /// InvalidState, Busy, Internal.</exception>
-        public unsafe void SetSourceSpace(CoordinateSystem space)
+        public unsafe void SetSourceCoordinateSystem(CoordinateSystem space)
         {
-            NativeSpace native = NotNull(space, nameof(space)).ToNative();
-            Check(Native.bespoke_session_set_source_space(handle, &native));
+            NativeCoordinateSystem native = NotNull(space, nameof(space)).ToNative();
+            Check(Native.bespoke_session_set_source_coordinate_system(handle, &native));
         }
 
         /// <summary>
         /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
         /// </summary>
         /// <param name="space">The space.</param>
-        /// <exception cref="BespokeException">As for <see cref="SetSourceSpace"/>.</exception>
-        public unsafe void SetTargetSpace(CoordinateSystem space)
+        /// <exception cref="BespokeException">As for <see cref="SetSourceCoordinateSystem"/>.</exception>
+        public unsafe void SetTargetCoordinateSystem(CoordinateSystem space)
         {
-            NativeSpace native = NotNull(space, nameof(space)).ToNative();
-            Check(Native.bespoke_session_set_target_space(handle, &native));
+            NativeCoordinateSystem native = NotNull(space, nameof(space)).ToNative();
+            Check(Native.bespoke_session_set_target_coordinate_system(handle, &native));
         }
 
         /// <summary>
@@ -177,17 +177,17 @@ namespace Bespoke
         /// <param name="weights">One number for each garment vertex, finite and not negative.</param>
         /// <exception cref="BespokeException">InvalidArgument, InvalidWeights (a wrong size may be found only by
         /// <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
-        public unsafe void SetFitWeights(FloatView weights)
+        public unsafe void SetVertexFitWeights(FloatView weights)
         {
             fixed (byte* w = &MemoryMarshal.GetReference(weights.Bytes))
             {
                 NativeView numbers = weights.Pinned(w, 1, "fit weights");
-                Check(Native.bespoke_session_set_fit_weights(handle, &numbers));
+                Check(Native.bespoke_session_set_vertex_fit_weights(handle, &numbers));
             }
         }
 
         /// <summary>
-        /// Optional: the garment vertices that are not drawn to the body. The same as <see cref="SetFitWeights"/>,
+        /// Optional: the garment vertices that are not drawn to the body. The same as <see cref="SetVertexFitWeights"/>,
         /// which this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed
         /// do not fit. State: Setup, with the garment set.
         /// </summary>

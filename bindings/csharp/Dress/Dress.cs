@@ -66,7 +66,7 @@ internal static class Dress
             {
                 if (diagnostic.Severity != Severity.Note)
                 {
-                    Console.Error.WriteLine($"{diagnostic.Severity}: {diagnostic.Sentence}");
+                    Console.Error.WriteLine($"{diagnostic.Severity}: {diagnostic.Message}");
                 }
             }
             garment.Write(paths[4], session.ReadGarmentVertices());

@@ -36,7 +36,7 @@ pub struct ContactDistances {
 impl ContactDistances {
     /// The distances that `options` ask for.
     pub fn of(options: &Options) -> Self {
-        let Options { dhat, inflation_dhat, separation_floor: min_separation, .. } = *options;
+        let Options { dhat, inflation_dhat, min_separation, .. } = *options;
         Self { dhat_self: dhat, dhat, inflation_dhat, min_separation }
     }
 

@@ -227,13 +227,13 @@ fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Finding> {
              skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
             done.join(", and ")
         );
-        findings.push(Finding::new(FindingKind::AvatarPokes, Severity::Warning, &elements, sentence));
+        findings.push(Finding::new(FindingKind::AvatarPenetrates, Severity::Warning, &elements, sentence));
     }
     let triangles = through(None);
     if !triangles.is_empty() {
         let sentence = "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; \
                         the cycle was cut open; check the result there";
-        findings.push(Finding::new(FindingKind::AvatarPokes, Severity::Warning, &triangles, sentence));
+        findings.push(Finding::new(FindingKind::AvatarPenetrates, Severity::Warning, &triangles, sentence));
     }
     findings
 }
@@ -259,7 +259,7 @@ fn refusal_of(poke: &Poke, source: &Skeleton, avatar: &Body) -> Finding {
         poke.garment,
         place(poke.bone, source)
     );
-    Finding::new(FindingKind::AvatarPokes, Severity::Error, &elements, sentence)
+    Finding::new(FindingKind::AvatarPenetrates, Severity::Error, &elements, sentence)
 }
 
 fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {

@@ -7,12 +7,11 @@ use bespoke::options::Options;
 use super::{retarget, root, succeed};
 
 /// Options of the library that have another name in the program, and why.
-const OTHERWISE: [(&str, &str); 3] = [
+const OTHERWISE: [(&str, &str); 2] = [
     // A flag, for there are two forms only.
     ("surface_form", "--printed-surface"),
     // Named for what they are before the library's options were.
-    ("voxel", "--voxel-size"),
-    ("separation_floor", "--min-separation"),
+    ("min_separation", "--min-separation"),
 ];
 
 /// Fields that are no options.

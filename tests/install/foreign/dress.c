@@ -53,7 +53,7 @@ static BespokeStatus dress(BespokeSession *session) {
     memset(&options, 0, sizeof options);
     options.struct_size = sizeof options;
     options.threads = 2;
-    options.voxel = 0.05;
+    options.voxel_size = 0.05;
     BespokeStatus status = bespoke_session_set_options(session, &options);
     if (status == BESPOKE_STATUS_OK) status = set_tube(session, bespoke_session_set_garment, SLEEVE_RINGS, 0.3, 0.5);
     if (status == BESPOKE_STATUS_OK) status = set_tube(session, bespoke_session_set_target_avatar, ARM_RINGS, 0.4, 0.9);

@@ -73,7 +73,7 @@ impl Arguments {
                 "--position-weight" => options.position_weight = number(&name, &value()?)?,
                 "--barrier-weight" => options.barrier_weight = number(&name, &value()?)?,
                 "--dhat" => options.dhat = number(&name, &value()?)?,
-                "--voxel" => options.voxel = number(&name, &value()?)?,
+                "--voxel" => options.voxel_size = number(&name, &value()?)?,
                 "--tolerance" => options.tolerance = number(&name, &value()?)?,
                 _ => return Err(format!("{name} is no option")),
             }

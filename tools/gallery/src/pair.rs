@@ -135,7 +135,7 @@ pub fn session(garment: &Sample, body: &Sample, mannequin: Option<&Sample>, opti
     if !garment.no_fit.is_empty() {
         let mut weights = vec![1.0; garment.mesh.positions.len()];
         garment.no_fit.iter().for_each(|&v| weights[v as usize] = 0.0);
-        session.set_fit_weights(weights)?;
+        session.set_vertex_fit_weights(weights)?;
     }
     Ok(session)
 }

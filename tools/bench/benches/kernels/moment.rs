@@ -67,7 +67,8 @@ impl Moment {
                 return Err("the inflation does not end".into());
             }
         }
-        let field = Field::build(&problem.avatar, FieldOptions { voxel: options.voxel, threads: 1 }, &Cancel::new())?;
+        let field =
+            Field::build(&problem.avatar, FieldOptions { voxel: options.voxel_size, threads: 1 }, &Cancel::new())?;
         let mut next = problem.fit_objective(Arc::new(field), &state.x, &options, &Cancel::new())?;
         next.contact.inherit_state(&objective.contact);
         objective = next;

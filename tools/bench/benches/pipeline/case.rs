@@ -103,7 +103,7 @@ impl Inputs {
             session.set_target_skin(skin.clone())?;
         }
         if let Some(weights) = &self.fit_weights {
-            session.set_fit_weights(weights.clone())?;
+            session.set_vertex_fit_weights(weights.clone())?;
         }
         Ok(session)
     }

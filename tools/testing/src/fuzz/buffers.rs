@@ -42,11 +42,11 @@ pub fn run(bytes: &[u8]) {
             4 => pair(&caller, source, "set_target_skeleton", bespoke_session_set_target_skeleton, 2),
             5 => dense_skin(&caller, source),
             6 => sparse_skin(&caller, source),
-            7 => single(&caller, source, "set_fit_weights", bespoke_session_set_fit_weights, true),
+            7 => single(&caller, source, "set_vertex_fit_weights", bespoke_session_set_vertex_fit_weights, true),
             8 => single(&caller, source, "set_no_fit_vertices", bespoke_session_set_no_fit_vertices, false),
             9 => options(&caller, source),
-            10 => space(&caller, source, bespoke_session_set_source_space),
-            11 => space(&caller, source, bespoke_session_set_target_space),
+            10 => space(&caller, source, bespoke_session_set_source_coordinate_system),
+            11 => space(&caller, source, bespoke_session_set_target_coordinate_system),
             12 => output(&caller, source, bespoke_session_read_garment_vertices),
             13 => output(&caller, source, bespoke_session_read_avatar_vertices),
             14 => filled_structs(&caller, source),
@@ -255,7 +255,7 @@ fn any_struct<T>(source: &mut Source, base: &T) -> Vec<u64> {
 }
 
 fn options(caller: &Caller, source: &mut Source) {
-    let base = BespokeOptions { threads: 1, voxel: 0.1, max_iterations: 4, ..no_options() };
+    let base = BespokeOptions { threads: 1, voxel_size: 0.1, max_iterations: 4, ..no_options() };
     let mut words = any_struct(source, &base);
     let pointer = words.as_mut_ptr().cast::<BespokeOptions>();
     // SAFETY: the words hold at least one struct.
@@ -265,8 +265,8 @@ fn options(caller: &Caller, source: &mut Source) {
         given.threads = 1 + given.threads % 3;
     }
     given.max_iterations = 1 + given.max_iterations % 16;
-    if given.voxel == 0.0 || (1e-3..0.05).contains(&given.voxel) {
-        given.voxel = 0.05;
+    if given.voxel_size == 0.0 || (1e-3..0.05).contains(&given.voxel_size) {
+        given.voxel_size = 0.05;
     }
     // SAFETY: the session is alive and the struct as large as it says.
     caller.after("set_options", unsafe { bespoke_session_set_options(caller.session, pointer) });
@@ -275,10 +275,10 @@ fn options(caller: &Caller, source: &mut Source) {
 fn space(
     caller: &Caller,
     source: &mut Source,
-    set: unsafe extern "C" fn(*mut BespokeSession, *const BespokeSpace) -> BespokeStatus,
+    set: unsafe extern "C" fn(*mut BespokeSession, *const BespokeCoordinateSystem) -> BespokeStatus,
 ) {
     let axes = [[0, 0, 0], [1, 3, 6], [1, 5, 3], [2, 3, 5], [4, 5, 1], [1, 2, 3]][source.below(6)];
-    let base = BespokeSpace {
+    let base = BespokeCoordinateSystem {
         struct_size: 0,
         right: axes[0],
         up: axes[1],

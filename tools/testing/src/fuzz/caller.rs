@@ -53,7 +53,7 @@ impl Caller {
 
     /// Options under which a run takes milliseconds.
     pub fn set_options(&self, max_iterations: u32, voxel: f64, threads: u32) {
-        let options = BespokeOptions { max_iterations, voxel, threads, ..no_options() };
+        let options = BespokeOptions { max_iterations, voxel_size: voxel, threads, ..no_options() };
         // SAFETY: the session is alive and the struct as large as it says.
         let status = unsafe { bespoke_session_set_options(self.session, &options) };
         assert_eq!(self.after("set_options", status), BespokeStatus::Ok, "{}", self.message());
@@ -135,7 +135,7 @@ unsafe fn diagnostics(session: *const BespokeSession) {
         }
         // SAFETY: the bytes of an array of characters.
         let sentence =
-            unsafe { std::slice::from_raw_parts(diagnostic.sentence.as_ptr().cast(), diagnostic.sentence.len()) };
+            unsafe { std::slice::from_raw_parts(diagnostic.message.as_ptr().cast(), diagnostic.message.len()) };
         let sentence = CStr::from_bytes_until_nul(sentence).expect("a zero byte ends a sentence");
         assert!(sentence.to_str().is_ok_and(|text| text.is_empty() == (k >= count)));
     }

@@ -157,7 +157,7 @@ impl Program {
             known("create", bespoke_session_create(&mut self.sessions[slot]), BespokeStatus::Ok);
         }
         let session = self.sessions[slot];
-        let options = BespokeOptions { max_iterations: 8, voxel: 0.1, threads: 1, ..no_options() };
+        let options = BespokeOptions { max_iterations: 8, voxel_size: 0.1, threads: 1, ..no_options() };
         // SAFETY: the session is alive and the struct as large as it says.
         let status = unsafe { after(session, "set_options", bespoke_session_set_options(session, &options)) };
         assert_eq!(status, BespokeStatus::Ok);
@@ -247,7 +247,7 @@ impl Program {
                 }
                 2 => {
                     let view = Array::floats(&numbers, 1, 0, is_double);
-                    bespoke_session_set_fit_weights(session, &view.view())
+                    bespoke_session_set_vertex_fit_weights(session, &view.view())
                 }
                 3 => {
                     let view = Array::indices(&indices, 1, 0, is_double);
@@ -285,8 +285,8 @@ impl Program {
 
     fn set_space(&self, session: *mut BespokeSession, source: &mut Source) {
         let axis = |source: &mut Source| u32::from(source.byte() % 8);
-        let space = BespokeSpace {
-            struct_size: size_of::<BespokeSpace>() as u32 - u32::from(source.one_in(16)),
+        let space = BespokeCoordinateSystem {
+            struct_size: size_of::<BespokeCoordinateSystem>() as u32 - u32::from(source.one_in(16)),
             right: axis(source),
             up: axis(source),
             forward: axis(source),
@@ -295,7 +295,11 @@ impl Program {
             reserved: u32::from(source.one_in(16)),
         };
         let space = or_null(&space, source);
-        let set = if source.one_in(2) { bespoke_session_set_source_space } else { bespoke_session_set_target_space };
+        let set = if source.one_in(2) {
+            bespoke_session_set_source_coordinate_system
+        } else {
+            bespoke_session_set_target_coordinate_system
+        };
         // SAFETY: the session is null or alive, the struct null or as large as it says.
         unsafe { after(session, "set_space", set(session, space)) };
     }
@@ -304,7 +308,7 @@ impl Program {
         let mut options = BespokeOptions {
             threads: source.between(1, 3) as u32,
             max_iterations: source.between(1, 16) as u32,
-            voxel: source.within(0.05, 0.2),
+            voxel_size: source.within(0.05, 0.2),
             surface_form: u32::from(source.byte() % 3),
             ..no_options()
         };
@@ -319,7 +323,7 @@ impl Program {
             &mut options.dhat,
             &mut options.inflation_dhat,
             &mut options.inflation_barrier_weight,
-            &mut options.separation_floor,
+            &mut options.min_separation,
             &mut options.tolerance,
         ];
         for number in numbers {

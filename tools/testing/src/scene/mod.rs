@@ -149,8 +149,8 @@ impl Scene {
     pub fn session(&self) -> Result<Session> {
         let mut session = Session::new();
         session.set_options(self.options.clone())?;
-        session.set_source_space(self.source_coordinate_system)?;
-        session.set_target_space(self.target_coordinate_system)?;
+        session.set_source_coordinate_system(self.source_coordinate_system)?;
+        session.set_target_coordinate_system(self.target_coordinate_system)?;
         session.set_garment(self.garment.clone(), self.precision)?;
         session.set_source_skeleton(self.source_skeleton.clone())?;
         session.set_target_avatar(self.avatar.clone())?;
@@ -162,7 +162,7 @@ impl Scene {
             session.set_target_skin(skin.clone())?;
         }
         if let Some(weights) = &self.fit_weights {
-            session.set_fit_weights(weights.clone())?;
+            session.set_vertex_fit_weights(weights.clone())?;
         }
         Ok(session)
     }

@@ -80,7 +80,7 @@ fn space(random: &mut Random) -> CoordinateSystem {
 }
 
 fn options(random: &mut Random, hard: bool) -> Options {
-    let defaults = Options { threads: 1, voxel: 0.02, ..Options::default() };
+    let defaults = Options { threads: 1, voxel_size: 0.02, ..Options::default() };
     if hard {
         let mut log = |low: f64, high: f64| 10f64.powf(between(random, low, high));
         let options = Options {
@@ -91,8 +91,8 @@ fn options(random: &mut Random, hard: bool) -> Options {
             inflation_barrier_weight: log(3.0, 12.0),
             dhat: log(-4.0, -1.3),
             inflation_dhat: log(-4.0, -1.3),
-            separation_floor: log(-7.0, -4.5),
-            voxel: log(-2.0, -0.8),
+            min_separation: log(-7.0, -4.5),
+            voxel_size: log(-2.0, -0.8),
             tolerance: log(-6.0, -1.0),
             max_iterations: 1 + below(random, 200) as u32,
             ..defaults
@@ -111,7 +111,7 @@ fn options(random: &mut Random, hard: bool) -> Options {
         position_weight: between(random, 0.0, 20.0),
         dhat: between(random, 0.001, 0.004),
         inflation_dhat: between(random, 0.005, 0.015),
-        voxel: between(random, 0.01, 0.04),
+        voxel_size: between(random, 0.01, 0.04),
         surface_form: if chance(random, 0.3) { SurfaceForm::Printed } else { SurfaceForm::Similarity },
         ..defaults
     }
