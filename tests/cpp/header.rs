@@ -108,11 +108,12 @@ fn the_header_leaks_no_macro_and_is_light() {
 fn a_library_of_another_binary_interface_is_refused() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cpp-other-abi");
     fs::create_dir_all(&folder).expect("a folder for the test");
-    let (old, new) = ("#define BESPOKE_ABI_VERSION 1\n", "#define BESPOKE_ABI_VERSION 4711\n");
+    let old = format!("#define BESPOKE_ABI_VERSION {}\n", bespoke::capi::version::BESPOKE_ABI_VERSION);
+    let new = "#define BESPOKE_ABI_VERSION 4711\n";
     let header = text("include/bespoke.h");
-    assert!(header.contains(old));
+    assert!(header.contains(&old));
     let source = folder.join("other.cpp");
-    fs::write(folder.join("bespoke.h"), header.replace(old, new)).expect("a header");
+    fs::write(folder.join("bespoke.h"), header.replace(&old, new)).expect("a header");
     fs::write(folder.join("bespoke.hpp"), text("include/bespoke.hpp")).expect("a header");
     let program = "#include \"bespoke.hpp\"\n\
                    int main() {\n\
@@ -126,7 +127,8 @@ fn a_library_of_another_binary_interface_is_refused() {
     let output = run(&program, &[]);
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{said}");
-    for word in ["4711", "interface 1,", env!("CARGO_PKG_VERSION")] {
+    let ours = format!("interface {},", bespoke::capi::version::BESPOKE_ABI_VERSION);
+    for word in ["4711", &ours, env!("CARGO_PKG_VERSION")] {
         assert!(said.contains(word), "{said}");
     }
 }

@@ -40,8 +40,9 @@ fn it_dresses_where_nothing_is_installed() {
     // The loader by its own name, and what it finds for the program here that is of the system.
     let listed = succeed(Command::new("ldd").arg(program(folder)));
     let system = listed.lines().filter_map(|line| line.split_whitespace().find(|word| word.starts_with('/')));
+    let loaded = format!("libbespoke.so.{}", bespoke::capi::version::BESPOKE_ABI_VERSION);
     let mut names = Vec::new();
-    for file in system.map(Path::new).filter(|file| !file.ends_with("libbespoke.so.1") && !file.starts_with(folder)) {
+    for file in system.map(Path::new).filter(|file| !file.ends_with(&loaded) && !file.starts_with(folder)) {
         let name = file.file_name().expect("a file").to_string_lossy().into_owned();
         let place = if name.starts_with("ld-") {
             machine.join(&file.to_string_lossy()[1..])

@@ -126,7 +126,7 @@ pub fn tree(folder: &Path) -> BTreeSet<String> {
     found
 }
 
-/// The file name of the library, such as `libbespoke.so.1.0.1.0`.
+/// The file name of the library, such as `libbespoke.so.2.0.1.0`.
 pub fn library_file() -> String {
     format!("{}.{}", library_name(), env!("CARGO_PKG_VERSION"))
 }

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use crate::process::{temporary, this_program};
 
 /// A folder with the library that was built beside these tests, under the name for the linker (`libbespoke.so`) and the
-/// one for the loader (`libbespoke.so.1`).
+/// one for the loader (`libbespoke.so.2`).
 pub fn folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
