@@ -10,7 +10,7 @@ use super::inputs::Inputs;
 use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
-use crate::input::diagnostic::Finding;
+use crate::input::diagnostic::Diagnostic;
 use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
@@ -53,7 +53,7 @@ pub(super) struct Run {
     /// The distance field, once it is there.
     distance: Option<Arc<Field>>,
     /// What the result falls short of.
-    pub(super) shortfalls: Vec<Finding>,
+    pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
 }
 
@@ -65,12 +65,12 @@ enum Step {
 
 impl Run {
     /// Step 1: poses the problem of `inputs`, begins to build the distance field with so many threads, and sets up Step 2.
-    /// What is worth knowing goes to `findings`, also where it fails.
+    /// What is worth knowing goes to `diagnostics`, also where it fails.
     pub(super) fn prepare(
         inputs: &Inputs,
         threads: usize,
         context: Context,
-        findings: &mut Vec<Finding>,
+        diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let stop = &context.stop;
         Fault::Prepare.at(context.fault);
@@ -79,14 +79,14 @@ impl Run {
         let held = inputs.memory();
         let sizes = inputs.sizes();
         limit.reserving(held).check(&sizes.estimate())?;
-        let (problem, body) = inputs.pose_problem(stop, findings)?;
+        let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
         stop.check()?;
         let expected = Field::estimate(&problem.avatar, inputs.options.voxel)?;
         let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
         limit.reserving(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut objective = problem.inflation_objective(&inputs.options, stop, findings)?;
+        let mut objective = problem.inflation_objective(&inputs.options, stop, diagnostics)?;
         stop.check()?;
         let held = held + problem.memory();
         let budget = limit.reserving(held + expected + objective.memory());
