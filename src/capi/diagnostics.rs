@@ -189,8 +189,8 @@ impl From<&Diagnostic> for BespokeDiagnostic {
     }
 }
 
-/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
-/// verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, what holds the
+/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
 /// are.
 ///
 /// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use super::diagnostic::{Diagnostic, Element, Subject};
+use super::diagnostic::{Bone, Diagnostic, Element, Subject};
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -97,7 +97,40 @@ impl Display for Diagnostic {
                 "garment: rigid group {group} ends bent, by {distance:.1e} at vertex {vertex} in units in which the skeleton is \
                  2 long, for the body or another part of the garment is in its way"
             ),
-            Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => Ok(()),
+            Self::InflationHeld { garment, part, held, .. } => write!(
+                f,
+                "target avatar: the garment holds back the part around {}, which pushes it from one side (garment triangle \
+                 {garment}, {}; {held} garment triangles in all): it is caught on that part, or too tight or too stiff there, or \
+                 needs more iterations; lower inflation_dhat or inflation_barrier_weight, raise max_iterations, or leave that \
+                 part out of the body",
+                bone_name(part.bone),
+                avatar_triangle(part.triangle),
+            ),
+            Self::InflationSqueezed { garment, parts, same, gap, inflation_dhat } => {
+                let [a, b] = parts.map(|part| avatar_triangle(part.triangle));
+                let who = match (parts.map(|part| bone_name(part.bone)), same) {
+                    ([one, _], true) => format!("two sides of the part around {one}"),
+                    ([one, other], false) => format!("the parts around {one} and {other}"),
+                };
+                match gap {
+                    None => write!(
+                        f,
+                        "target avatar: {who} touch each other at full size (near {a} and {b}), and the garment is between \
+                         them (garment triangle {garment}): no garment can pass there; move the limbs apart, or leave one part \
+                         out of the body"
+                    ),
+                    Some(gap) => {
+                        let narrow = if *gap < 2.0 * inflation_dhat { ", less than two inflation_dhat" } else { "" };
+                        write!(
+                            f,
+                            "target avatar: {who} hold the garment between them (garment triangle {garment}, {a} and {b}); at \
+                             full size these are {gap:.1e} apart{narrow}, in units in which the skeleton is 2 long; lower \
+                             inflation_dhat (it is {inflation_dhat}) or inflation_barrier_weight, raise max_iterations, or move \
+                             the limbs apart"
+                        )
+                    }
+                }
+            }
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }
@@ -146,6 +179,14 @@ pub fn at_bone(joints: Option<[u32; 2]>) -> String {
     match joints {
         Some([a, b]) => format!("at the bone between joints {a} and {b}"),
         None => "between bones that form a cycle".to_string(),
+    }
+}
+
+/// A bone of a part of the avatar: "bone 3 (joints 3-4)".
+fn bone_name(bone: Option<Bone>) -> String {
+    match bone {
+        Some(Bone { index, joints: [a, b] }) => format!("bone {index} (joints {a}-{b})"),
+        None => "bones that form a cycle".to_string(),
     }
 }
 

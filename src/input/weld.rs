@@ -135,7 +135,7 @@ impl Weld {
 }
 
 /// The welded vertex of each vertex, and the lowest vertex of each welded one, in the order of those.
-fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
+pub fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
     // Adding 0 turns -0 into 0.
     let key = |v: u32| garment.positions[v as usize].to_array().map(|x| (x + 0.0).to_bits());
     let mut order: Vec<([u64; 3], u32)> = (0..garment.positions.len() as u32).map(|v| (key(v), v)).collect();

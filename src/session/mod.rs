@@ -179,7 +179,7 @@ impl Session {
         };
         let stop = work.context.stop.clone();
         let control = &self.control;
-        let (work, outcome) = pool.run(
+        let (mut work, outcome) = pool.run(
             || control.is_cancelled(),
             &stop,
             move || {
@@ -190,6 +190,11 @@ impl Session {
         self.report = work.report.clone();
         if let Some(view) = &mut self.snapshot {
             view.follow(&work);
+        }
+        if let Err(error) = &outcome
+            && error.kind == ErrorKind::InflationStalled
+        {
+            self.diagnostics.append(&mut work.shortfalls);
         }
         self.work = Some(work);
         outcome
@@ -234,7 +239,8 @@ impl Session {
         self.step(Budget::default())
     }
 
-    /// What is worth knowing about the inputs, since prepare, and about the result; in the caller's indices.
+    /// What is worth knowing about the inputs, since prepare, about the result, and about what holds the garment where the
+    /// inflation stalled; in the caller's indices.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }

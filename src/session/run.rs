@@ -16,6 +16,7 @@ use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
+use crate::stage::blockage;
 use crate::stage::finish;
 use crate::stage::fit::FitStage;
 use crate::stage::inflate::Inflation;
@@ -52,7 +53,7 @@ pub(super) struct Run {
     expected: u64,
     /// The distance field, once it is there.
     distance: Option<Arc<Field>>,
-    /// What the result falls short of.
+    /// What the result falls short of, or what holds the garment where there is none.
     pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
 }
@@ -150,9 +151,12 @@ impl Run {
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
             Step::Inflate(inflation) => {
-                check_limit(inflation.iterations, options, "inflation", self.state.t)?;
-                let ended = inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state)?;
-                (Stage::Inflate, ended)
+                let ended = check_limit(inflation.iterations, options, "inflation", self.state.t)
+                    .and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state));
+                match ended {
+                    Ok(ended) => (Stage::Inflate, ended),
+                    Err(error) => return Err(self.explained(error)),
+                }
             }
             Step::Fit(fit) => {
                 let converged = fit.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
@@ -181,6 +185,18 @@ impl Run {
             }
             (_, true) => Ok(Stage::Verify),
         }
+    }
+
+    /// Where the inflation has stalled, finds what holds the garment, and points to it in the message.
+    fn explained(&mut self, mut error: Error) -> Error {
+        if error.kind == ErrorKind::InflationStalled {
+            let at = self.state.configuration();
+            self.shortfalls = blockage::find(&self.problem, &self.body, &mut self.objective, at);
+            if !self.shortfalls.is_empty() {
+                error.message += "; the diagnostics name what holds the garment";
+            }
+        }
+        error
     }
 
     /// Step 3 is to go on with wider distances. False where that was done often enough.

@@ -73,6 +73,8 @@ pub struct Problem {
     pub avatar: Arc<TriangleMesh>,
     /// The avatar with its layers between skeleton and full size.
     pub projected: ProjectedAvatar,
+    /// The joints at the ends of each bone.
+    pub bones: Vec<[u32; 2]>,
     /// The shape terms.
     pub shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
@@ -152,6 +154,7 @@ impl Problem {
             weld: inputs.weld.clone(),
             avatar: avatar.mesh,
             projected,
+            bones: inputs.source_skeleton.bones.clone(),
             shape: Arc::new(shape),
             fit_weights,
             source_body,
