@@ -24,6 +24,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION] = "result_intersection",
     [BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED] = "pin_not_reached",
     [BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT] = "rigid_group_bent",
+    [BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED] = "inflation_blocked",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

@@ -270,6 +270,10 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED = 12,
   /// A rigid group of garment vertices ended bent, for something stands in its way.
   BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT = 13,
+  /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A garment
+  /// triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between
+  /// the garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
+  BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED = 14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -947,8 +951,8 @@ BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
 
-/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
-/// verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, what holds the
+/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
 /// are.
 ///
 /// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.

@@ -133,6 +133,7 @@ enum class DiagnosticKind : std::uint32_t {
     result_intersection = BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION,
     pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
     rigid_group_bent = BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT,
+    inflation_blocked = BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.

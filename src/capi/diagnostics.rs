@@ -6,7 +6,7 @@ use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
 use crate::capi::text;
 use crate::capi::view::invalid;
-use crate::input::diagnostic::{Element, ElementKind, Finding, FindingKind, Severity, Subject};
+use crate::input::diagnostic::{Diagnostic, DiagnosticKind, Element, ElementKind, Severity, Subject};
 
 /// Bytes of the message in BespokeDiagnostic, its zero byte included.
 pub const BESPOKE_MESSAGE_SIZE: usize = 512;
@@ -46,6 +46,10 @@ pub enum BespokeDiagnosticKind {
     PinNotReached = 12,
     /// A rigid group of garment vertices ended bent, for something stands in its way.
     RigidGroupBent = 13,
+    /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A garment
+    /// triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between
+    /// the garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
+    InflationBlocked = 14,
 }
 
 /// How much a diagnostic matters.
@@ -142,33 +146,36 @@ impl From<&Element> for BespokeElement {
     }
 }
 
-impl From<&Finding> for BespokeDiagnostic {
-    fn from(finding: &Finding) -> Self {
-        let kind = match finding.kind {
-            FindingKind::SplitVertices => BespokeDiagnosticKind::SplitVertices,
-            FindingKind::DuplicateTriangle => BespokeDiagnosticKind::DuplicateTriangle,
-            FindingKind::DegenerateTriangle => BespokeDiagnosticKind::DegenerateTriangle,
-            FindingKind::NonManifoldEdge => BespokeDiagnosticKind::NonManifoldEdge,
-            FindingKind::UnusedVertex => BespokeDiagnosticKind::UnusedVertex,
-            FindingKind::LoosePiece => BespokeDiagnosticKind::LoosePiece,
-            FindingKind::SelfIntersection => BespokeDiagnosticKind::SelfIntersection,
-            FindingKind::NearContact => BespokeDiagnosticKind::NearContact,
-            FindingKind::AvatarPenetrates => BespokeDiagnosticKind::AvatarPenetrates,
-            FindingKind::CoarseCoordinates => BespokeDiagnosticKind::CoarseCoordinates,
-            FindingKind::ResultIntersection => BespokeDiagnosticKind::ResultIntersection,
-            FindingKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
-            FindingKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
+impl From<&Diagnostic> for BespokeDiagnostic {
+    fn from(diagnostic: &Diagnostic) -> Self {
+        let kind = match diagnostic.kind() {
+            DiagnosticKind::SplitVertices => BespokeDiagnosticKind::SplitVertices,
+            DiagnosticKind::DuplicateTriangle => BespokeDiagnosticKind::DuplicateTriangle,
+            DiagnosticKind::DegenerateTriangle => BespokeDiagnosticKind::DegenerateTriangle,
+            DiagnosticKind::NonManifoldEdge => BespokeDiagnosticKind::NonManifoldEdge,
+            DiagnosticKind::UnusedVertex => BespokeDiagnosticKind::UnusedVertex,
+            DiagnosticKind::LoosePiece => BespokeDiagnosticKind::LoosePiece,
+            DiagnosticKind::SelfIntersection => BespokeDiagnosticKind::SelfIntersection,
+            DiagnosticKind::NearContact => BespokeDiagnosticKind::NearContact,
+            DiagnosticKind::AvatarPenetrates => BespokeDiagnosticKind::AvatarPenetrates,
+            DiagnosticKind::CoarseCoordinates => BespokeDiagnosticKind::CoarseCoordinates,
+            DiagnosticKind::ResultIntersection => BespokeDiagnosticKind::ResultIntersection,
+            DiagnosticKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
+            DiagnosticKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
+            DiagnosticKind::InflationBlocked => BespokeDiagnosticKind::InflationBlocked,
         };
-        let severity = match finding.severity {
+        let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,
             Severity::Warning => BespokeSeverity::Warning,
             Severity::Error => BespokeSeverity::Error,
         };
-        let named = &finding.elements[..finding.elements.len().min(BESPOKE_MAX_ELEMENTS)];
+        let named = diagnostic.elements();
+        let named = &named[..named.len().min(BESPOKE_MAX_ELEMENTS)];
         let mut elements = [BespokeElement::default(); BESPOKE_MAX_ELEMENTS];
         elements.iter_mut().zip(named).for_each(|(to, from)| *to = from.into());
         let mut message = [0; BESPOKE_MESSAGE_SIZE];
-        let text = text::cut(&finding.sentence, BESPOKE_MESSAGE_SIZE - 1);
+        let text = diagnostic.to_string();
+        let text = text::cut(&text, BESPOKE_MESSAGE_SIZE - 1);
         message.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
         Self {
             kind: kind as u32,
@@ -176,14 +183,14 @@ impl From<&Finding> for BespokeDiagnostic {
             element_count: named.len() as u32,
             elements,
             reserved: 0,
-            distance: finding.distance,
+            distance: diagnostic.distance(),
             message,
         }
     }
 }
 
-/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, and what the
-/// verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
+/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, what holds the
+/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
 /// are.
 ///
 /// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
@@ -202,12 +209,12 @@ pub unsafe extern "C" fn bespoke_session_read_diagnostics(
             if diagnostics.is_null() && capacity > 0 {
                 return invalid(format!("diagnostics: the pointer is null, with room for {capacity}"));
             }
-            let findings = session.findings();
+            let found = session.diagnostics();
             if !count.is_null() {
-                count.write(findings.len());
+                count.write(found.len());
             }
-            for (k, finding) in findings.iter().take(capacity).enumerate() {
-                diagnostics.add(k).write(finding.into());
+            for (k, diagnostic) in found.iter().take(capacity).enumerate() {
+                diagnostics.add(k).write(diagnostic.into());
             }
             Ok(())
         })

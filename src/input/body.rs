@@ -91,12 +91,4 @@ impl Body {
             k => Element::triangle(Subject::Layer(k as u32 - 1), triangle - self.ends[k - 1]),
         }
     }
-
-    /// A triangle of the mesh, for a sentence: "avatar triangle 5", "triangle 7 of layer 0".
-    pub fn name(&self, triangle: u32) -> String {
-        match self.triangle(triangle) {
-            Element { subject: Subject::Layer(layer), index, .. } => format!("triangle {index} of layer {layer}"),
-            Element { index, .. } => format!("avatar triangle {index}"),
-        }
-    }
 }

@@ -1,6 +1,4 @@
-//! What is worth knowing about the inputs and the result, item by item: a sentence for people, elements for tools.
-
-use std::fmt;
+//! Diagnostics about the inputs and the result: typed data, whose sentences are made in [`super::diagnostic_text`] alone.
 
 /// Which of the caller's inputs an element belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -58,9 +56,9 @@ impl Element {
     }
 }
 
-/// What a finding is about.
+/// What a diagnostic is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum FindingKind {
+pub enum DiagnosticKind {
     /// Garment vertices in one place, as along UV seams, that move as one.
     SplitVertices,
     /// A garment triangle with the corners of another, which counts once.
@@ -87,9 +85,11 @@ pub enum FindingKind {
     PinNotReached,
     /// A rigid group of garment vertices ended bent, because something stands in its way.
     RigidGroupBent,
+    /// A part of the avatar that cannot grow because of the garment triangles in its way.
+    InflationBlocked,
 }
 
-/// How much a finding matters.
+/// How much a diagnostic matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// Good to know.
@@ -100,43 +100,314 @@ pub enum Severity {
     Error,
 }
 
-/// One finding.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// What it is about.
-    pub kind: FindingKind,
-    /// How much it matters.
-    pub severity: Severity,
-    /// The elements, in the caller's indices: at most four.
-    pub elements: Vec<Element>,
-    /// A distance in the normalised space (the skeleton is 2 long), NaN where the finding has none.
-    pub distance: f64,
-    /// One sentence for a person.
-    pub sentence: String,
+/// A bone, and the joints at its ends. Both skeletons share the joints' indices; the bone's is the source skeleton's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bone {
+    /// The caller's index in the source skeleton.
+    pub index: u32,
+    /// The joints at its ends.
+    pub joints: [u32; 2],
 }
 
-impl Finding {
-    /// A finding without a distance.
-    pub fn new(kind: FindingKind, severity: Severity, elements: &[Element], sentence: impl Into<String>) -> Self {
-        Self { kind, severity, elements: elements.to_vec(), distance: f64::NAN, sentence: sentence.into() }
+impl Bone {
+    fn element(self) -> Element {
+        Element::bone(Subject::SourceSkeleton, self.index)
     }
 }
 
-/// Largest number of findings for one reason.
+/// A part of the avatar: what moves with one bone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AvatarPart {
+    /// The bone; none where the part lies between bones that form a cycle.
+    pub bone: Option<Bone>,
+    /// A triangle of it, of the avatar or of a layer.
+    pub triangle: Element,
+}
+
+/// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Diagnostic {
+    /// Garment vertices share their place with another.
+    SplitVertices {
+        /// Vertices that do.
+        sharing: usize,
+        /// All vertices.
+        vertices: usize,
+        /// Places that they share.
+        shared_places: usize,
+        /// Places in all: the vertices that are solved for.
+        places: usize,
+        /// The first of those that share, at most four.
+        first: Vec<u32>,
+    },
+    /// A garment triangle has the corners of another.
+    DuplicateTriangle {
+        /// The copy.
+        triangle: u32,
+        /// The first with these corners.
+        of: u32,
+    },
+    /// A garment triangle has corners in one place.
+    CollapsedTriangle {
+        /// The triangle.
+        triangle: u32,
+        /// Its vertices.
+        corners: [u32; 3],
+        /// It counts as an edge that collides; else it is left out.
+        kept: bool,
+    },
+    /// A garment triangle has its corners on a line.
+    FlatTriangle {
+        /// The triangle.
+        triangle: u32,
+        /// Its vertices.
+        corners: [u32; 3],
+    },
+    /// A garment edge has more than two triangles.
+    NonManifoldEdge {
+        /// The ends of the edge.
+        vertices: [u32; 2],
+        /// How many triangles it has.
+        triangles: u32,
+    },
+    /// A garment vertex belongs to no triangle.
+    UnusedVertex {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// A loose piece of the garment is held to the piece beside it.
+    LoosePiece {
+        /// How many vertices the piece has.
+        vertices: usize,
+        /// A triangle of the piece.
+        triangle: u32,
+        /// The triangle nearest to it, of the piece that holds it.
+        host: u32,
+        /// The distance between the two.
+        distance: f64,
+    },
+    /// Two garment triangles intersect before anything has moved.
+    SelfIntersection {
+        /// The triangles.
+        triangles: [u32; 2],
+        /// They only touch, within rounding.
+        touches: bool,
+        /// The option `strict` refuses it.
+        strict: bool,
+    },
+    /// The garment is very near to itself or to the shrunk avatar at the start.
+    NearContact {
+        /// The garment vertices of the nearest pair.
+        vertices: Vec<u32>,
+        /// The smallest distance of the garment from itself; infinite where nothing is near.
+        to_itself: f64,
+        /// The smallest distance of the garment from the shrunk avatar; infinite where nothing is near.
+        to_avatar: f64,
+        /// The minimum separation with which the inflation begins.
+        min_separation: f64,
+    },
+    /// The shrunk avatar would pass through the garment at a bone, and its start was moved out of the way.
+    BoneMoved {
+        /// The bone.
+        bone: Bone,
+        /// Garment triangles that the avatar would pass through there, at most three.
+        triangles: Vec<u32>,
+        /// How far it was led aside.
+        aside: f64,
+        /// The length between its joints that was pulled back.
+        between: f64,
+        /// The length beyond its end that was pulled back.
+        beyond: f64,
+    },
+    /// The shrunk avatar would pass through the garment between bones that form a cycle, which was cut open.
+    CycleCut {
+        /// Garment triangles that the avatar would pass through there, at most three.
+        triangles: Vec<u32>,
+    },
+    /// The shrunk avatar passes through the garment, and no way around it was found.
+    AvatarPenetrates {
+        /// The garment triangle.
+        garment: u32,
+        /// The bone; none between bones that form a cycle.
+        bone: Option<Bone>,
+        /// The triangle of the avatar or of a layer.
+        avatar: Element,
+    },
+    /// The coordinates in which the result is read are coarse.
+    CoarseCoordinates {
+        /// The distance that the garment keeps for it.
+        min_separation: f64,
+    },
+    /// Two garment triangles intersect in the result and did not at the start.
+    ResultSelfIntersection {
+        /// The triangles.
+        triangles: [u32; 2],
+    },
+    /// A garment triangle intersects the avatar or a layer in the result.
+    ResultIntersection {
+        /// The garment triangle.
+        garment: u32,
+        /// The triangle of the avatar or of a layer.
+        avatar: Element,
+    },
+    /// A pinned garment vertex ended away from its place.
+    PinNotReached {
+        /// The vertex.
+        vertex: u32,
+        /// How far away.
+        distance: f64,
+    },
+    /// A rigid group of garment vertices ended bent.
+    RigidGroupBent {
+        /// Which group, in the order in which they were added, from 0.
+        group: usize,
+        /// The vertex that ended farthest from the rigid motion.
+        vertex: u32,
+        /// How far away.
+        distance: f64,
+    },
+    /// The inflation ended before its time, and one part of the avatar pushes against the garment from one side.
+    InflationHeld {
+        /// The garment triangle that is pushed hardest.
+        garment: u32,
+        /// The part that pushes.
+        part: AvatarPart,
+        /// How many garment triangles it pushes against.
+        held: usize,
+        /// The distance between the two triangles now.
+        distance: f64,
+    },
+    /// The inflation ended before its time, and the garment is between two parts of the avatar.
+    InflationSqueezed {
+        /// The garment triangle that is pushed hardest.
+        garment: u32,
+        /// The parts on its two sides.
+        parts: [AvatarPart; 2],
+        /// They are two sides of one part.
+        same: bool,
+        /// The distance of the two parts there at full size; none where they touch or overlap.
+        gap: Option<f64>,
+        /// What the option `inflation_dhat` was.
+        inflation_dhat: f64,
+    },
+    /// There are more of one sort than are listed.
+    More {
+        /// The first of them.
+        like: Box<Diagnostic>,
+        /// How many are not listed.
+        count: usize,
+    },
+}
+
+/// Largest number of diagnostics of one sort.
 const MOST: usize = 1000;
 
-/// Adds a finding for each of the first [`MOST`] items, and one more that counts the others: "100 more `others`".
-pub fn describe<T>(findings: &mut Vec<Finding>, items: &[T], finding: impl Fn(&T) -> Finding, others: &str) {
-    let first = findings.len();
-    findings.extend(items.iter().take(MOST).map(finding));
-    if items.len() > MOST {
-        let Finding { kind, severity, .. } = findings[first];
-        findings.push(Finding::new(kind, severity, &[], format!("{} more {others}", items.len() - MOST)));
+impl Diagnostic {
+    /// Adds a diagnostic for each of the first [`MOST`] items, all of one variant, and one more that counts the others.
+    pub fn list<T>(diagnostics: &mut Vec<Self>, items: &[T], diagnostic: impl Fn(&T) -> Self) {
+        let first = diagnostics.len();
+        diagnostics.extend(items.iter().take(MOST).map(diagnostic));
+        if items.len() > MOST {
+            let like = Box::new(diagnostics[first].clone());
+            diagnostics.push(Self::More { like, count: items.len() - MOST });
+        }
     }
-}
 
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.sentence)
+    /// What it is about.
+    pub fn kind(&self) -> DiagnosticKind {
+        match self {
+            Self::SplitVertices { .. } => DiagnosticKind::SplitVertices,
+            Self::DuplicateTriangle { .. } => DiagnosticKind::DuplicateTriangle,
+            Self::CollapsedTriangle { .. } | Self::FlatTriangle { .. } => DiagnosticKind::DegenerateTriangle,
+            Self::NonManifoldEdge { .. } => DiagnosticKind::NonManifoldEdge,
+            Self::UnusedVertex { .. } => DiagnosticKind::UnusedVertex,
+            Self::LoosePiece { .. } => DiagnosticKind::LoosePiece,
+            Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
+            Self::NearContact { .. } => DiagnosticKind::NearContact,
+            Self::BoneMoved { .. } | Self::CycleCut { .. } | Self::AvatarPenetrates { .. } => {
+                DiagnosticKind::AvatarPenetrates
+            }
+            Self::CoarseCoordinates { .. } => DiagnosticKind::CoarseCoordinates,
+            Self::ResultSelfIntersection { .. } | Self::ResultIntersection { .. } => DiagnosticKind::ResultIntersection,
+            Self::PinNotReached { .. } => DiagnosticKind::PinNotReached,
+            Self::RigidGroupBent { .. } => DiagnosticKind::RigidGroupBent,
+            Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
+            Self::More { like, .. } => like.kind(),
+        }
+    }
+
+    /// How much it matters.
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::SplitVertices { .. }
+            | Self::DuplicateTriangle { .. }
+            | Self::CollapsedTriangle { .. }
+            | Self::FlatTriangle { .. }
+            | Self::UnusedVertex { .. }
+            | Self::LoosePiece { .. }
+            | Self::NearContact { .. } => Severity::Note,
+            Self::NonManifoldEdge { .. }
+            | Self::SelfIntersection { strict: false, .. }
+            | Self::BoneMoved { .. }
+            | Self::CycleCut { .. }
+            | Self::CoarseCoordinates { .. }
+            | Self::PinNotReached { .. }
+            | Self::RigidGroupBent { .. } => Severity::Warning,
+            Self::SelfIntersection { strict: true, .. }
+            | Self::AvatarPenetrates { .. }
+            | Self::ResultSelfIntersection { .. }
+            | Self::ResultIntersection { .. }
+            | Self::InflationHeld { .. }
+            | Self::InflationSqueezed { .. } => Severity::Error,
+            Self::More { like, .. } => like.severity(),
+        }
+    }
+
+    /// The elements, in the caller's indices: at most four.
+    pub fn elements(&self) -> Vec<Element> {
+        let triangle = |t: u32| Element::triangle(Subject::Garment, t);
+        let vertex = |v: u32| Element::vertex(Subject::Garment, v);
+        match *self {
+            Self::SplitVertices { first: ref vertices, .. } | Self::NearContact { ref vertices, .. } => {
+                vertices.iter().map(|&v| vertex(v)).collect()
+            }
+            Self::DuplicateTriangle { triangle: t, of } => [t, of].map(triangle).into(),
+            Self::CollapsedTriangle { triangle: t, .. } | Self::FlatTriangle { triangle: t, .. } => vec![triangle(t)],
+            Self::NonManifoldEdge { vertices, .. } => vertices.map(vertex).into(),
+            Self::UnusedVertex { vertex: v }
+            | Self::PinNotReached { vertex: v, .. }
+            | Self::RigidGroupBent { vertex: v, .. } => vec![vertex(v)],
+            Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
+            Self::SelfIntersection { triangles, .. } | Self::ResultSelfIntersection { triangles } => {
+                triangles.map(triangle).into()
+            }
+            Self::BoneMoved { bone, ref triangles, .. } => {
+                std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
+            }
+            Self::CycleCut { ref triangles } => triangles.iter().map(|&t| triangle(t)).collect(),
+            Self::AvatarPenetrates { garment, bone, avatar } => {
+                std::iter::once(triangle(garment)).chain(bone.map(Bone::element)).chain([avatar]).collect()
+            }
+            Self::ResultIntersection { garment, avatar } => vec![triangle(garment), avatar],
+            Self::InflationHeld { garment, part, .. } => {
+                [triangle(garment), part.triangle].into_iter().chain(part.bone.map(Bone::element)).collect()
+            }
+            Self::InflationSqueezed { garment, parts: [a, b], .. } => vec![triangle(garment), a.triangle, b.triangle],
+            Self::CoarseCoordinates { .. } | Self::More { .. } => Vec::new(),
+        }
+    }
+
+    /// A distance; NaN where it has none.
+    pub fn distance(&self) -> f64 {
+        match *self {
+            Self::LoosePiece { distance, .. }
+            | Self::PinNotReached { distance, .. }
+            | Self::RigidGroupBent { distance, .. }
+            | Self::InflationHeld { distance, .. } => distance,
+            Self::NearContact { to_itself, to_avatar, .. } => to_itself.min(to_avatar),
+            Self::CoarseCoordinates { min_separation } => min_separation,
+            Self::InflationSqueezed { gap, .. } => gap.unwrap_or(0.0),
+            _ => f64::NAN,
+        }
     }
 }

@@ -4,6 +4,7 @@ pub mod body;
 pub mod buffer;
 pub mod coordinate_system;
 pub mod diagnostic;
+pub mod diagnostic_text;
 mod mesh;
 pub mod precision;
 pub mod skeleton;

@@ -1,6 +1,6 @@
 //! Split vertices and welded ones: a garment as a modelling tool stores it, and as the one surface that it is.
 
-use super::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use super::diagnostic::Diagnostic;
 use crate::geometry::mesh::{TriangleMesh, has_area};
 
 /// A garment whose vertices in one place are one vertex, and the way back to the caller's indices.
@@ -33,7 +33,7 @@ impl Weld {
     /// Vertices at equal positions (to the last bit, but -0 is 0) become one. Of the triangles with the same three corners
     /// in any order, such as two sides modelled in one place, the first is kept. A triangle that repeats a corner is kept
     /// only where it is the first to hold an edge, for contact must see a wire; it takes no part in anything else.
-    pub fn new(garment: &TriangleMesh) -> (Self, Vec<Finding>) {
+    pub fn new(garment: &TriangleMesh) -> (Self, Vec<Diagnostic>) {
         let (to_welded, vertex_of) = weld_vertices(garment);
         let corners: Vec<[u32; 3]> = garment.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
         let duplicates = duplicates(&corners);
@@ -50,12 +50,15 @@ impl Weld {
         (0u32..).zip(&triangle_of).for_each(|(k, &t)| to_kept[t as usize] = Some(k));
         duplicates.iter().for_each(|&[copy, first]| to_kept[copy as usize] = to_kept[first as usize]);
         let weld = Self { mesh, to_welded, vertex_of, triangle_of, to_kept };
-        let mut findings = weld.split_vertices();
-        report_duplicates(&mut findings, &duplicates);
-        weld.report_degenerate(&mut findings, garment, &collapsed);
-        weld.report_crowded(&mut findings, &crowded);
-        weld.report_unused(&mut findings);
-        (weld, findings)
+        let mut diagnostics = weld.split_vertices();
+        Diagnostic::list(&mut diagnostics, &duplicates, |&[triangle, of]| Diagnostic::DuplicateTriangle {
+            triangle,
+            of,
+        });
+        weld.report_degenerate(&mut diagnostics, garment, &collapsed);
+        weld.report_crowded(&mut diagnostics, &crowded);
+        weld.report_unused(&mut diagnostics);
+        (weld, diagnostics)
     }
 
     /// Values of the welded vertices, for each of the caller's: copies of one vertex get the same bits.
@@ -83,36 +86,25 @@ impl Weld {
         means
     }
 
-    fn split_vertices(&self) -> Vec<Finding> {
-        let (all, places) = (self.to_welded.len(), self.vertex_of.len());
-        if all == places {
+    fn split_vertices(&self) -> Vec<Diagnostic> {
+        let (vertices, places) = (self.to_welded.len(), self.vertex_of.len());
+        if vertices == places {
             return Vec::new();
         }
         let mut copies = vec![0u32; places];
         self.to_welded.iter().for_each(|&w| copies[w as usize] += 1);
-        let shared = copies.iter().filter(|&&n| n > 1).count();
-        let split = (0..all as u32).filter(|&v| copies[self.to_welded[v as usize] as usize] > 1);
-        let elements: Vec<Element> = split.take(4).map(garment_vertex).collect();
-        let sentence = format!(
-            "garment: {} of the {all} vertices share their place with another, in {shared} places, as along UV and normal \
-             seams; copies move as one, so there are {places} vertices to place. The result is in the caller's order",
-            all - places + shared
-        );
-        vec![Finding::new(FindingKind::SplitVertices, Severity::Note, &elements, sentence)]
+        let shared_places = copies.iter().filter(|&&n| n > 1).count();
+        let split = (0..vertices as u32).filter(|&v| copies[self.to_welded[v as usize] as usize] > 1);
+        let (sharing, first) = (vertices - places + shared_places, split.take(4).collect());
+        vec![Diagnostic::SplitVertices { sharing, vertices, shared_places, places, first }]
     }
 
-    fn report_degenerate(&self, findings: &mut Vec<Finding>, garment: &TriangleMesh, collapsed: &[Collapsed]) {
-        let finding = |triangle: u32, text: String| {
-            let elements = [Element::triangle(Subject::Garment, triangle)];
-            Finding::new(FindingKind::DegenerateTriangle, Severity::Note, &elements, text)
-        };
-        let fate = |&Collapsed { triangle, kept }: &Collapsed| {
-            let [a, b, c] = garment.triangles[triangle as usize];
-            let treated = if kept { "it counts as a wire, which collides and nothing more" } else { "it is left out" };
-            let corners = format!("garment: triangle {triangle} (vertices {a}, {b}, {c}) has corners in one place");
-            finding(triangle, format!("{corners}; {treated}"))
-        };
-        describe(findings, collapsed, fate, "garment triangles have corners in one place");
+    fn report_degenerate(&self, diagnostics: &mut Vec<Diagnostic>, garment: &TriangleMesh, collapsed: &[Collapsed]) {
+        Diagnostic::list(diagnostics, collapsed, |&Collapsed { triangle, kept }| Diagnostic::CollapsedTriangle {
+            triangle,
+            corners: garment.triangles[triangle as usize],
+            kept,
+        });
         let flat: Vec<u32> = (0..self.mesh.triangles.len())
             .filter(|&k| {
                 let corners = self.mesh.triangles[k];
@@ -120,48 +112,30 @@ impl Weld {
             })
             .map(|k| self.triangle_of[k])
             .collect();
-        let line = |&t: &u32| {
-            let [a, b, c] = garment.triangles[t as usize];
-            finding(
-                t,
-                format!("garment: triangle {t} (vertices {a}, {b}, {c}) has its corners on a line; it has no area"),
-            )
-        };
-        describe(findings, &flat, line, "garment triangles have their corners on a line");
+        Diagnostic::list(diagnostics, &flat, |&triangle| Diagnostic::FlatTriangle {
+            triangle,
+            corners: garment.triangles[triangle as usize],
+        });
     }
 
-    fn report_crowded(&self, findings: &mut Vec<Finding>, crowded: &[([u32; 2], u32)]) {
-        let finding = |&(edge, count): &([u32; 2], u32)| {
-            let [a, b] = edge.map(|w| self.vertex_of[w as usize]);
-            let sentence = format!(
-                "garment: the edge between vertices {a} and {b} has {count} triangles; each of them bends with every \
-                 other, and boundary curves that end there do not hold their shape"
-            );
-            Finding::new(FindingKind::NonManifoldEdge, Severity::Warning, &[a, b].map(garment_vertex), sentence)
-        };
-        describe(findings, crowded, finding, "garment edges have more than two triangles");
+    fn report_crowded(&self, diagnostics: &mut Vec<Diagnostic>, crowded: &[([u32; 2], u32)]) {
+        Diagnostic::list(diagnostics, crowded, |&(edge, triangles)| Diagnostic::NonManifoldEdge {
+            vertices: edge.map(|w| self.vertex_of[w as usize]),
+            triangles,
+        });
     }
 
-    fn report_unused(&self, findings: &mut Vec<Finding>) {
+    fn report_unused(&self, diagnostics: &mut Vec<Diagnostic>) {
         let mut used = vec![false; self.vertex_of.len()];
         self.mesh.triangles.iter().flatten().for_each(|&w| used[w as usize] = true);
         let unused: Vec<u32> =
             (0..self.to_welded.len() as u32).filter(|&v| !used[self.to_welded[v as usize] as usize]).collect();
-        let finding = |&v: &u32| {
-            let sentence =
-                format!("garment: vertex {v} belongs to no triangle with a side; nothing holds it in its place");
-            Finding::new(FindingKind::UnusedVertex, Severity::Note, &[garment_vertex(v)], sentence)
-        };
-        describe(findings, &unused, finding, "garment vertices belong to no triangle");
+        Diagnostic::list(diagnostics, &unused, |&vertex| Diagnostic::UnusedVertex { vertex });
     }
 }
 
-fn garment_vertex(v: u32) -> Element {
-    Element::vertex(Subject::Garment, v)
-}
-
 /// The welded vertex of each vertex, and the lowest vertex of each welded one, in the order of those.
-fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
+pub fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
     // Adding 0 turns -0 into 0.
     let key = |v: u32| garment.positions[v as usize].to_array().map(|x| (x + 0.0).to_bits());
     let mut order: Vec<([u64; 3], u32)> = (0..garment.positions.len() as u32).map(|v| (key(v), v)).collect();
@@ -227,13 +201,4 @@ fn edges(corners: &[[u32; 3]], keep: &mut [bool]) -> (Vec<([u32; 2], u32)>, Vec<
         .map(|(k, _)| Collapsed { triangle: k, kept: keep[k as usize] })
         .collect();
     (crowded, collapsed)
-}
-
-fn report_duplicates(findings: &mut Vec<Finding>, duplicates: &[[u32; 2]]) {
-    let finding = |&[copy, first]: &[u32; 2]| {
-        let sentence = format!("garment: triangle {copy} has the corners of triangle {first}; the two count as one");
-        let elements = [copy, first].map(|t| Element::triangle(Subject::Garment, t));
-        Finding::new(FindingKind::DuplicateTriangle, Severity::Note, &elements, sentence)
-    };
-    describe(findings, duplicates, finding, "garment triangles have the corners of another");
 }

@@ -10,7 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::coordinate_system::CoordinateSystem;
-use crate::input::diagnostic::Finding;
+use crate::input::diagnostic::Diagnostic;
 use crate::input::precision::Precision;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
@@ -234,11 +234,11 @@ impl Inputs {
     }
 
     /// Checks the inputs against each other and poses the problem, of the body as its caller has it. What is worth knowing
-    /// goes to `findings`.
+    /// goes to `diagnostics`.
     ///
     /// # Errors
     /// `InvalidState` where an input is missing, those of [`Problem::new`].
-    pub(super) fn pose_problem(&self, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<(Problem, Body)> {
+    pub(super) fn pose_problem(&self, cancel: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<(Problem, Body)> {
         let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
         let Some(source) = &self.source_skeleton else {
             return missing("the source skeleton", "set_source_skeleton");
@@ -265,7 +265,7 @@ impl Inputs {
         }
         self.check_controls(garment.positions.len())?;
         let (weld, found) = Weld::new(garment);
-        findings.extend(found);
+        diagnostics.extend(found);
         cancel.check()?;
         let pins = self.welded_pins(&weld)?;
         let rigid_groups = self.welded_groups(&weld)?;
@@ -291,7 +291,7 @@ impl Inputs {
             },
             &self.options,
             cancel,
-            findings,
+            diagnostics,
         )?;
         Ok((problem, body))
     }

@@ -22,7 +22,7 @@ use glam::DVec3;
 pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::diagnostic::Finding;
+use crate::input::diagnostic::Diagnostic;
 pub use crate::input::precision::Precision;
 pub use crate::options::Options;
 use crate::panics::PanicLog;
@@ -63,7 +63,7 @@ pub struct Session {
     snapshot: Option<Snapshot>,
     stage: Stage,
     report: Report,
-    findings: Vec<Finding>,
+    diagnostics: Vec<Diagnostic>,
     /// What the verifier says of the result in the precision that is not the garment's own.
     other_precision: Option<(Precision, Verification)>,
     panics: Arc<PanicLog>,
@@ -97,12 +97,12 @@ impl Session {
         let control = &self.control;
         let pool = self.pool.insert(WorkerPool::new(threads, &self.panics)?);
         let job = move || {
-            let mut findings = Vec::new();
-            let work = Run::prepare(&inputs, threads, context, &mut findings).map(Box::new);
-            (work, findings)
+            let mut diagnostics = Vec::new();
+            let work = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);
+            (work, diagnostics)
         };
-        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(work, findings)| {
-            self.findings = findings;
+        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(work, diagnostics)| {
+            self.diagnostics = diagnostics;
             work
         });
         let work = match outcome {
@@ -179,7 +179,7 @@ impl Session {
         };
         let stop = work.context.stop.clone();
         let control = &self.control;
-        let (work, outcome) = pool.run(
+        let (mut work, outcome) = pool.run(
             || control.is_cancelled(),
             &stop,
             move || {
@@ -190,6 +190,11 @@ impl Session {
         self.report = work.report.clone();
         if let Some(view) = &mut self.snapshot {
             view.follow(&work);
+        }
+        if let Err(error) = &outcome
+            && error.kind == ErrorKind::InflationStalled
+        {
+            self.diagnostics.append(&mut work.shortfalls);
         }
         self.work = Some(work);
         outcome
@@ -212,10 +217,10 @@ impl Session {
                 self.enter(Stage::Fit);
                 return Ok(Stage::Fit);
             }
-            self.findings.extend(verdict.findings());
+            self.diagnostics.extend(verdict.diagnostics());
             return Err(not_verified(&counted));
         }
-        self.findings.extend(self.work.iter_mut().flat_map(|work| std::mem::take(&mut work.shortfalls)));
+        self.diagnostics.extend(self.work.iter_mut().flat_map(|work| std::mem::take(&mut work.shortfalls)));
         let (clock, other) = (Instant::now(), precision.other());
         self.other_precision = Some((other, self.verify_as_read(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
@@ -234,9 +239,10 @@ impl Session {
         self.step(Budget::default())
     }
 
-    /// What is worth knowing about the inputs, since prepare, and about the result; in the caller's indices.
-    pub fn findings(&self) -> &[Finding] {
-        &self.findings
+    /// What is worth knowing about the inputs, since prepare, about the result, and about what holds the garment where the
+    /// inflation stalled; in the caller's indices.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
     }
 
     /// Where the session is.
@@ -360,7 +366,7 @@ impl Session {
         }
         self.snapshot = None;
         self.report = Report::default();
-        self.findings.clear();
+        self.diagnostics.clear();
         self.other_precision = None;
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);

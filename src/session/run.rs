@@ -10,12 +10,13 @@ use super::inputs::Inputs;
 use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
-use crate::input::diagnostic::Finding;
+use crate::input::diagnostic::Diagnostic;
 use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
+use crate::stage::blockage;
 use crate::stage::finish;
 use crate::stage::fit::FitStage;
 use crate::stage::inflate::Inflation;
@@ -52,8 +53,8 @@ pub(super) struct Run {
     expected: u64,
     /// The distance field, once it is there.
     distance: Option<Arc<Field>>,
-    /// What the result falls short of.
-    pub(super) shortfalls: Vec<Finding>,
+    /// What the result falls short of, or what holds the garment where there is none.
+    pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
 }
 
@@ -65,12 +66,12 @@ enum Step {
 
 impl Run {
     /// Step 1: poses the problem of `inputs`, begins to build the distance field with so many threads, and sets up Step 2.
-    /// What is worth knowing goes to `findings`, also where it fails.
+    /// What is worth knowing goes to `diagnostics`, also where it fails.
     pub(super) fn prepare(
         inputs: &Inputs,
         threads: usize,
         context: Context,
-        findings: &mut Vec<Finding>,
+        diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
         let stop = &context.stop;
         Fault::Prepare.at(context.fault);
@@ -79,14 +80,14 @@ impl Run {
         let held = inputs.memory();
         let sizes = inputs.sizes();
         limit.reserving(held).check(&sizes.estimate())?;
-        let (problem, body) = inputs.pose_problem(stop, findings)?;
+        let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
         stop.check()?;
         let expected = Field::estimate(&problem.avatar, inputs.options.voxel_size)?;
         let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
         limit.reserving(held).check(&sizes.estimate())?;
         let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel_size, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut objective = problem.inflation_objective(&inputs.options, stop, findings)?;
+        let mut objective = problem.inflation_objective(&inputs.options, stop, diagnostics)?;
         stop.check()?;
         let held = held + problem.memory();
         let budget = limit.reserving(held + expected + objective.memory());
@@ -150,9 +151,12 @@ impl Run {
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
             Step::Inflate(inflation) => {
-                check_limit(inflation.iterations, options, "inflation", self.state.t)?;
-                let ended = inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state)?;
-                (Stage::Inflate, ended)
+                let ended = check_limit(inflation.iterations, options, "inflation", self.state.t)
+                    .and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state));
+                match ended {
+                    Ok(ended) => (Stage::Inflate, ended),
+                    Err(error) => return Err(self.explained(error)),
+                }
             }
             Step::Fit(fit) => {
                 let converged = fit.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
@@ -181,6 +185,18 @@ impl Run {
             }
             (_, true) => Ok(Stage::Verify),
         }
+    }
+
+    /// Where the inflation has stalled, finds what holds the garment, and points to it in the message.
+    fn explained(&mut self, mut error: Error) -> Error {
+        if error.kind == ErrorKind::InflationStalled {
+            let at = self.state.configuration();
+            self.shortfalls = blockage::find(&self.problem, &self.body, &mut self.objective, at);
+            if !self.shortfalls.is_empty() {
+                error.message += "; the diagnostics name what holds the garment";
+            }
+        }
+        error
     }
 
     /// Step 3 is to go on with wider distances. False where that was done often enough.

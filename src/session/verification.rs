@@ -6,7 +6,7 @@ use crate::control::Cancel;
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::input::diagnostic::Diagnostic;
 use crate::input::weld::Weld;
 use crate::report::Verification;
 use crate::verify::intersections_with_cancel;
@@ -52,25 +52,13 @@ impl Verdict {
     }
 
     /// The pairs that must not be there.
-    pub(super) fn findings(&self) -> Vec<Finding> {
-        let mut findings = Vec::new();
-        let finding = |elements: [Element; 2], sentence: String| {
-            Finding::new(FindingKind::ResultIntersection, Severity::Error, &elements, sentence)
-        };
-        let own = |&[s, t]: &[u32; 2]| {
-            let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
-            finding(
-                elements,
-                format!("result: garment triangles {s} and {t} intersect, which they did not at the start"),
-            )
-        };
-        describe(&mut findings, &self.own, own, "pairs of garment triangles intersect in the result");
-        let avatar = |&[s, t]: &[u32; 2]| {
-            let elements = [Element::triangle(Subject::Garment, s), self.body.triangle(t)];
-            finding(elements, format!("result: garment triangle {s} and {} intersect", self.body.name(t)))
-        };
-        let others = "pairs of garment triangles and those of the avatar or its layers intersect in the result";
-        describe(&mut findings, &self.avatar, avatar, others);
-        findings
+    pub(super) fn diagnostics(&self) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        Diagnostic::list(&mut diagnostics, &self.own, |&triangles| Diagnostic::ResultSelfIntersection { triangles });
+        Diagnostic::list(&mut diagnostics, &self.avatar, |&[garment, t]| Diagnostic::ResultIntersection {
+            garment,
+            avatar: self.body.triangle(t),
+        });
+        diagnostics
     }
 }

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::objective::Objective;
 use super::setup::problem::Problem;
 use crate::control::Cancelled;
-use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::input::diagnostic::Diagnostic;
 use crate::solver::newton::{Model, State};
 
 /// A rigid group that ends farther than this from a rigid motion is told, as bent.
@@ -24,13 +24,13 @@ type Group = Vec<(u32, DVec3)>;
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn close(problem: &Problem, objective: &mut Objective, state: &mut State) -> Result<Vec<Finding>, Cancelled> {
+pub fn close(problem: &Problem, objective: &mut Objective, state: &mut State) -> Result<Vec<Diagnostic>, Cancelled> {
     let groups: Vec<Group> = objective.rigid().placed(&state.x).collect();
     straighten(objective, state, &groups)?;
-    let mut findings = Vec::new();
-    report_bent(problem, &groups, &state.x, &mut findings);
-    report_missed(problem, objective, &state.x, &mut findings);
-    Ok(findings)
+    let mut diagnostics = Vec::new();
+    report_bent(problem, &groups, &state.x, &mut diagnostics);
+    report_missed(problem, objective, &state.x, &mut diagnostics);
+    Ok(diagnostics)
 }
 
 fn straighten(objective: &mut Objective, state: &mut State, groups: &[Group]) -> Result<(), Cancelled> {
@@ -62,39 +62,26 @@ fn advance(objective: &mut Objective, state: &mut State, groups: &[Group], whole
     Ok(part == 1.0)
 }
 
-fn report_bent(problem: &Problem, groups: &[Group], x: &[DVec3], findings: &mut Vec<Finding>) {
+fn report_bent(problem: &Problem, groups: &[Group], x: &[DVec3], diagnostics: &mut Vec<Diagnostic>) {
     let worst = |group: &Group| {
         let distances = group.iter().map(|&(v, place)| (v, x[v as usize].distance(place)));
         distances.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     };
     let bent: Vec<(usize, (u32, f64))> =
         groups.iter().map(worst).enumerate().filter(|(_, (_, distance))| *distance > BENT).collect();
-    let finding = |&(group, (v, distance)): &(usize, (u32, f64))| {
-        let vertex = problem.weld.vertex_of[v as usize];
-        let sentence = format!(
-            "garment: rigid group {group} ends bent, by {distance:.1e} at vertex {vertex} in units in which the skeleton is 2 \
-             long, for the body or another part of the garment is in its way"
-        );
-        let elements = [Element::vertex(Subject::Garment, vertex)];
-        let finding = Finding::new(FindingKind::RigidGroupBent, Severity::Warning, &elements, sentence);
-        Finding { distance, ..finding }
-    };
-    describe(findings, &bent, finding, "rigid groups end bent");
+    Diagnostic::list(diagnostics, &bent, |&(group, (v, distance))| Diagnostic::RigidGroupBent {
+        group,
+        vertex: problem.weld.vertex_of[v as usize],
+        distance,
+    });
 }
 
-fn report_missed(problem: &Problem, objective: &Objective, x: &[DVec3], findings: &mut Vec<Finding>) {
+fn report_missed(problem: &Problem, objective: &Objective, x: &[DVec3], diagnostics: &mut Vec<Diagnostic>) {
     let away = AWAY * objective.contact.distances().dhat;
     let distances = objective.pins().pins().iter().map(|pin| (pin.vertex, x[pin.vertex as usize].distance(pin.end)));
     let missed: Vec<(u32, f64)> = distances.filter(|(_, distance)| *distance > away).collect();
-    let finding = |&(v, distance): &(u32, f64)| {
-        let vertex = problem.weld.vertex_of[v as usize];
-        let sentence = format!(
-            "garment: pinned vertex {vertex} ends {distance:.1e} from its place, in units in which the skeleton is 2 long: the \
-             body is in its way, or the garment holds it back; a higher pin_weight helps against the garment"
-        );
-        let elements = [Element::vertex(Subject::Garment, vertex)];
-        let finding = Finding::new(FindingKind::PinNotReached, Severity::Warning, &elements, sentence);
-        Finding { distance, ..finding }
-    };
-    describe(findings, &missed, finding, "pinned vertices end away from their places");
+    Diagnostic::list(diagnostics, &missed, |&(v, distance)| Diagnostic::PinNotReached {
+        vertex: problem.weld.vertex_of[v as usize],
+        distance,
+    });
 }

@@ -118,9 +118,8 @@ impl Inflation {
             return Err(Error::new(
                 ErrorKind::InflationStalled,
                 format!(
-                    "the avatar cannot grow beyond {:.4} of its size inside the garment: the garment is wedged between \
-                     parts of the avatar. Try another inflation_dhat or inflation_barrier_weight, or move the parts of \
-                     the avatar apart",
+                    "the avatar cannot grow beyond {:.4} of its size inside the garment: the garment cannot give way. Try \
+                     a lower inflation_dhat or inflation_barrier_weight, or change avatar or garment there",
                     state.t
                 ),
             ));

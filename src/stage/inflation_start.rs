@@ -6,7 +6,7 @@ use super::setup::problem::Problem;
 use crate::contact::{Avatar, Configuration, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
-use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject, describe};
+use crate::input::diagnostic::Diagnostic;
 use crate::options::Options;
 
 impl Problem {
@@ -21,7 +21,7 @@ impl Problem {
         &self,
         options: &Options,
         cancel: &Cancel,
-        findings: &mut Vec<Finding>,
+        diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Objective> {
         let at = Configuration { x: &self.rest, t: 0.0 };
         let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
@@ -34,7 +34,7 @@ impl Problem {
         let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
         objective.contact.initialise(at, &self.initial_intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
-        report_tangle(self, initial_intersections, options.strict, findings);
+        report_tangle(self, initial_intersections, options.strict, diagnostics);
         if options.strict && !initial_intersections.is_empty() {
             return Err(intersects_itself(self, initial_intersections));
         }
@@ -50,27 +50,18 @@ impl Problem {
             ));
         }
         if objective.contact.min_separation() < self.distances.min_separation {
-            let vertices: Vec<Element> = objective
+            let vertices = objective
                 .contact
                 .nearest(at)
                 .into_iter()
                 .flat_map(|pair| objective.contact.garment_vertices(pair))
-                .map(|v| Element::vertex(Subject::Garment, self.weld.vertex_of[v as usize]))
+                .map(|v| self.weld.vertex_of[v as usize])
                 .collect();
-            findings.push(Finding {
-                distance: near.min_distance_self.min(near.min_distance_avatar),
-                ..Finding::new(
-                    FindingKind::NearContact,
-                    Severity::Note,
-                    &vertices,
-                    format!(
-                        "garment: at the start it is within {:.1e} of itself and {:.1e} of the shrunk avatar, so that the \
-                         minimum separation begins at {:.1e} and rises as they part",
-                        near.min_distance_self,
-                        near.min_distance_avatar,
-                        objective.contact.min_separation()
-                    ),
-                )
+            diagnostics.push(Diagnostic::NearContact {
+                vertices,
+                to_itself: near.min_distance_self,
+                to_avatar: near.min_distance_avatar,
+                min_separation: objective.contact.min_separation(),
             });
         }
         Ok(objective)
@@ -78,30 +69,17 @@ impl Problem {
 }
 
 /// The garment's triangles that intersect before anything has moved.
-fn report_tangle(problem: &Problem, initial_intersections: &[[u32; 2]], strict: bool, findings: &mut Vec<Finding>) {
-    let finding = |pair: &[u32; 2]| {
-        let how = if problem.initial_intersections.binary_search(pair).is_ok() {
-            "intersect"
-        } else {
-            "touch within rounding"
-        };
-        let [s, t] = pair.map(|t| problem.weld.triangle_of[t as usize]);
-        let elements = [s, t].map(|t| Element::triangle(Subject::Garment, t));
-        let (severity, fate) = match strict {
-            true => (Severity::Error, "which the option strict refuses"),
-            false => {
-                (Severity::Warning, "so they are let off until they come apart, and may still do so in the result")
-            }
-        };
-        let sentence = format!("garment: triangles {s} and {t} {how} before anything has moved, {fate}");
-        Finding::new(FindingKind::SelfIntersection, severity, &elements, sentence)
-    };
-    describe(
-        findings,
-        initial_intersections,
-        finding,
-        "pairs of garment triangles intersect before anything has moved",
-    );
+fn report_tangle(
+    problem: &Problem,
+    initial_intersections: &[[u32; 2]],
+    strict: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    Diagnostic::list(diagnostics, initial_intersections, |pair| Diagnostic::SelfIntersection {
+        triangles: pair.map(|t| problem.weld.triangle_of[t as usize]),
+        touches: problem.initial_intersections.binary_search(pair).is_err(),
+        strict,
+    });
 }
 
 fn intersects_itself(problem: &Problem, pairs: &[[u32; 2]]) -> Error {

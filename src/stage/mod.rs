@@ -1,9 +1,11 @@
 //! The three steps of the paper: which energies, which weights, when it is done.
 
+pub mod blockage;
 pub mod contact_guard;
 pub mod finish;
 pub mod fit;
 mod fit_start;
+pub mod full_size;
 pub mod inflate;
 mod inflation_start;
 pub mod objective;

@@ -5,12 +5,14 @@ use std::mem::size_of;
 use std::ptr::null_mut;
 
 use bespoke::capi::diagnostics::*;
+use bespoke::capi::inputs::bespoke_session_set_target_skin_influences;
 use bespoke::capi::options::bespoke_session_set_options;
 use bespoke::capi::running::*;
 use bespoke::capi::session::bespoke_session_reset;
-use bespoke::capi::status::BespokeStatus::{InvalidArgument, SelfIntersection};
+use bespoke::capi::status::BespokeStatus::{InflationStalled, InvalidArgument, SelfIntersection};
+use bespoke::capi::view::BespokeComponent;
 
-use testing::caller::{Caller, no_options, points, triangles};
+use testing::caller::{Caller, Mesh, bones, no_options, points, triangles, tube, view};
 
 fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
     let mut list = vec![0u64; room * size_of::<BespokeDiagnostic>() / 8];
@@ -108,4 +110,63 @@ fn a_failed_prepare_leaves_its_diagnostics() {
     let crossing = |d: &&BespokeDiagnostic| d.kind == BespokeDiagnosticKind::SelfIntersection as u32;
     assert!(list.iter().filter(crossing).count() > 0);
     assert!(list.iter().filter(crossing).all(|d| d.severity == BespokeSeverity::Error as u32));
+}
+
+/// A box around the y axis from x = `low` to `high`.
+fn block(low: f32, high: f32, half: f32) -> Mesh {
+    let corner =
+        |k: u32| [if k & 1 == 0 { low } else { high }, (k >> 1 & 1) as f32 - 0.5, half * (k >> 2) as f32 - 0.5 * half];
+    let square = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    ((0..8).map(corner).collect(), sides.into_iter().flat_map(square).collect())
+}
+
+/// Two boxes on two bones that overlap at full size, and a sleeve around one of them: what holds it can be read after the
+/// failure, and is forgotten by a reset.
+#[test]
+fn a_stalled_inflation_names_what_holds_the_garment() {
+    let caller = Caller::new();
+    let joints = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0]];
+    let (mut positions, mut corners) = block(-0.5, 0.5, 0.8);
+    let (other, faces) = block(0.4, 1.4, 0.6);
+    positions.extend(other);
+    corners.extend(faces.iter().map(|t| t.map(|v| v + 8)));
+    let garment = tube(0.3, -0.4, 0.4, 20, 12);
+    let pairs = [[0, 1], [2, 3], [1, 3]];
+    caller.accepted(caller.set_garment(&points(&garment.0), &triangles(&garment.1)));
+    caller.accepted(caller.set_avatar(&points(&positions), &triangles(&corners)));
+    caller.accepted(caller.set_source_skeleton(&points(&joints), &bones(&pairs)));
+    caller.accepted(caller.set_target_skeleton(&points(&joints), &bones(&pairs)));
+    // Joints 0 and 2 belong to one bone each.
+    let skin: Vec<[u16; 1]> = (0..16).map(|v| [if v < 8 { 0 } else { 2 }]).collect();
+    let (joints, weights) = (view(&skin, BespokeComponent::U16), view(&[[1.0f32]; 16], BespokeComponent::F32));
+    // SAFETY: the session is alive and the views tell the truth.
+    caller.accepted(unsafe { bespoke_session_set_target_skin_influences(caller.session, &joints, &weights, 1, 4) });
+    // SAFETY: the session is alive.
+    caller.refused(
+        unsafe { bespoke_session_run(caller.session) },
+        InflationStalled,
+        &["the diagnostics name what holds the garment"],
+    );
+
+    let (list, _) = read(&caller, 100);
+    let blocked = |d: &&BespokeDiagnostic| d.kind == BespokeDiagnosticKind::InflationBlocked as u32;
+    let first = list.iter().find(blocked).expect("what holds the garment");
+    assert_eq!((first.severity, first.element_count, first.distance), (BespokeSeverity::Error as u32, 3, 0.0));
+    let [cloth, one, another] = [0, 1, 2].map(|k| first.elements[k]);
+    assert!([cloth, one, another].iter().all(|e| e.kind == BespokeElementKind::Triangle as u32));
+    assert_eq!(cloth.subject, BespokeSubject::Garment as u32);
+    assert!((cloth.index as usize) < garment.1.len());
+    // One triangle of each box.
+    assert_eq!(
+        (one.subject, another.subject),
+        (BespokeSubject::TargetAvatar as u32, BespokeSubject::TargetAvatar as u32)
+    );
+    assert_ne!(one.index < 12, another.index < 12);
+    for words in ["no garment can pass there", "(joints 0-1)", "(joints 2-3)"] {
+        assert!(sentence(first).contains(words), "{}", sentence(first));
+    }
+    // SAFETY: the session is alive.
+    caller.accepted(unsafe { bespoke_session_reset(caller.session) });
+    assert_eq!(read(&caller, 4).1, 0);
 }

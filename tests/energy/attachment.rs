@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bespoke::energy::attachment::Attachment;
 use bespoke::energy::{Configuration, Energy};
-use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{DiagnosticKind, Element, Severity, Subject};
 use bespoke::stage::setup::loose_pieces::LoosePieces;
 use glam::DVec3;
 
@@ -85,13 +85,13 @@ fn buttons_are_held_to_the_coat() {
         assert!(piece.host < coat);
         assert!((0.019..0.03).contains(&piece.distance), "{}", piece.distance);
     }
-    let findings = loose.findings(|t| t + 1000);
-    assert_eq!(findings.len(), 10);
-    assert_eq!((findings[1].kind, findings[1].severity), (FindingKind::LoosePiece, Severity::Note));
+    let diagnostics = loose.diagnostics(|t| t + 1000);
+    assert_eq!(diagnostics.len(), 10);
+    assert_eq!((diagnostics[1].kind(), diagnostics[1].severity()), (DiagnosticKind::LoosePiece, Severity::Note));
     let host = loose.pieces[1].host;
-    assert_eq!(findings[1].elements, [coat + 1006, host + 1000].map(|t| Element::triangle(Subject::Garment, t)));
-    assert!(findings[1].sentence.contains(&format!("7 vertices with triangle {}", coat + 1006)));
-    assert_eq!(findings[1].distance, loose.pieces[1].distance);
+    assert_eq!(diagnostics[1].elements(), [coat + 1006, host + 1000].map(|t| Element::triangle(Subject::Garment, t)));
+    assert!(diagnostics[1].to_string().contains(&format!("7 vertices with triangle {}", coat + 1006)));
+    assert_eq!(diagnostics[1].distance(), loose.pieces[1].distance);
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn a_collapsed_host_gives_finite_derivatives() {
     }
 }
 
-/// Thousands of sequins: each is found, in bounded time, and the list of findings stays short.
+/// Thousands of sequins: each is found, in bounded time, and the list of diagnostics stays short.
 #[test]
 fn sequins_are_held() {
     let mut garment = Garment::default();
@@ -247,9 +247,9 @@ fn sequins_are_held() {
     let loose = garment.loose();
     assert_eq!(loose.pieces.len(), 3000);
     assert!(loose.pieces.iter().all(|p| p.host < 2 * 40 * 39));
-    let findings = loose.findings(|t| t);
-    assert_eq!(findings.len(), 1001);
-    assert_eq!(findings[1000].sentence, "2000 more loose pieces of the garment are held");
+    let diagnostics = loose.diagnostics(|t| t);
+    assert_eq!(diagnostics.len(), 1001);
+    assert_eq!(diagnostics[1000].to_string(), "2000 more loose pieces of the garment are held");
 }
 
 #[test]

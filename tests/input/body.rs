@@ -5,6 +5,7 @@ use std::sync::Arc;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::body::Body;
 use bespoke::input::diagnostic::{Element, Subject};
+use bespoke::input::diagnostic_text::avatar_triangle;
 use glam::DVec3;
 
 /// A strip of so many triangles, at this height.
@@ -31,7 +32,7 @@ fn triangles_are_the_avatars_or_a_layers() {
         };
         let expected = own.triangles[element.index as usize].map(|v| own.positions[v as usize]);
         assert_eq!(corners.map(|v| body.mesh.positions[v as usize]), expected);
-        found.push((element, body.name(k)));
+        found.push((element, avatar_triangle(element)));
     }
     assert_eq!(found[2], (Element::triangle(Subject::TargetAvatar, 2), "avatar triangle 2".into()));
     assert_eq!(found[3], (Element::triangle(Subject::Layer(0), 0), "triangle 0 of layer 0".into()));

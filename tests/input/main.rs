@@ -3,6 +3,7 @@
 mod body;
 mod buffer;
 mod cap;
+mod diagnostic;
 mod guide;
 mod mesh;
 mod skeleton;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use bespoke::geometry::mesh::{Topology, TriangleMesh};
-use bespoke::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Element, Severity, Subject};
 use bespoke::input::weld::Weld;
 use glam::DVec3;
 
@@ -16,8 +16,8 @@ fn mesh(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> TriangleMesh {
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-fn of(findings: &[Finding], kind: FindingKind) -> Vec<&Finding> {
-    findings.iter().filter(|f| f.kind == kind).collect()
+fn of(diagnostics: &[Diagnostic], kind: DiagnosticKind) -> Vec<&Diagnostic> {
+    diagnostics.iter().filter(|f| f.kind() == kind).collect()
 }
 
 fn triangles(indices: &[u32]) -> Vec<Element> {
@@ -53,10 +53,10 @@ fn places(mesh: &TriangleMesh) -> Vec<[[u64; 3]; 3]> {
 #[test]
 fn a_clean_mesh_stays_as_it_is() {
     let garment = mesh(&SQUARE, &[[0, 1, 2], [0, 2, 3]]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.mesh, garment);
     assert_eq!((weld.to_welded, weld.vertex_of, weld.triangle_of), (vec![0, 1, 2, 3], vec![0, 1, 2, 3], vec![0, 1]));
-    assert_eq!(findings, []);
+    assert_eq!(diagnostics, []);
 }
 
 #[test]
@@ -65,15 +65,17 @@ fn a_seam_is_welded_and_answered_in_the_callers_order() {
     let near = 1.0 + f64::EPSILON;
     let positions = [SQUARE[2], SQUARE[0], SQUARE[1], [-0.0, 0.0, -0.0], SQUARE[2], SQUARE[3], [near, 0.0, 0.0]];
     let garment = mesh(&positions, &[[1, 2, 0], [3, 4, 5], [1, 6, 2]]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.to_welded, [0, 1, 2, 1, 0, 3, 4]);
     assert_eq!(weld.vertex_of, [0, 1, 2, 5, 6]);
     assert_eq!(weld.mesh.triangles, [[1, 2, 0], [1, 0, 3], [1, 4, 2]]);
-    let split = of(&findings, FindingKind::SplitVertices);
+    let split = of(&diagnostics, DiagnosticKind::SplitVertices);
     assert_eq!(split.len(), 1);
-    assert_eq!((split[0].severity, &split[0].elements), (Severity::Note, &vertices(&[0, 1, 3, 4])));
-    assert!(split[0].sentence.starts_with("garment: 4 of the 7 vertices share their place with another, in 2 places"));
-    assert!(split[0].sentence.contains("there are 5 vertices to place"), "{}", split[0].sentence);
+    assert_eq!((split[0].severity(), &split[0].elements()), (Severity::Note, &vertices(&[0, 1, 3, 4])));
+    assert!(
+        split[0].to_string().starts_with("garment: 4 of the 7 vertices share their place with another, in 2 places")
+    );
+    assert!(split[0].to_string().contains("there are 5 vertices to place"), "{}", split[0].to_string());
 
     let moved: Vec<DVec3> = weld.mesh.positions.iter().map(|&p| p * (1.0 / 3.0) + DVec3::splat(0.1)).collect();
     let answer = weld.scatter(&moved);
@@ -101,12 +103,12 @@ fn both_sides_count_once() {
     let mut positions = SQUARE.to_vec();
     positions.extend(SQUARE);
     let garment = mesh(&positions, &[[0, 1, 2], [0, 2, 3], [6, 5, 4], [7, 6, 4], [1, 2, 0]]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.mesh, mesh(&SQUARE, &[[0, 1, 2], [0, 2, 3]]));
     assert_eq!(weld.triangle_of, [0, 1]);
-    let found: Vec<_> = of(&findings, FindingKind::DuplicateTriangle).iter().map(|f| f.elements.clone()).collect();
+    let found: Vec<_> = of(&diagnostics, DiagnosticKind::DuplicateTriangle).iter().map(|f| f.elements()).collect();
     assert_eq!(found, [triangles(&[2, 0]), triangles(&[3, 1]), triangles(&[4, 0])]);
-    assert_eq!(findings.len(), 4);
+    assert_eq!(diagnostics.len(), 4);
 }
 
 #[test]
@@ -115,41 +117,41 @@ fn collapsed_triangles_stay_only_as_wires() {
     let mut positions = SQUARE.to_vec();
     positions.extend([SQUARE[1], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0], [9.0, 0.0, 0.0]]);
     let garment = mesh(&positions, &[[1, 4, 2], [0, 1, 2], [5, 6, 6], [6, 5, 5], [7, 7, 7], [2, 3, 3]]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.triangle_of, [1, 2, 5]);
     assert_eq!(weld.mesh.triangles, [[0, 1, 2], [4, 5, 5], [2, 3, 3]]);
-    let found = of(&findings, FindingKind::DegenerateTriangle);
-    let elements: Vec<_> = found.iter().map(|f| f.elements.clone()).collect();
+    let found = of(&diagnostics, DiagnosticKind::DegenerateTriangle);
+    let elements: Vec<_> = found.iter().map(|f| f.elements()).collect();
     assert_eq!(elements, [0, 2, 3, 4, 5].map(|t| triangles(&[t])));
-    let wires: Vec<bool> = found.iter().map(|f| f.sentence.contains("counts as a wire")).collect();
+    let wires: Vec<bool> = found.iter().map(|f| f.to_string().contains("counts as a wire")).collect();
     assert_eq!(wires, [false, true, false, false, true]);
-    let unused = of(&findings, FindingKind::UnusedVertex);
-    assert_eq!(unused.iter().map(|f| f.elements.clone()).collect::<Vec<_>>(), [vertices(&[7])]);
+    let unused = of(&diagnostics, DiagnosticKind::UnusedVertex);
+    assert_eq!(unused.iter().map(|f| f.elements()).collect::<Vec<_>>(), [vertices(&[7])]);
 }
 
 #[test]
 fn slivers_unused_vertices_and_crowded_edges_are_named() {
     let positions = [SQUARE[0], SQUARE[1], [0.5, 0.0, 0.0], SQUARE[3], [0.0, -1.0, 1.0], [0.0, -1.0, -1.0], [7.0; 3]];
     let garment = mesh(&positions, &[[1, 0, 2], [0, 1, 3], [0, 1, 4], [1, 0, 5]]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.mesh, garment);
-    assert_eq!(of(&findings, FindingKind::DegenerateTriangle)[0].elements, triangles(&[0]));
-    assert_eq!(of(&findings, FindingKind::UnusedVertex)[0].elements, vertices(&[6]));
-    let crowded = of(&findings, FindingKind::NonManifoldEdge);
-    assert_eq!((crowded[0].elements.clone(), crowded[0].severity), (vertices(&[0, 1]), Severity::Warning));
-    assert!(crowded[0].sentence.contains("vertices 0 and 1 has 4 triangles"), "{}", crowded[0].sentence);
-    assert_eq!(findings.len(), 3);
+    assert_eq!(of(&diagnostics, DiagnosticKind::DegenerateTriangle)[0].elements(), triangles(&[0]));
+    assert_eq!(of(&diagnostics, DiagnosticKind::UnusedVertex)[0].elements(), vertices(&[6]));
+    let crowded = of(&diagnostics, DiagnosticKind::NonManifoldEdge);
+    assert_eq!((crowded[0].elements(), crowded[0].severity()), (vertices(&[0, 1]), Severity::Warning));
+    assert!(crowded[0].to_string().contains("vertices 0 and 1 has 4 triangles"), "{}", crowded[0].to_string());
+    assert_eq!(diagnostics.len(), 3);
 }
 
 #[test]
 fn many_findings_of_a_kind_are_counted() {
     let garment = mesh(&SQUARE, &vec![[0, 1, 2]; 1037]);
-    let (weld, findings) = Weld::new(&garment);
+    let (weld, diagnostics) = Weld::new(&garment);
     assert_eq!(weld.mesh.triangles.len(), 1);
-    let copies = of(&findings, FindingKind::DuplicateTriangle);
+    let copies = of(&diagnostics, DiagnosticKind::DuplicateTriangle);
     assert_eq!(copies.len(), 1001);
     assert_eq!(
-        (copies[1000].sentence.as_str(), copies[1000].elements.len()),
+        (copies[1000].to_string().as_str(), copies[1000].elements().len()),
         ("36 more garment triangles have the corners of another", 0)
     );
 }
@@ -198,13 +200,13 @@ fn real_garments_come_together_again() {
     let Some(folder) = assets() else { return };
     for name in ["Puffer_dense", "jumpsuit_dense"] {
         let garment = read_mesh(&folder.join(format!("garments/{name}/garment.obj")));
-        let (whole, findings) = Weld::new(&garment);
-        assert_eq!((&whole.mesh, findings.len()), (&garment, 0), "{name}");
+        let (whole, diagnostics) = Weld::new(&garment);
+        assert_eq!((&whole.mesh, diagnostics.len()), (&garment, 0), "{name}");
         let split = exploded(&garment, &mut Random::new(11));
-        let (weld, findings) = Weld::new(&split);
+        let (weld, diagnostics) = Weld::new(&split);
         assert_eq!(weld.mesh.positions.len(), garment.positions.len());
         assert_eq!(places(&weld.mesh), places(&garment));
-        assert_eq!(findings.len(), 1);
+        assert_eq!(diagnostics.len(), 1);
         let number: BTreeMap<[u64; 3], usize> =
             weld.mesh.positions.iter().enumerate().map(|(w, p)| (p.to_array().map(f64::to_bits), w)).collect();
         assert_eq!(number.len(), weld.mesh.positions.len());

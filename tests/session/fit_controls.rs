@@ -5,7 +5,7 @@ use bespoke::error::ErrorKind;
 use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::CoordinateSystem;
-use bespoke::input::diagnostic::{Element, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{DiagnosticKind, Element, Severity, Subject};
 use bespoke::options::Options;
 use bespoke::session::{Pin, Precision, Session};
 use glam::DVec3;
@@ -126,7 +126,7 @@ fn pins_hold_their_places() {
         assert!(x[v].distance(rest[v]) < 0.004, "vertex {v} is {} away", x[v].distance(rest[v]));
     }
     assert!(free[last as usize].distance(rest[last as usize]) > 0.02);
-    assert!(session.findings().iter().all(|f| f.kind != FindingKind::PinNotReached));
+    assert!(session.diagnostics().iter().all(|f| f.kind() != DiagnosticKind::PinNotReached));
 }
 
 #[test]
@@ -135,10 +135,14 @@ fn a_pin_inside_the_body_is_told() {
     let inside = DVec3::new(0.0, 0.0, 0.1);
     session.set_pins(vec![Pin { vertex: 170, place: Some(inside) }]).unwrap();
     let x = dressed(&mut session);
-    let finding = session.findings().iter().find(|f| f.kind == FindingKind::PinNotReached).expect("a finding");
-    assert_eq!(finding.elements, [Element::vertex(Subject::Garment, 170)]);
-    assert_eq!(finding.severity, Severity::Warning);
-    assert!((finding.distance - x[170].distance(inside)).abs() < 1e-3 && finding.distance > 0.2, "{finding}");
+    let diagnostic =
+        session.diagnostics().iter().find(|f| f.kind() == DiagnosticKind::PinNotReached).expect("a diagnostic");
+    assert_eq!(diagnostic.elements(), [Element::vertex(Subject::Garment, 170)]);
+    assert_eq!(diagnostic.severity(), Severity::Warning);
+    assert!(
+        (diagnostic.distance() - x[170].distance(inside)).abs() < 1e-3 && diagnostic.distance() > 0.2,
+        "{diagnostic}"
+    );
 }
 
 /// The largest change of the distance between two vertices of `group`.
@@ -170,7 +174,7 @@ fn rigid_groups_keep_their_shape() {
         assert!(bent > 0.01, "without the group it is bent by {bent}");
         assert!(kept < 1e-9, "the group is bent by {kept}");
     }
-    assert!(session.findings().iter().all(|f| f.kind != FindingKind::RigidGroupBent));
+    assert!(session.diagnostics().iter().all(|f| f.kind() != DiagnosticKind::RigidGroupBent));
     // The rest of the sleeve still gives way.
     assert!(strain(&x, &rest, &patch(0..1, 0..20)) > 0.01);
 }

@@ -8,7 +8,7 @@ use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::body::Body;
 use bespoke::input::coordinate_system::{Axis, CoordinateSystem, Winding};
-use bespoke::input::diagnostic::{FindingKind, Subject};
+use bespoke::input::diagnostic::{DiagnosticKind, Subject};
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::sdf::{Field, FieldOptions};
@@ -245,13 +245,13 @@ fn a_layer_that_pokes_through_is_named() {
     let long = tube(-1.1, 1.1, |_, _| 0.25, 14, 12, false);
     session.add_layer(long.clone()).unwrap();
     assert_eq!(session.prepare().unwrap_err().kind, ErrorKind::NotEnclosed);
-    let pokes: Vec<_> = session.findings().iter().filter(|f| f.kind == FindingKind::AvatarPenetrates).collect();
+    let pokes: Vec<_> = session.diagnostics().iter().filter(|f| f.kind() == DiagnosticKind::AvatarPenetrates).collect();
     assert!(!pokes.is_empty());
-    for finding in pokes {
-        let element = finding.elements.last().unwrap();
-        assert_eq!(element.subject, Subject::Layer(1), "{finding}");
+    for diagnostic in pokes {
+        let element = *diagnostic.elements().last().unwrap();
+        assert_eq!(element.subject, Subject::Layer(1), "{diagnostic}");
         assert!((element.index as usize) < long.triangles.len());
-        assert!(finding.sentence.contains(&format!("triangle {} of layer 1", element.index)), "{finding}");
+        assert!(diagnostic.to_string().contains(&format!("triangle {} of layer 1", element.index)), "{diagnostic}");
     }
 }
 

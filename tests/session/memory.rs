@@ -56,7 +56,7 @@ fn pairs_beyond_the_limit_end_the_session() {
     let options = Options {
         dhat: 0.1,
         inflation_dhat: 0.1,
-        voxel: 0.05,
+        voxel_size: 0.05,
         memory_limit: estimate(garment.positions.len()) + 10_000_000,
         ..Options::default()
     };

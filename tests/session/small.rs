@@ -135,10 +135,10 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
 /// The promise of Step 2, looked at by the judge after every step: garment and avatar at t, and the garment itself.
 #[test]
 fn no_iterate_of_the_inflation_intersects() {
-    let (garment, options, mut findings) = (sleeve(), Options::default(), Vec::new());
+    let (garment, options, mut diagnostics) = (sleeve(), Options::default(), Vec::new());
     let problem = problem(&garment);
-    let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut findings).unwrap();
-    assert!(findings.is_empty() && objective.contact.min_separation() == options.min_separation, "{findings:?}");
+    let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut diagnostics).unwrap();
+    assert!(diagnostics.is_empty() && objective.contact.min_separation() == options.min_separation, "{diagnostics:?}");
     let mut state = State { x: problem.rest.clone(), t: 0.0 };
     let mut newton = Newton::new(state.x.len(), &objective.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut inflation = Inflation::default();

@@ -6,7 +6,7 @@ use bespoke::contact::Configuration;
 use bespoke::control::{Cancel, Stage};
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, ElementKind, Severity, Subject};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::session::{Budget, Precision};
@@ -21,13 +21,16 @@ fn pairs(positions: Vec<DVec3>, triangles: &[[u32; 3]]) -> BTreeSet<[u32; 2]> {
     intersections(&mesh, None, usize::MAX).unwrap().pairs.into_iter().collect()
 }
 
-/// The pairs of garment triangles that findings of a kind name.
-fn named(findings: &[Finding], kind: FindingKind) -> BTreeSet<[u32; 2]> {
-    let of_kind = findings.iter().filter(|f| f.kind == kind);
-    let pair = |finding: &Finding| {
-        assert!(finding.elements.iter().all(|e| (e.subject, e.kind) == (Subject::Garment, ElementKind::Triangle)));
-        let [s, t] = finding.elements[..] else { panic!("two triangles: {finding:?}") };
-        assert!(finding.sentence.contains(&s.index.to_string()) && finding.sentence.contains(&t.index.to_string()));
+/// The pairs of garment triangles that diagnostics of a kind name.
+fn named(diagnostics: &[Diagnostic], kind: DiagnosticKind) -> BTreeSet<[u32; 2]> {
+    let of_kind = diagnostics.iter().filter(|f| f.kind() == kind);
+    let pair = |diagnostic: &Diagnostic| {
+        assert!(diagnostic.elements().iter().all(|e| (e.subject, e.kind) == (Subject::Garment, ElementKind::Triangle)));
+        let [s, t] = diagnostic.elements()[..] else { panic!("two triangles: {diagnostic:?}") };
+        assert!(
+            diagnostic.to_string().contains(&s.index.to_string())
+                && diagnostic.to_string().contains(&t.index.to_string())
+        );
         [s.index.min(t.index), s.index.max(t.index)]
     };
     of_kind.map(pair).collect()
@@ -80,7 +83,7 @@ fn what_intersects_from_the_start_never_gets_more() {
         let mut session = session(1.0, DVec3::ZERO);
         session.set_garment(garment.clone(), Precision::F64).unwrap();
         session.prepare().unwrap();
-        assert_eq!(named(session.findings(), FindingKind::SelfIntersection), start);
+        assert_eq!(named(session.diagnostics(), DiagnosticKind::SelfIntersection), start);
         assert_eq!(session.report().initial_self_intersections, start.len());
         let mut last = start.clone();
         while session.step(Budget { iterations: 1, milliseconds: 0 }).unwrap() != Stage::Done {
@@ -181,8 +184,12 @@ fn split_vertices_come_back_together() {
     };
     let (one, many) = (run(&whole), run(&split));
     assert_eq!(many.report().garment_size, one.report().garment_size);
-    let note = many.findings().iter().find(|f| f.kind == FindingKind::SplitVertices).expect("a note on split vertices");
-    assert_eq!(note.severity, Severity::Note);
+    let note = many
+        .diagnostics()
+        .iter()
+        .find(|f| f.kind() == DiagnosticKind::SplitVertices)
+        .expect("a note on split vertices");
+    assert_eq!(note.severity(), Severity::Note);
     let (one, many) = (one.garment_positions().unwrap(), many.garment_positions().unwrap());
     let (mut place, mut worst) = (vec![None; one.len()], 0.0_f64);
     for (&v, &p) in source.iter().zip(&many) {
@@ -219,7 +226,8 @@ fn the_promise_survives_rounding() {
                 let garment = TriangleMesh { positions: read, triangles: sleeve().triangles };
                 assert_eq!(intersections(&garment, None, 0).unwrap().count, 0, "{scale} at {away}");
                 assert_eq!(intersections(&garment, Some(&avatar), 0).unwrap().count, 0, "{scale} at {away}");
-                wide += usize::from(session.findings().iter().any(|f| f.kind == FindingKind::CoarseCoordinates));
+                wide +=
+                    usize::from(session.diagnostics().iter().any(|f| f.kind() == DiagnosticKind::CoarseCoordinates));
             }
             Err(error) => {
                 assert!(matches!(error.kind, ErrorKind::InvalidMesh | ErrorKind::NotVerified), "{error}");
@@ -246,5 +254,5 @@ fn another_precision_is_not_handed_out_unless_it_is_good() {
     assert_eq!(error.kind, ErrorKind::NotVerified);
     session.reset();
     assert_eq!(session.stage(), Stage::Setup);
-    assert!(session.findings().is_empty());
+    assert!(session.diagnostics().is_empty());
 }

@@ -1,5 +1,6 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
+mod blockage;
 mod frame;
 mod initialize;
 mod layers;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use bespoke::control::{Cancel, Stage};
 use bespoke::error::{Error, ErrorKind};
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::diagnostic::{ElementKind, Finding, FindingKind, Severity, Subject};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, ElementKind, Severity, Subject};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::weld::Weld;
 use bespoke::options::Options;
@@ -74,7 +74,7 @@ struct Case {
 }
 
 impl Case {
-    fn problem(&self, findings: &mut Vec<Finding>) -> Result<Problem, Error> {
+    fn problem(&self, diagnostics: &mut Vec<Diagnostic>) -> Result<Problem, Error> {
         let (weld, _) = Weld::new(&self.garment);
         let inputs = Inputs {
             garment: &weld.mesh,
@@ -90,7 +90,7 @@ impl Case {
             offset: 0.0,
             coordinate_error: 0.0,
         };
-        Problem::new(&inputs, &Options::default(), &Cancel::new(), findings)
+        Problem::new(&inputs, &Options::default(), &Cancel::new(), diagnostics)
     }
 
     fn shrunk_pokes(&self) -> bool {
@@ -100,14 +100,17 @@ impl Case {
     }
 
     /// Resolved: a clean start with some room, warnings that name bones, and a session that ends with a clean result.
-    fn is_resolved(&self) -> Vec<Finding> {
+    fn is_resolved(&self) -> Vec<Diagnostic> {
         assert!(self.shrunk_pokes(), "the case pokes through to begin with");
-        let mut findings = Vec::new();
-        let problem = self.problem(&mut findings).unwrap();
-        assert!(!findings.is_empty());
-        for finding in &findings {
-            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPenetrates, Severity::Warning));
-            assert!((1..=4).contains(&finding.elements.len()), "{finding}");
+        let mut diagnostics = Vec::new();
+        let problem = self.problem(&mut diagnostics).unwrap();
+        assert!(!diagnostics.is_empty());
+        for diagnostic in &diagnostics {
+            assert_eq!(
+                (diagnostic.kind(), diagnostic.severity()),
+                (DiagnosticKind::AvatarPenetrates, Severity::Warning)
+            );
+            assert!((1..=4).contains(&diagnostic.elements().len()), "{diagnostic}");
         }
         let crossings =
             edge_crossings(&problem.rest, &problem.triangles, &problem.projected.start, &problem.projected.triangles);
@@ -132,24 +135,24 @@ impl Case {
         session.set_target_skeleton(self.target.clone()).unwrap();
         assert_eq!(session.run().unwrap(), Stage::Done);
         assert!(session.verify(Precision::F64).unwrap().is_clean());
-        findings
+        diagnostics
     }
 
-    /// Refused, with a message and findings that name triangles and bone.
+    /// Refused, with a message and diagnostics that name triangles and bone.
     fn is_refused(&self) -> String {
-        let mut findings = Vec::new();
-        let error = self.problem(&mut findings).err().expect("refused");
+        let mut diagnostics = Vec::new();
+        let error = self.problem(&mut diagnostics).err().expect("refused");
         assert_eq!(error.kind, ErrorKind::NotEnclosed);
-        for finding in &findings {
-            assert_eq!((finding.kind, finding.severity), (FindingKind::AvatarPenetrates, Severity::Error));
-            let [garment, bone, avatar] = finding.elements[..] else { panic!("three elements: {finding:?}") };
+        for diagnostic in &diagnostics {
+            assert_eq!((diagnostic.kind(), diagnostic.severity()), (DiagnosticKind::AvatarPenetrates, Severity::Error));
+            let [garment, bone, avatar] = diagnostic.elements()[..] else { panic!("three elements: {diagnostic:?}") };
             assert_eq!((garment.subject, garment.kind), (Subject::Garment, ElementKind::Triangle));
             assert_eq!((bone.subject, bone.kind), (Subject::SourceSkeleton, ElementKind::Bone));
             assert_eq!((avatar.subject, avatar.kind), (Subject::TargetAvatar, ElementKind::Triangle));
             assert!((garment.index as usize) < self.garment.triangles.len());
             assert!((avatar.index as usize) < self.avatar.triangles.len());
         }
-        assert_eq!(findings.is_empty(), !self.shrunk_pokes());
+        assert_eq!(diagnostics.is_empty(), !self.shrunk_pokes());
         error.message
     }
 }
@@ -180,9 +183,9 @@ fn edge_crossings(p: &[DVec3], garment: &[[u32; 3]], q: &[DVec3], pieces: &[[u32
     count
 }
 
-fn bones(findings: &[Finding]) -> Vec<u32> {
-    let bone = |f: &Finding| f.elements.iter().find(|e| e.kind == ElementKind::Bone).map(|e| e.index);
-    findings.iter().filter_map(bone).collect()
+fn bones(diagnostics: &[Diagnostic]) -> Vec<u32> {
+    let bone = |f: &Diagnostic| f.elements().iter().find(|e| e.kind == ElementKind::Bone).map(|e| e.index);
+    diagnostics.iter().filter_map(bone).collect()
 }
 
 /// The hand goes on beyond its bone and out of a closed mitten: that part is pulled back along the bone.
@@ -190,9 +193,13 @@ fn bones(findings: &[Finding]) -> Vec<u32> {
 fn fingers_beyond_a_closed_mitten() {
     let garment = tube([-0.5, 1.05], |z| DVec3::new(0.0, 0.0, z), |_| 0.25, [20, 16], [false, true]);
     let case = Case { garment, source: straight_arm(), avatar: body(1.3), target: straight_arm() };
-    let findings = case.is_resolved();
-    assert_eq!(bones(&findings), [1]);
-    assert!(findings[0].sentence.contains("pulled back") && !findings[0].sentence.contains("aside"), "{}", findings[0]);
+    let diagnostics = case.is_resolved();
+    assert_eq!(bones(&diagnostics), [1]);
+    assert!(
+        diagnostics[0].to_string().contains("pulled back") && !diagnostics[0].to_string().contains("aside"),
+        "{}",
+        diagnostics[0]
+    );
     let problem = case.problem(&mut Vec::new()).unwrap();
     let tip = problem.projected.shrunk.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
     assert!((1.0..1.05).contains(&tip), "just inside the closed end: {tip}");
@@ -216,9 +223,9 @@ fn a_sleeve_that_bows_to_the_side() {
         let garment = tube([-0.7, 0.9], centre, |_| 0.2, [32, 18], [false; 2]);
         let avatar = tube([-1.1, 1.15], |z| DVec3::new(0.0, 0.0, z), |_| 0.12, [20, 14], [true; 2]);
         let case = Case { garment, source: straight_arm(), avatar, target: straight_arm() };
-        let findings = case.is_resolved();
-        assert_eq!(bones(&findings), [1]);
-        assert!(findings[0].sentence.contains("aside"), "{}", findings[0]);
+        let diagnostics = case.is_resolved();
+        assert_eq!(bones(&diagnostics), [1]);
+        assert!(diagnostics[0].to_string().contains("aside"), "{}", diagnostics[0]);
     }
 }
 
@@ -228,8 +235,8 @@ fn an_elbow_outside_its_sleeve() {
     let bent = chain(&[[0.0, 0.0, -1.0], [0.3, 0.05, 0.0], [0.0, 0.0, 1.0]]);
     let garment = tube([-0.75, 0.75], |z| DVec3::new(0.0, 0.0, z), |_| 0.24, [28, 18], [false; 2]);
     let case = Case { garment, source: bent, avatar: body(1.1), target: straight_arm() };
-    let findings = case.is_resolved();
-    assert_eq!(bones(&findings), [0, 1]);
+    let diagnostics = case.is_resolved();
+    assert_eq!(bones(&diagnostics), [0, 1]);
     let problem = case.problem(&mut Vec::new()).unwrap();
     let elbow = problem.projected.shrunk.iter().filter(|p| p.z.abs() < 0.02).map(|p| p.x).fold(0.0, f64::max);
     assert!(elbow < 0.3, "{elbow}");
@@ -259,8 +266,8 @@ fn a_dent_within_a_cycle_of_bones() {
     garment.positions[nearest] = DVec3::new(0.0, -0.15, -0.1);
     let avatar = tube([-1.1, 1.1], |z| DVec3::new(0.0, 0.0, z), |_| 0.55, [3, 8], [true; 2]);
     let case = Case { garment, source: pelvis.clone(), avatar, target: pelvis };
-    let findings = case.is_resolved();
-    assert!(findings.iter().any(|f| f.sentence.contains("cycle")), "{findings:?}");
+    let diagnostics = case.is_resolved();
+    assert!(diagnostics.iter().any(|f| f.to_string().contains("cycle")), "{diagnostics:?}");
 }
 
 /// A sheet across the arm like a wall, so wide that there is no way around it.
@@ -301,9 +308,9 @@ fn a_garment_beside_its_skeleton_is_refused() {
 fn a_start_that_is_clean_is_left_alone() {
     let garment = tube([-0.6, 0.7], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [18, 16], [false; 2]);
     let case = Case { garment, source: straight_arm(), avatar: body(1.1), target: straight_arm() };
-    let mut findings = Vec::new();
-    let problem = case.problem(&mut findings).unwrap();
-    assert!(findings.is_empty());
+    let mut diagnostics = Vec::new();
+    let problem = case.problem(&mut diagnostics).unwrap();
+    assert!(diagnostics.is_empty());
     // The skeleton is in its normalised space already.
     let projected = project(&case.avatar, &case.target, &case.source, None);
     assert_eq!(problem.projected.start, projected.start);

@@ -203,6 +203,14 @@ namespace Bespoke
 
         /// <summary>A rigid group of garment vertices ended bent, for something stands in its way.</summary>
         RigidGroupBent = 13,
+
+        /// <summary>
+        /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A
+        /// garment triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance
+        /// is that between the garment and one part now, or that between two parts at full size, which is 0 where they
+        /// touch or overlap.
+        /// </summary>
+        InflationBlocked = 14,
     }
 
     /// <summary>How much a diagnostic matters.</summary>

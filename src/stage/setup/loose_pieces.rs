@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::energy::attachment::Hold;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces, triangle_area};
-use crate::input::diagnostic::{self, Finding, FindingKind, Severity, Subject};
+use crate::input::diagnostic::Diagnostic;
 
 /// A loose piece has at most this fraction of its host's area.
 const SMALL: f64 = 0.25;
@@ -119,22 +119,16 @@ impl LoosePieces {
         found
     }
 
-    /// What to tell about the pieces; `caller` gives the caller's index of a triangle.
-    pub fn findings(&self, caller: impl Fn(u32) -> u32) -> Vec<Finding> {
-        let finding = |piece: &LoosePiece| {
-            let [triangle, host] = [piece.triangle, piece.host].map(&caller);
-            let sentence = format!(
-                "garment: the loose piece of {} vertices with triangle {triangle} is held to the piece beside it, near \
-                 triangle {host}",
-                piece.vertices.len()
-            );
-            let elements = [triangle, host].map(|t| diagnostic::Element::triangle(Subject::Garment, t));
-            let finding = Finding::new(FindingKind::LoosePiece, Severity::Note, &elements, sentence);
-            Finding { distance: piece.distance, ..finding }
-        };
-        let mut findings = Vec::new();
-        diagnostic::describe(&mut findings, &self.pieces, finding, "loose pieces of the garment are held");
-        findings
+    /// What to report about the pieces; `caller` gives the caller's index of a triangle.
+    pub fn diagnostics(&self, caller: impl Fn(u32) -> u32) -> Vec<Diagnostic> {
+        let mut diagnostics = Vec::new();
+        Diagnostic::list(&mut diagnostics, &self.pieces, |piece| Diagnostic::LoosePiece {
+            vertices: piece.vertices.len(),
+            triangle: caller(piece.triangle),
+            host: caller(piece.host),
+            distance: piece.distance,
+        });
+        diagnostics
     }
 }
 

@@ -16,7 +16,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::diagnostic::{Finding, FindingKind, Severity};
+use crate::input::diagnostic::Diagnostic;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
@@ -73,6 +73,8 @@ pub struct Problem {
     pub avatar: Arc<TriangleMesh>,
     /// The avatar with its layers between skeleton and full size.
     pub projected: ProjectedAvatar,
+    /// The joints at the ends of each bone.
+    pub bones: Vec<[u32; 2]>,
     /// The shape terms.
     pub shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
@@ -88,14 +90,19 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing goes to `findings`, in the
+    /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing goes to `diagnostics`, in the
     /// caller's indices.
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `InvalidArgument` for an offset beyond it, `InvalidMesh` where the
     /// coordinates of the result are too coarse, `NotEnclosed` where the garment lies beside the skeleton or the shrunk
     /// avatar pokes through it and cannot be led around it, `Cancelled`.
-    pub fn new(inputs: &Inputs<'_>, options: &Options, cancel: &Cancel, findings: &mut Vec<Finding>) -> Result<Self> {
+    pub fn new(
+        inputs: &Inputs<'_>,
+        options: &Options,
+        cancel: &Cancel,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Self> {
         let normalised = Normalised::new(inputs, options)?;
         let Normalised {
             source_normalization,
@@ -113,12 +120,12 @@ impl Problem {
         let distances =
             ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
         if distances != ContactDistances::of(options) {
-            findings.push(coarse_coordinates(&distances));
+            diagnostics.push(Diagnostic::CoarseCoordinates { min_separation: distances.min_separation });
         }
         let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
-        let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, findings)?;
+        let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
         cancel.check()?;
         enclosure::check(garment, &wire)?;
         cancel.check()?;
@@ -126,7 +133,7 @@ impl Problem {
         let place = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<AskedPin> = inputs.pins.iter().map(|&(v, p)| (v, p.map(place))).collect();
         let (shape, loose) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
-        findings.extend(loose.findings(|t| inputs.weld.triangle_of[t as usize]));
+        diagnostics.extend(loose.diagnostics(|t| inputs.weld.triangle_of[t as usize]));
         let source_body = inputs.source_avatar.map(|mesh| {
             ClosestPoint::new(&TriangleMesh {
                 positions: source_normalization.normalise_all(&mesh.positions),
@@ -147,6 +154,7 @@ impl Problem {
             weld: inputs.weld.clone(),
             avatar: avatar.mesh,
             projected,
+            bones: inputs.source_skeleton.bones.clone(),
             shape: Arc::new(shape),
             fit_weights,
             source_body,
@@ -234,22 +242,5 @@ fn gather_unused(mesh: &mut TriangleMesh) {
     let place = mesh.positions[first as usize];
     for (p, _) in mesh.positions.iter_mut().zip(used).filter(|(_, used)| !used) {
         *p = place;
-    }
-}
-
-fn coarse_coordinates(distances: &ContactDistances) -> Finding {
-    Finding {
-        distance: distances.min_separation,
-        ..Finding::new(
-            FindingKind::CoarseCoordinates,
-            Severity::Warning,
-            &[],
-            format!(
-                "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
-                 distance of {:.1e} at least, in units in which the skeleton is 2 long; a place nearer to the origin or 64 bits \
-                 allow a closer fit",
-                distances.min_separation
-            ),
-        )
     }
 }

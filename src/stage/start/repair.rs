@@ -14,7 +14,8 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::diagnostic::{Element, Finding, FindingKind, Severity, Subject};
+use crate::input::diagnostic::{Bone, Diagnostic};
+use crate::input::diagnostic_text::at_bone;
 use crate::input::skeleton::{Location, Skeleton};
 use crate::verify::intersections_with_cancel;
 
@@ -35,8 +36,8 @@ const MOST_JOINTS: usize = 8192;
 const ROOTS: usize = 64;
 /// Garment triangles that an error names.
 const NAMED: usize = 8;
-/// Findings of one error, at most.
-const MOST_FINDINGS: usize = 64;
+/// Diagnostics of one error, at most.
+const MOST_DIAGNOSTICS: usize = 64;
 
 /// A garment triangle that the shrunk avatar passes through, the bone, and the triangle of the avatar or a layer.
 struct Poke {
@@ -46,10 +47,10 @@ struct Poke {
 }
 
 /// Moves the start of `projected`, of `avatar` and on `source`, clear of the garment where it is not, and adds what was done
-/// to `findings`. Returns the lines that the start lies on. `callers` has the caller's index of each garment triangle.
+/// to `diagnostics`. Returns the lines that the start lies on. `callers` has the caller's index of each garment triangle.
 ///
 /// # Errors
-/// `NotEnclosed` where that cannot be done, naming bone and triangles, which are also added to `findings`; `Cancelled`.
+/// `NotEnclosed` where that cannot be done, naming bone and triangles, which are also added to `diagnostics`; `Cancelled`.
 pub fn resolve(
     garment: &TriangleMesh,
     avatar: &Body,
@@ -57,7 +58,7 @@ pub fn resolve(
     source: &Skeleton,
     callers: &[u32],
     cancel: &Cancel,
-    findings: &mut Vec<Finding>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<[DVec3; 2]>> {
     let mut pokes = find(garment, projected, cancel)?;
     pokes.iter_mut().for_each(|poke| poke.garment = callers[poke.garment as usize]);
@@ -67,10 +68,10 @@ pub fn resolve(
         return Ok(extents.iter().zip(0..).map(line).collect());
     }
     let Some((route, start)) = search(garment, &avatar.mesh, projected, source, &pokes, cancel)? else {
-        findings.extend(pokes.iter().take(MOST_FINDINGS).map(|poke| refusal_of(poke, source, avatar)));
+        diagnostics.extend(pokes.iter().take(MOST_DIAGNOSTICS).map(|poke| refusal_of(poke, source, avatar)));
         return Err(refusal(&pokes, source));
     };
-    findings.extend(repairs(&pokes, &route, source));
+    diagnostics.extend(repairs(&pokes, &route, source));
     *projected = start;
     Ok(route.wire.lines(&extents))
 }
@@ -192,74 +193,41 @@ fn beside_pokes(pokes: &[Poke], source: &Skeleton) -> Vec<bool> {
 }
 
 /// What was done, bone by bone; last what was done to cycles.
-fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Finding> {
+fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Diagnostic> {
     let through = |bone: Option<u32>| {
         let mut triangles: Vec<u32> = pokes.iter().filter(|p| p.bone == bone).map(|p| p.garment).collect();
         triangles.sort_unstable();
         triangles.dedup();
         triangles.truncate(3);
-        triangles.into_iter().map(|t| Element::triangle(Subject::Garment, t)).collect::<Vec<_>>()
+        triangles
     };
-    let mut findings = Vec::new();
-    for (bone, &[a, b]) in source.bones.iter().enumerate() {
-        let triangles = through(Some(bone as u32));
-        let [between, beyond] = route.pulled[bone];
+    let mut diagnostics = Vec::new();
+    for bone in (0..source.bones.len() as u32).map(|index| bone_of(index, source)) {
+        let triangles = through(Some(bone.index));
+        let [between, beyond] = route.pulled[bone.index as usize];
         if triangles.is_empty() && between == 0.0 {
             continue;
         }
-        let mut done = Vec::new();
-        if route.offsets[bone] > 0.0 {
-            done.push(format!("it was led aside by up to {:.3}", route.offsets[bone]));
-        }
-        if between > 0.0 {
-            done.push(format!("{between:.3} of its length was pulled back to where it is still inside"));
-        }
-        if beyond > 0.0 {
-            done.push(format!("what goes {beyond:.3} beyond its end was pulled back"));
-        }
-        if done.is_empty() {
-            done.push("a bone beside it was moved".to_string());
-        }
-        let mut elements = vec![Element::bone(Subject::SourceSkeleton, bone as u32)];
-        elements.extend(triangles);
-        let sentence = format!(
-            "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would poke through the garment; {} (the \
-             skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
-            done.join(", and ")
-        );
-        findings.push(Finding::new(FindingKind::AvatarPenetrates, Severity::Warning, &elements, sentence));
+        let aside = route.offsets[bone.index as usize];
+        diagnostics.push(Diagnostic::BoneMoved { bone, triangles, aside, between, beyond });
     }
     let triangles = through(None);
     if !triangles.is_empty() {
-        let sentence = "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; \
-                        the cycle was cut open; check the result there";
-        findings.push(Finding::new(FindingKind::AvatarPenetrates, Severity::Warning, &triangles, sentence));
+        diagnostics.push(Diagnostic::CycleCut { triangles });
     }
-    findings
+    diagnostics
 }
 
-fn place(bone: Option<u32>, source: &Skeleton) -> String {
-    match bone {
-        Some(bone) => {
-            let [a, b] = source.bones[bone as usize];
-            format!("at the bone between joints {a} and {b}")
-        }
-        None => "between bones that form a cycle".to_string(),
-    }
+fn bone_of(index: u32, source: &Skeleton) -> Bone {
+    Bone { index, joints: source.bones[index as usize] }
 }
 
-fn refusal_of(poke: &Poke, source: &Skeleton, avatar: &Body) -> Finding {
-    let mut elements = vec![Element::triangle(Subject::Garment, poke.garment)];
-    elements.extend(poke.bone.map(|bone| Element::bone(Subject::SourceSkeleton, bone)));
-    elements.push(avatar.triangle(poke.avatar));
-    let sentence = format!(
-        "garment: {}, shrunk onto the source skeleton, pokes through triangle {} {}, and no way around it \
-         was found",
-        avatar.name(poke.avatar),
-        poke.garment,
-        place(poke.bone, source)
-    );
-    Finding::new(FindingKind::AvatarPenetrates, Severity::Error, &elements, sentence)
+fn refusal_of(poke: &Poke, source: &Skeleton, avatar: &Body) -> Diagnostic {
+    Diagnostic::AvatarPenetrates {
+        garment: poke.garment,
+        bone: poke.bone.map(|bone| bone_of(bone, source)),
+        avatar: avatar.triangle(poke.avatar),
+    }
 }
 
 fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {
@@ -274,7 +242,7 @@ fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {
             "garment: the avatar, shrunk onto the source skeleton, pokes through it {}: through garment triangles \
              {}{} ({count} in all), and no way around them was found; move the garment or the skeleton so that the garment \
              is around its bones",
-            place(pokes.first().and_then(|p| p.bone), source),
+            at_bone(pokes.first().and_then(|p| p.bone).map(|bone| source.bones[bone as usize])),
             named.join(", "),
             if count > named.len() { ", ..." } else { "" },
         ),

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bespoke::error::{Error, ErrorKind};
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::diagnostic::{Finding, FindingKind};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind};
 use bespoke::verify::intersections;
 
 use testing::scene::{Recipe, Scene};
@@ -73,10 +73,10 @@ fn run(scene: &Scene, outcome: &mut Outcome) -> Result<(), Error> {
         // What is let off is what intersects at the start, or touches within rounding and is told.
         let before = intersections(&scene.garment, None, usize::MAX)?.pairs;
         let told = |pair: &[u32; 2]| {
-            let of_pair = |f: &Finding| {
-                f.kind == FindingKind::SelfIntersection && f.elements.iter().all(|e| pair.contains(&e.index))
+            let of_pair = |f: &Diagnostic| {
+                f.kind() == DiagnosticKind::SelfIntersection && f.elements().iter().all(|e| pair.contains(&e.index))
             };
-            session.findings().iter().any(of_pair)
+            session.diagnostics().iter().any(of_pair)
         };
         let new = within.pairs.iter().filter(|pair| before.binary_search(pair).is_err() && !told(pair));
         outcome.intersections += new.count() as u64;

@@ -1,0 +1,199 @@
+//! The one place that makes sentences of diagnostics, for people. Who translates starts from here.
+
+use std::fmt::{Display, Formatter, Result};
+
+use super::diagnostic::{Bone, Diagnostic, Element, Subject};
+
+impl Display for Diagnostic {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::SplitVertices { sharing, vertices, shared_places, places, .. } => write!(
+                f,
+                "garment: {sharing} of the {vertices} vertices share their place with another, in {shared_places} places, as \
+                 along UV and normal seams; copies move as one, so there are {places} vertices to place. The result is in the \
+                 caller's order"
+            ),
+            Self::DuplicateTriangle { triangle, of } => {
+                write!(f, "garment: triangle {triangle} has the corners of triangle {of}; the two count as one")
+            }
+            Self::CollapsedTriangle { triangle, corners: [a, b, c], kept } => {
+                let treated =
+                    if *kept { "it counts as a wire, which collides and nothing more" } else { "it is left out" };
+                write!(
+                    f,
+                    "garment: triangle {triangle} (vertices {a}, {b}, {c}) has corners in one place; {treated}"
+                )
+            }
+            Self::FlatTriangle { triangle, corners: [a, b, c] } => write!(
+                f,
+                "garment: triangle {triangle} (vertices {a}, {b}, {c}) has its corners on a line; it has no area"
+            ),
+            Self::NonManifoldEdge { vertices: [a, b], triangles } => write!(
+                f,
+                "garment: the edge between vertices {a} and {b} has {triangles} triangles; each of them bends with every other, \
+                 and boundary curves that end there do not hold their shape"
+            ),
+            Self::UnusedVertex { vertex } => write!(
+                f,
+                "garment: vertex {vertex} belongs to no triangle with a side; nothing holds it in its place"
+            ),
+            Self::LoosePiece { vertices, triangle, host, .. } => write!(
+                f,
+                "garment: the loose piece of {vertices} vertices with triangle {triangle} is held to the piece beside it, near \
+                 triangle {host}"
+            ),
+            Self::SelfIntersection { triangles: [s, t], touches, strict } => {
+                let how = if *touches { "touch within rounding" } else { "intersect" };
+                let fate = match strict {
+                    true => "which the option strict refuses",
+                    false => "so they are let off until they come apart, and may still do so in the result",
+                };
+                write!(f, "garment: triangles {s} and {t} {how} before anything has moved, {fate}")
+            }
+            Self::NearContact { to_itself, to_avatar, min_separation, .. } => write!(
+                f,
+                "garment: at the start it is within {to_itself:.1e} of itself and {to_avatar:.1e} of the shrunk avatar, so that \
+                 the minimum separation begins at {min_separation:.1e} and rises as they part"
+            ),
+            Self::BoneMoved { bone, aside, between, beyond, .. } => {
+                let [a, b] = bone.joints;
+                write!(
+                    f,
+                    "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would poke through the garment; \
+                     {} (the skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
+                    moves(*aside, *between, *beyond)
+                )
+            }
+            Self::CycleCut { .. } => f.write_str(
+                "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; the cycle \
+                 was cut open; check the result there",
+            ),
+            Self::AvatarPenetrates { garment, bone, avatar } => write!(
+                f,
+                "garment: {}, shrunk onto the source skeleton, pokes through triangle {garment} {}, and no way around it was \
+                 found",
+                avatar_triangle(*avatar),
+                at_bone(bone.map(|bone| bone.joints))
+            ),
+            Self::CoarseCoordinates { min_separation } => write!(
+                f,
+                "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
+                 distance of {min_separation:.1e} at least, in units in which the skeleton is 2 long; a place nearer to the \
+                 origin or 64 bits allow a closer fit"
+            ),
+            Self::ResultSelfIntersection { triangles: [s, t] } => {
+                write!(f, "result: garment triangles {s} and {t} intersect, which they did not at the start")
+            }
+            Self::ResultIntersection { garment, avatar } => {
+                write!(f, "result: garment triangle {garment} and {} intersect", avatar_triangle(*avatar))
+            }
+            Self::PinNotReached { vertex, distance } => write!(
+                f,
+                "garment: pinned vertex {vertex} ends {distance:.1e} from its place, in units in which the skeleton is 2 long: \
+                 the body is in its way, or the garment holds it back; a higher pin_weight helps against the garment"
+            ),
+            Self::RigidGroupBent { group, vertex, distance } => write!(
+                f,
+                "garment: rigid group {group} ends bent, by {distance:.1e} at vertex {vertex} in units in which the skeleton is \
+                 2 long, for the body or another part of the garment is in its way"
+            ),
+            Self::InflationHeld { garment, part, held, .. } => write!(
+                f,
+                "target avatar: the garment holds back the part around {}, which pushes it from one side (garment triangle \
+                 {garment}, {}; {held} garment triangles in all): it is caught on that part, or too tight or too stiff there, or \
+                 needs more iterations; lower inflation_dhat or inflation_barrier_weight, raise max_iterations, or leave that \
+                 part out of the body",
+                bone_name(part.bone),
+                avatar_triangle(part.triangle),
+            ),
+            Self::InflationSqueezed { garment, parts, same, gap, inflation_dhat } => {
+                let [a, b] = parts.map(|part| avatar_triangle(part.triangle));
+                let who = match (parts.map(|part| bone_name(part.bone)), same) {
+                    ([one, _], true) => format!("two sides of the part around {one}"),
+                    ([one, other], false) => format!("the parts around {one} and {other}"),
+                };
+                match gap {
+                    None => write!(
+                        f,
+                        "target avatar: {who} touch each other at full size (near {a} and {b}), and the garment is between \
+                         them (garment triangle {garment}): no garment can pass there; move the limbs apart, or leave one part \
+                         out of the body"
+                    ),
+                    Some(gap) => {
+                        let narrow = if *gap < 2.0 * inflation_dhat { ", less than two inflation_dhat" } else { "" };
+                        write!(
+                            f,
+                            "target avatar: {who} hold the garment between them (garment triangle {garment}, {a} and {b}); at \
+                             full size these are {gap:.1e} apart{narrow}, in units in which the skeleton is 2 long; lower \
+                             inflation_dhat (it is {inflation_dhat}) or inflation_barrier_weight, raise max_iterations, or move \
+                             the limbs apart"
+                        )
+                    }
+                }
+            }
+            Self::More { like, count } => write!(f, "{count} more {}", several(like)),
+        }
+    }
+}
+
+/// What many diagnostics of one sort are about.
+fn several(like: &Diagnostic) -> &'static str {
+    match like {
+        Diagnostic::DuplicateTriangle { .. } => "garment triangles have the corners of another",
+        Diagnostic::CollapsedTriangle { .. } => "garment triangles have corners in one place",
+        Diagnostic::FlatTriangle { .. } => "garment triangles have their corners on a line",
+        Diagnostic::NonManifoldEdge { .. } => "garment edges have more than two triangles",
+        Diagnostic::UnusedVertex { .. } => "garment vertices belong to no triangle",
+        Diagnostic::LoosePiece { .. } => "loose pieces of the garment are held",
+        Diagnostic::SelfIntersection { .. } => "pairs of garment triangles intersect before anything has moved",
+        Diagnostic::ResultSelfIntersection { .. } => "pairs of garment triangles intersect in the result",
+        Diagnostic::ResultIntersection { .. } => {
+            "pairs of garment triangles and those of the avatar or its layers intersect in the result"
+        }
+        Diagnostic::PinNotReached { .. } => "pinned vertices end away from their places",
+        Diagnostic::RigidGroupBent { .. } => "rigid groups end bent",
+        _ => "of this kind",
+    }
+}
+
+/// What was done at a bone, where the shrunk avatar was in the garment's way.
+fn moves(aside: f64, between: f64, beyond: f64) -> String {
+    let mut done = Vec::new();
+    if aside > 0.0 {
+        done.push(format!("it was led aside by up to {aside:.3}"));
+    }
+    if between > 0.0 {
+        done.push(format!("{between:.3} of its length was pulled back to where it is still inside"));
+    }
+    if beyond > 0.0 {
+        done.push(format!("what goes {beyond:.3} beyond its end was pulled back"));
+    }
+    if done.is_empty() {
+        done.push("a bone beside it was moved".to_string());
+    }
+    done.join(", and ")
+}
+
+/// The place of a bone with these joints; none is between bones that form a cycle.
+pub fn at_bone(joints: Option<[u32; 2]>) -> String {
+    match joints {
+        Some([a, b]) => format!("at the bone between joints {a} and {b}"),
+        None => "between bones that form a cycle".to_string(),
+    }
+}
+
+/// A bone of a part of the avatar: "bone 3 (joints 3-4)".
+fn bone_name(bone: Option<Bone>) -> String {
+    match bone {
+        Some(Bone { index, joints: [a, b] }) => format!("bone {index} (joints {a}-{b})"),
+        None => "bones that form a cycle".to_string(),
+    }
+}
+
+/// A triangle of the avatar or of a layer: "avatar triangle 5", "triangle 7 of layer 0".
+pub fn avatar_triangle(triangle: Element) -> String {
+    match triangle {
+        Element { subject: Subject::Layer(layer), index, .. } => format!("triangle {index} of layer {layer}"),
+        Element { index, .. } => format!("avatar triangle {index}"),
+    }
+}

@@ -1,0 +1,183 @@
+//! Every sort of diagnostic, with its sentence to the letter.
+
+use bespoke::input::diagnostic::{AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Severity, Subject};
+
+const BONE: Bone = Bone { index: 4, joints: [5, 7] };
+
+fn avatar(index: u32) -> Element {
+    Element::triangle(Subject::TargetAvatar, index)
+}
+
+fn layer(index: u32) -> Element {
+    Element::triangle(Subject::Layer(2), index)
+}
+
+#[test]
+fn every_sentence_is_made_of_its_data() {
+    let moved =
+        |aside, between, beyond| Diagnostic::BoneMoved { bone: BONE, triangles: vec![1, 2], aside, between, beyond };
+    let start =
+        "source skeleton: at the bone between joints 5 and 7, the shrunk avatar would poke through the garment;";
+    let end = "(the skeleton is 2 long); check the result there, or move skeleton and garment onto each other";
+    let cases = [
+        (
+            Diagnostic::SplitVertices { sharing: 4, vertices: 7, shared_places: 2, places: 5, first: vec![0, 1, 3, 4] },
+            "garment: 4 of the 7 vertices share their place with another, in 2 places, as along UV and normal seams; copies \
+             move as one, so there are 5 vertices to place. The result is in the caller's order"
+                .to_string(),
+        ),
+        (
+            Diagnostic::DuplicateTriangle { triangle: 9, of: 3 },
+            "garment: triangle 9 has the corners of triangle 3; the two count as one".into(),
+        ),
+        (
+            Diagnostic::CollapsedTriangle { triangle: 1, corners: [3, 3, 8], kept: true },
+            "garment: triangle 1 (vertices 3, 3, 8) has corners in one place; it counts as a wire, which collides and nothing \
+             more"
+                .into(),
+        ),
+        (
+            Diagnostic::CollapsedTriangle { triangle: 1, corners: [3, 3, 8], kept: false },
+            "garment: triangle 1 (vertices 3, 3, 8) has corners in one place; it is left out".into(),
+        ),
+        (
+            Diagnostic::FlatTriangle { triangle: 2, corners: [1, 2, 8] },
+            "garment: triangle 2 (vertices 1, 2, 8) has its corners on a line; it has no area".into(),
+        ),
+        (
+            Diagnostic::NonManifoldEdge { vertices: [1, 6], triangles: 4 },
+            "garment: the edge between vertices 1 and 6 has 4 triangles; each of them bends with every other, and boundary \
+             curves that end there do not hold their shape"
+                .into(),
+        ),
+        (
+            Diagnostic::UnusedVertex { vertex: 8 },
+            "garment: vertex 8 belongs to no triangle with a side; nothing holds it in its place".into(),
+        ),
+        (
+            Diagnostic::LoosePiece { vertices: 7, triangle: 40, host: 11, distance: 0.02 },
+            "garment: the loose piece of 7 vertices with triangle 40 is held to the piece beside it, near triangle 11".into(),
+        ),
+        (
+            Diagnostic::SelfIntersection { triangles: [1, 2], touches: false, strict: true },
+            "garment: triangles 1 and 2 intersect before anything has moved, which the option strict refuses".into(),
+        ),
+        (
+            Diagnostic::SelfIntersection { triangles: [1, 2], touches: true, strict: false },
+            "garment: triangles 1 and 2 touch within rounding before anything has moved, so they are let off until they come \
+             apart, and may still do so in the result"
+                .into(),
+        ),
+        (
+            Diagnostic::NearContact { vertices: vec![3], to_itself: f64::INFINITY, to_avatar: 2e-6, min_separation: 5e-7 },
+            "garment: at the start it is within inf of itself and 2.0e-6 of the shrunk avatar, so that the minimum separation \
+             begins at 5.0e-7 and rises as they part"
+                .into(),
+        ),
+        (moved(0.0, 0.0, 0.0), format!("{start} a bone beside it was moved {end}")),
+        (
+            moved(0.1, 0.2, 0.3),
+            format!(
+                "{start} it was led aside by up to 0.100, and 0.200 of its length was pulled back to where it is still inside, \
+                 and what goes 0.300 beyond its end was pulled back {end}"
+            ),
+        ),
+        (
+            Diagnostic::CycleCut { triangles: vec![5] },
+            "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; the cycle was \
+             cut open; check the result there"
+                .into(),
+        ),
+        (
+            Diagnostic::AvatarPenetrates { garment: 3, bone: Some(BONE), avatar: avatar(6) },
+            "garment: avatar triangle 6, shrunk onto the source skeleton, pokes through triangle 3 at the bone between joints 5 \
+             and 7, and no way around it was found"
+                .into(),
+        ),
+        (
+            Diagnostic::AvatarPenetrates { garment: 3, bone: None, avatar: layer(6) },
+            "garment: triangle 6 of layer 2, shrunk onto the source skeleton, pokes through triangle 3 between bones that form \
+             a cycle, and no way around it was found"
+                .into(),
+        ),
+        (
+            Diagnostic::CoarseCoordinates { min_separation: 3e-4 },
+            "target avatar: so far from the origin, the coordinates in which the garment is read are coarse, and it keeps a \
+             distance of 3.0e-4 at least, in units in which the skeleton is 2 long; a place nearer to the origin or 64 bits \
+             allow a closer fit"
+                .into(),
+        ),
+        (
+            Diagnostic::ResultSelfIntersection { triangles: [7, 8] },
+            "result: garment triangles 7 and 8 intersect, which they did not at the start".into(),
+        ),
+        (
+            Diagnostic::ResultIntersection { garment: 7, avatar: layer(1) },
+            "result: garment triangle 7 and triangle 1 of layer 2 intersect".into(),
+        ),
+        (
+            Diagnostic::PinNotReached { vertex: 12, distance: 0.25 },
+            "garment: pinned vertex 12 ends 2.5e-1 from its place, in units in which the skeleton is 2 long: the body is in its \
+             way, or the garment holds it back; a higher pin_weight helps against the garment"
+                .into(),
+        ),
+        (
+            Diagnostic::RigidGroupBent { group: 1, vertex: 12, distance: 0.25 },
+            "garment: rigid group 1 ends bent, by 2.5e-1 at vertex 12 in units in which the skeleton is 2 long, for the body or \
+             another part of the garment is in its way"
+                .into(),
+        ),
+    ];
+    for (diagnostic, sentence) in cases {
+        assert_eq!(diagnostic.to_string(), sentence);
+        assert!(diagnostic.elements().len() <= 4);
+        // Of many, the last says how many more there are, and nothing else.
+        let more = Diagnostic::More { like: Box::new(diagnostic.clone()), count: 3 };
+        assert_eq!((more.kind(), more.severity()), (diagnostic.kind(), diagnostic.severity()));
+        assert!(more.elements().is_empty() && more.distance().is_nan());
+        assert!(more.to_string().starts_with("3 more "));
+    }
+}
+
+#[test]
+fn a_blockage_names_bones_and_triangles_and_what_helps() {
+    let part = |triangle, bone| AvatarPart { bone, triangle };
+    let other = Bone { index: 9, joints: [10, 11] };
+    let squeezed = |second, same, gap| Diagnostic::InflationSqueezed {
+        garment: 55,
+        parts: [part(avatar(120), Some(BONE)), part(layer(981), second)],
+        same,
+        gap,
+        inflation_dhat: 0.01,
+    };
+    let touching = squeezed(Some(other), false, None);
+    assert_eq!(
+        touching.to_string(),
+        "target avatar: the parts around bone 4 (joints 5-7) and bone 9 (joints 10-11) touch each other at full size (near avatar \
+         triangle 120 and triangle 981 of layer 2), and the garment is between them (garment triangle 55): no garment can pass \
+         there; move the limbs apart, or leave one part out of the body"
+    );
+    assert_eq!((touching.kind(), touching.severity()), (DiagnosticKind::InflationBlocked, Severity::Error));
+    assert_eq!(touching.elements(), [Element::triangle(Subject::Garment, 55), avatar(120), layer(981)]);
+    assert_eq!(touching.distance(), 0.0);
+    for (gap, narrow) in [(0.015, true), (0.3, false)] {
+        let apart = squeezed(Some(other), false, Some(gap));
+        assert_eq!(apart.to_string().contains("less than two inflation_dhat"), narrow, "{apart}");
+        assert_eq!(apart.distance(), gap);
+        assert!(!apart.to_string().contains("touch"));
+    }
+    assert!(squeezed(None, false, None).to_string().contains("bone 4 (joints 5-7) and bones that form a cycle touch"));
+    assert!(
+        squeezed(Some(BONE), true, None).to_string().contains("two sides of the part around bone 4 (joints 5-7) touch")
+    );
+
+    let held = Diagnostic::InflationHeld { garment: 55, part: part(avatar(120), Some(BONE)), held: 3, distance: 0.002 };
+    let elements = [Element::triangle(Subject::Garment, 55), avatar(120), Element::bone(Subject::SourceSkeleton, 4)];
+    assert_eq!((held.elements(), held.distance()), (elements.into(), 0.002));
+    for words in
+        ["bone 4 (joints 5-7)", "from one side", "garment triangle 55, avatar triangle 120", "3 garment triangles"]
+    {
+        assert!(held.to_string().contains(words), "{held}");
+    }
+    assert!(!held.to_string().contains("between"));
+}
