@@ -2,9 +2,7 @@
 
 mod body;
 mod buffer;
-mod cap;
 mod guide;
-mod mesh;
 mod skeleton;
 mod skin;
 mod space;
