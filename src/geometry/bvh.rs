@@ -136,7 +136,7 @@ impl Bvh {
 
     /// Splits `pairs` in place, breadth first, until there are at least `wanted` or only leaves are left: pieces of
     /// work for several threads. `other` is `None` for the pairs within this tree.
-    pub fn spread(&self, other: Option<&Bvh>, wanted: usize, pairs: &mut Vec<NodePair>) {
+    pub fn subdivide(&self, other: Option<&Bvh>, wanted: usize, pairs: &mut Vec<NodePair>) {
         let mut next = Vec::new();
         while pairs.len() < wanted {
             let mut leaves_only = true;

@@ -24,7 +24,7 @@ fn check_safe(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f6
     }
 }
 
-/// The first sampled time at which the distance is at or below the min_separation.
+/// The first sampled time at which the distance is at or below the minimum separation.
 fn time_of_impact(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64) -> Option<f64> {
     (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= min_separation)
 }
@@ -59,7 +59,7 @@ fn generic_motions_stop_late_but_not_too_late() {
         }
     }
     assert!(stopped > 300 && ratios.len() > 100, "{stopped} {}", ratios.len());
-    // A pair that comes close and then takes its time to hit is stopped early: the gap it keeps is a tenth.
+    // A pair that comes close and hits much later is stopped early: the gap it keeps is a tenth.
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[ratios.len() / 100] > 0.5 && ratios[ratios.len() / 2] > 0.85, "{ratios:?}");
 }
@@ -73,7 +73,7 @@ fn head_on_motion_reaches_nine_tenths() {
                 let x = interior(kind, gap + MIN_SEPARATION, &mut random);
                 let first = kind.separation(&x);
                 let direction = first.vector.normalize();
-                // The first primitive goes straight through the second, with all the rest along for the ride.
+                // The first primitive goes straight through the second, on top of a common motion.
                 let ride = 10.0 * random.vector();
                 let count = kind.first_count();
                 let v = std::array::from_fn(|i| if i < count { ride - 2.0 * gap * direction } else { ride });
@@ -142,7 +142,7 @@ fn tiny_gaps_are_kept() {
 
 #[test]
 fn sliding_past_each_other_costs_nothing() {
-    // Grazing at a millionth above the min_separation, over the whole size of the primitives.
+    // Grazing at a millionth above the minimum separation, over the whole size of the primitives.
     let gap = MIN_SEPARATION + 1e-6;
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * SIZE;
     let lift = DVec3::Z * gap;
@@ -155,13 +155,13 @@ fn sliding_past_each_other_costs_nothing() {
         let slide = p(0.4, 0.3, 0.0);
         let v = std::array::from_fn(|i| if i < kind.first_count() { slide } else { DVec3::ZERO });
         assert_eq!(pair_step(kind, &x, &v, MIN_SEPARATION, 1.0), 1.0);
-        // Everything as one: no relative motion, however large.
+        // A common motion, however large, is no relative motion.
         assert_eq!(pair_step(kind, &x, &[100.0 * slide; 4], MIN_SEPARATION, 1.0), 1.0);
     }
 }
 
 #[test]
-fn pairs_below_the_floor_may_only_part() {
+fn pairs_below_the_minimum_separation_may_only_separate() {
     let mut random = Random::new(5);
     for kind in KINDS {
         for _ in 0..300 {
@@ -205,7 +205,7 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         let mut all = CandidateSet::default();
         let motion = Motion::new(&scene.bodies, at, Some(&step));
         BroadPhase::new(&scene.bodies).candidates(&scene.bodies, &motion, 1.0, 0.01, 0.01, &mut all);
-        // The soup crosses itself; keep what is apart.
+        // The soup intersects itself; keep the pairs above the minimum separation.
         let apart = |kind: PairType, group: CollisionGroup| -> Vec<[u32; 4]> {
             let far = |pair: &&[u32; 4]| kind.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
             all.of(kind, group).iter().filter(far).copied().collect()

@@ -29,7 +29,7 @@ fn brute(a: &[Aabb], b: Option<&[Aabb]>) -> Vec<[u32; 2]> {
 fn found(trees: (&Bvh, Option<&Bvh>), b: Option<&[Aabb]>, wanted: usize) -> Vec<[u32; 2]> {
     let (tree, other) = trees;
     let mut work: Vec<_> = tree.roots(other.unwrap_or(tree)).into_iter().collect();
-    tree.spread(other, wanted, &mut work);
+    tree.subdivide(other, wanted, &mut work);
     let (mut out, mut stack) = (Vec::new(), Vec::new());
     for start in work {
         tree.traverse(other, start, &mut stack, |i, j| {
