@@ -190,8 +190,8 @@ fn build(
     nodes[index].count = 0;
 }
 
-/// A triangle narrower than the square root of this times its length is a sliver and counts as its three edges: the projection onto
-/// its plane would be off by more.
+/// A triangle narrower than the square root of this times its length is a sliver and counts as its three edges: the
+/// projection onto its plane would be off by more.
 const SLIVER: f64 = 1e-16;
 
 /// The point of a triangle closest to `p`.

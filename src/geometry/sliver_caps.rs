@@ -20,10 +20,10 @@ const MAX_SPLITS: usize = 8;
 /// The triangles of a surface without its caps; none where it has no caps.
 ///
 /// A cap `(v1, v2, v3)` with `v3` inside its longest edge is where `v1 v2` on the one side meets `v1 v3 v2` on the other.
-/// The surface term does not couple the sides across it, since a triangle without area has no frame. So the cap is removed, and each
-/// triangle `(v1, v2, p)` beyond the longest edge is split in `v3`, to `(v1, v3, p)` and `(v3, v2, p)` in the same
-/// winding: with one such triangle this flips an edge. A cap whose longest edge has no other triangle stays, as nothing
-/// lies beyond it.
+/// The surface term does not couple the sides across it, since a triangle without area has no frame. So the cap is
+/// removed, and each triangle `(v1, v2, p)` beyond the longest edge is split in `v3`, to `(v1, v3, p)` and `(v3, v2,
+/// p)` in the same winding: with one such triangle this flips an edge. A cap whose longest edge has no other triangle
+/// stays, as nothing lies beyond it.
 ///
 /// The result is for terms that compare neighbours; it is not the surface that collides. Its order is unspecified,
 /// but always the same for the same mesh. Every index must be below the number of `positions`.

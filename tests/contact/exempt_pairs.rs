@@ -133,8 +133,8 @@ fn sheets(random: &mut Random) -> (Vec<DVec3>, Surface) {
     (all, Surface::new(3 * count as usize, list))
 }
 
-/// Random motions, each as far as the constrained pairs admit: the exact verifier never finds a pair of triangles that did not
-/// intersect before, and some separate.
+/// Random motions, each as far as the constrained pairs admit: the exact verifier never finds a pair of triangles that
+/// did not intersect before, and some separate.
 #[test]
 fn initial_intersections_only_get_fewer() {
     let mut separated = 0;

@@ -76,7 +76,8 @@ fn every_triangle_beyond_a_non_manifold_edge_is_split() {
     assert_eq!(sorted(result), sorted(wanted));
 }
 
-/// A quarter of a polygon's border runs along one edge of a large triangle, over `count` points: the worst kind of T-junction.
+/// A quarter of a polygon's border runs along one edge of a large triangle, over `count` points: the worst kind of
+/// T-junction.
 #[test]
 fn many_points_on_one_edge_are_connected() {
     let mut random = Random::new(4);
