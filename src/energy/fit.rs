@@ -1,6 +1,6 @@
 //! The fit term, Eq. 4 of the paper: `L_fit = integral over G_fit of r(D(p))^2 dp`.
 //!
-//! D is the signed distance to the target avatar. What is farther away than the largest clearance wanted, or nearer than the
+//! D is the signed distance to the target avatar. What is farther away than the largest target clearance, or nearer than the
 //! smallest, costs:
 //!
 //! ```text
@@ -131,7 +131,7 @@ impl Fit {
         self.elements.iter().flat_map(|e| e.rule.iter().map(|(b, _)| interpolate(e.corners(x), b))).collect()
     }
 
-    /// Sets the clearance wanted at each sample, in the order of [`Self::sample_points`]: `most` a number from 0 on, `least`
+    /// Sets the target clearance of each sample, in the order of [`Self::sample_points`]: `most` a number from 0 on, `least`
     /// not above it.
     ///
     /// # Errors

@@ -116,7 +116,7 @@ impl Field {
         let (low, high) = used_bounds(mesh)?;
         let (_, extent) = layout(low, high, voxel)?;
         let places: usize = extent.iter().product();
-        // Blocks along the surface, and the layers beside them that OpenVDB and the samples touch; never more than all.
+        // Blocks along the surface, and the neighbouring layers that OpenVDB and the samples touch; never more than all.
         let along = mesh.areas().iter().sum::<f64>() / (BLOCK as f64 * voxel).powi(2);
         let stored = (LAYERS * along + 64.0).min(places as f64);
         Ok((places * size_of::<OnceLock<Box<Block>>>()) as u64 + (stored * BLOCK_BYTES) as u64)

@@ -55,26 +55,26 @@ fn boxes(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2]) -> [BTr
 
 /// The pairs of a range with garment edges in ascending order; fails on a pair that occurs twice. A face that is
 /// listed twice in the surface is two faces.
-fn sorted(set: &CandidateSet, kind: PairType, group: CollisionGroup, faces_differ: bool) -> BTreeSet<[u32; 4]> {
-    let pairs = set.of(kind, group).iter().map(|&[a, b, c, d]| {
-        if kind == PairType::EdgeEdge && group == CollisionGroup::Garment && [a, b] > [c, d] {
+fn sorted(set: &CandidateSet, pair_type: PairType, group: CollisionGroup, faces_differ: bool) -> BTreeSet<[u32; 4]> {
+    let pairs = set.of(pair_type, group).iter().map(|&[a, b, c, d]| {
+        if pair_type == PairType::EdgeEdge && group == CollisionGroup::Garment && [a, b] > [c, d] {
             [c, d, a, b]
         } else {
             [a, b, c, d]
         }
     });
     let unique: BTreeSet<_> = pairs.collect();
-    if faces_differ || kind == PairType::EdgeEdge {
-        assert_eq!(unique.len(), set.of(kind, group).len(), "a pair occurs twice");
+    if faces_differ || pair_type == PairType::EdgeEdge {
+        assert_eq!(unique.len(), set.of(pair_type, group).len(), "a pair occurs twice");
     }
     unique
 }
 
 /// Whether a pair is nearer than `margin` at one of many sampled times.
-fn comes_near(kind: PairType, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
+fn comes_near(pair_type: PairType, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
     let distance = |k: usize| {
         let place = pair.map(|v| motion.position(v, part * k as f64 / 40.0));
-        kind.separation(&place).squared.sqrt()
+        pair_type.separation(&place).squared.sqrt()
     };
     (0..=40).any(|k| distance(k) < margin)
 }
@@ -87,11 +87,11 @@ fn check(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2], out: &C
     let unique_faces = |s: &Surface| s.triangles.iter().collect::<BTreeSet<_>>().len() == s.triangles.len();
     let differ = unique_faces(&bodies.garment.surface) && unique_faces(&bodies.avatar.surface);
     let mut left_out = 0;
-    for (k, (kind, group)) in RANGES.into_iter().enumerate() {
-        let found = sorted(out, kind, group, differ);
-        assert!(found.is_subset(&outside[k]), "{kind:?} {group:?}");
+    for (k, (pair_type, group)) in RANGES.into_iter().enumerate() {
+        let found = sorted(out, pair_type, group, differ);
+        assert!(found.is_subset(&outside[k]), "{pair_type:?} {group:?}");
         for &pair in inside[k].difference(&found) {
-            assert!(!comes_near(kind, motion, part, margins[k / 2], pair), "{kind:?} {group:?} {pair:?}");
+            assert!(!comes_near(pair_type, motion, part, margins[k / 2], pair), "{pair_type:?} {group:?} {pair:?}");
             left_out += 1;
         }
     }
@@ -143,12 +143,12 @@ fn filtering_keeps_all_that_comes_near() {
         for part in [0.0, 0.1, 1.0] {
             let mut some = all.clone();
             some.retain_near(&motion, part, margin);
-            for (kind, group) in RANGES {
-                let mut left = some.of(kind, group).iter().copied().peekable();
-                for &pair in all.of(kind, group) {
-                    let is_near = comes_near(kind, &motion, part, margin(group), pair);
+            for (pair_type, group) in RANGES {
+                let mut left = some.of(pair_type, group).iter().copied().peekable();
+                for &pair in all.of(pair_type, group) {
+                    let is_near = comes_near(pair_type, &motion, part, margin(group), pair);
                     let is_kept = left.next_if_eq(&pair).is_some();
-                    assert!(is_kept || !is_near, "{kind:?} {pair:?}");
+                    assert!(is_kept || !is_near, "{pair_type:?} {pair:?}");
                     near += usize::from(is_near);
                     kept += usize::from(is_kept);
                 }

@@ -14,12 +14,12 @@ use crate::scene::{Scene, grid, soup};
 use testing::Random;
 
 /// All the pairs of triangles that hold a pair of primitives, by testing every triangle.
-fn holders(surface: &Surface, kind: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
+fn holders(surface: &Surface, pair_type: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
     let with = |vertices: &[u32]| -> Vec<u32> {
         let count = surface.triangles.len() as u32;
         (0..count).filter(|&t| vertices.iter().all(|v| surface.triangles[t as usize].contains(v))).collect()
     };
-    let (first, second) = match kind {
+    let (first, second) = match pair_type {
         PairType::PointTriangle => (with(&[a]), with(&[b, c, d])),
         PairType::EdgeEdge => (with(&[a, b]), with(&[c, d])),
     };
@@ -52,15 +52,15 @@ fn a_pair_has_the_group_that_its_triangles_give_it() {
         let intersects = |[s, t]: &[u32; 2]| pairs.contains(&[*s, *t]) || pairs.contains(&[*t, *s]);
 
         let apart = |p: &[u32], q: &[u32]| p.iter().all(|v| !q.contains(v));
-        let mut check = |kind: PairType, pair: [u32; 4]| {
-            let held = triangle_pairs_of(&surface, &[(kind, pair)]);
-            assert_eq!(held, holders(&surface, kind, pair), "{kind:?} {pair:?}");
+        let mut check = |pair_type: PairType, pair: [u32; 4]| {
+            let held = triangle_pairs_of(&surface, &[(pair_type, pair)]);
+            assert_eq!(held, holders(&surface, pair_type, pair), "{pair_type:?} {pair:?}");
             let (expected, count) = match held.iter().filter(|pair| intersects(pair)).count() {
                 0 => (Some(CollisionGroup::Garment), 0),
                 n if n < held.len() => (Some(CollisionGroup::Intersecting), 1),
                 _ => (None, 2),
             };
-            assert_eq!(exempt.group(kind, pair), expected, "seed {seed}, {kind:?} {pair:?}");
+            assert_eq!(exempt.group(pair_type, pair), expected, "seed {seed}, {pair_type:?} {pair:?}");
             counts[count] += 1;
         };
         for (t, &[a, b, c]) in surface.triangles.iter().enumerate() {
@@ -107,15 +107,16 @@ fn exempt_pairs_are_left_out_and_no_others() {
         broad_phase.set_exempt_pairs(exempt.clone());
         broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut constrained);
         let (mut found, mut kept) = (0, 0);
-        for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
+        for pair_type in [PairType::PointTriangle, PairType::EdgeEdge] {
             for group in [CollisionGroup::Garment, CollisionGroup::Intersecting] {
-                let of_group = |pair: &&[u32; 4]| exempt.group(kind, **pair) == Some(group);
-                let expected: Vec<_> = all.of(kind, CollisionGroup::Garment).iter().filter(of_group).copied().collect();
-                assert_eq!(constrained.of(kind, group), expected);
+                let of_group = |pair: &&[u32; 4]| exempt.group(pair_type, **pair) == Some(group);
+                let expected: Vec<_> =
+                    all.of(pair_type, CollisionGroup::Garment).iter().filter(of_group).copied().collect();
+                assert_eq!(constrained.of(pair_type, group), expected);
                 kept += expected.len();
             }
-            found += all.of(kind, CollisionGroup::Garment).len();
-            assert_eq!(constrained.of(kind, CollisionGroup::Avatar), all.of(kind, CollisionGroup::Avatar));
+            found += all.of(pair_type, CollisionGroup::Garment).len();
+            assert_eq!(constrained.of(pair_type, CollisionGroup::Avatar), all.of(pair_type, CollisionGroup::Avatar));
         }
         assert!(kept < found, "seed {seed}");
     }

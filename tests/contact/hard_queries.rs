@@ -8,7 +8,7 @@ use bespoke::verify::intersections;
 use glam::{DMat3, DVec3};
 
 use crate::distance::searched;
-use crate::pairs::{KINDS, SIZE, interior};
+use crate::pairs::{PAIR_TYPES, SIZE, interior};
 use testing::Random;
 
 const MIN_SEPARATION: f64 = 1e-5;
@@ -17,15 +17,15 @@ fn moved(x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> [DVec3; 4] {
     std::array::from_fn(|i| x[i] + time * v[i])
 }
 
-fn distance(kind: PairType, x: &[DVec3; 4]) -> f64 {
+fn distance(pair_type: PairType, x: &[DVec3; 4]) -> f64 {
     // The search does not subtract a base point, so this does.
     let base = x[1];
-    searched(kind, &x.map(|p| p - base)).sqrt()
+    searched(pair_type, &x.map(|p| p - base)).sqrt()
 }
 
 /// Whether the primitives touch, exactly; points and edges are triangles without area.
-fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
-    let first = kind.first_count() as u32;
+fn touch(pair_type: PairType, x: &[DVec3; 4]) -> bool {
+    let first = pair_type.first_count() as u32;
     let mesh = |corners| TriangleMesh { positions: x.to_vec(), triangles: vec![corners] };
     let second = if first == 1 { [1, 2, 3] } else { [2, 3, 3] };
     intersections(&mesh([0, first - 1, first - 1]), Some(&mesh(second)), 0).unwrap().count > 0
@@ -34,25 +34,25 @@ fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
 /// Asserts that the pair keeps its target and never touches up to the answer, which is returned. Coordinates are rounded to
 /// `ulp`.
 fn check_query(
-    kind: PairType,
+    pair_type: PairType,
     x: &[DVec3; 4],
     v: &[DVec3; 4],
     min_separation: f64,
     ulp: f64,
     tally: &mut Tally,
 ) -> f64 {
-    let answer = pair_step(kind, x, v, min_separation, 1.0);
-    let label = || format!("{kind:?} {x:?} {v:?} min_separation {min_separation:e}, answer {answer:e}");
-    let first = distance(kind, x);
+    let answer = pair_step(pair_type, x, v, min_separation, 1.0);
+    let label = || format!("{pair_type:?} {x:?} {v:?} min_separation {min_separation:e}, answer {answer:e}");
+    let first = distance(pair_type, x);
     let target = min_separation + 0.1 * (first - min_separation);
     let slack = 4.0 * ulp + 1e-6 * (target - min_separation);
     assert!(answer > 0.0 && answer <= 1.0, "{}", label());
     let mut last = first;
     for k in 1..=60 {
         let now = moved(x, v, answer * f64::from(k) / 60.0);
-        last = distance(kind, &now);
+        last = distance(pair_type, &now);
         assert!(last >= target - slack, "{}: {last:e} < {target:e} at {k}", label());
-        assert!(k % 15 != 0 || ulp > 0.1 * target || !touch(kind, &now), "{}: touches at {k}", label());
+        assert!(k % 15 != 0 || ulp > 0.1 * target || !touch(pair_type, &now), "{}: touches at {k}", label());
     }
     if answer == 1.0 {
         tally.full += 1;
@@ -190,10 +190,10 @@ fn primitives_without_extent_meet_as_what_they_are() {
             (PairType::PointTriangle, [p, a, b, a.lerp(b, random.unit())], 1),
             (PairType::PointTriangle, [p, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], 1),
         ];
-        for (kind, x, falling) in cases {
+        for (pair_type, x, falling) in cases {
             let v = std::array::from_fn(|i| if i < falling { fall } else { DVec3::ZERO });
-            let answer = check_query(kind, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
-            assert!((answer - 0.45).abs() < 0.011, "{kind:?} {x:?}: {answer}");
+            let answer = check_query(pair_type, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
+            assert!((answer - 0.45).abs() < 0.011, "{pair_type:?} {x:?}: {answer}");
         }
     }
     tally.check(0, 1000);
@@ -203,27 +203,27 @@ fn primitives_without_extent_meet_as_what_they_are() {
 fn gaps_of_a_thousandth_of_a_millionth_and_less() {
     let mut random = Random::new(25);
     let mut tally = Tally::default();
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for gap in [1e-9, 1e-10, 1e-11, 1e-12] {
             for k in 0..150 {
                 // Near 0, where the coordinates have digits for such a gap, and with a minimum separation below it.
-                let place = interior(kind, 0.0, &mut random);
+                let place = interior(pair_type, 0.0, &mut random);
                 let centre = place.iter().sum::<DVec3>() / 4.0;
                 let mut x = place.map(|p| p - centre);
-                let n = match kind {
+                let n = match pair_type {
                     PairType::PointTriangle => (x[2] - x[1]).cross(x[3] - x[1]),
                     PairType::EdgeEdge => (x[1] - x[0]).cross(x[3] - x[2]),
                 };
                 let lift = gap * n.normalize();
-                x[..kind.first_count()].iter_mut().for_each(|p| *p += lift);
+                x[..pair_type.first_count()].iter_mut().for_each(|p| *p += lift);
                 let min_separation = 0.25 * gap * f64::from(k % 2);
-                let first = distance(kind, &x);
+                let first = distance(pair_type, &x);
                 if first < 0.5 * gap {
                     continue;
                 }
                 let speed = if k % 3 == 0 { SIZE } else { 3.0 * gap };
                 let v: [DVec3; 4] = std::array::from_fn(|_| speed * random.vector());
-                check_query(kind, &x, &v, min_separation, 1e-17, &mut tally);
+                check_query(pair_type, &x, &v, min_separation, 1e-17, &mut tally);
             }
         }
     }
@@ -234,17 +234,17 @@ fn gaps_of_a_thousandth_of_a_millionth_and_less() {
 fn large_coordinates_cost_digits_but_no_safety() {
     let mut random = Random::new(26);
     let mut tally = Tally::default();
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for away in [1e2, 1e4, 1e6] {
             let ulp = away * f64::EPSILON;
             for k in 0..200 {
                 let shift = away * random.vector();
                 let gap = MIN_SEPARATION + (1e4 * ulp).max(10f64.powi(-3 - k % 4));
-                let place = interior(kind, gap, &mut random);
+                let place = interior(pair_type, gap, &mut random);
                 let x = place.map(|p| p + shift);
                 let ride = if k % 2 == 0 { 100.0 * random.vector() } else { DVec3::ZERO };
                 let v: [DVec3; 4] = std::array::from_fn(|_| ride + 0.2 * SIZE * random.vector());
-                check_query(kind, &x, &v, MIN_SEPARATION, ulp.max(1e-14), &mut tally);
+                check_query(pair_type, &x, &v, MIN_SEPARATION, ulp.max(1e-14), &mut tally);
             }
         }
     }

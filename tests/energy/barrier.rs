@@ -33,14 +33,14 @@ struct Case {
     barrier: Barrier,
     x: Vec<DVec3>,
     pair: [u32; 4],
-    kind: PairType,
+    pair_type: PairType,
     is_within_garment: bool,
 }
 
 impl Case {
     /// The pair at `positions` when t = T, with the rest shape `rest` for its vertices.
-    fn new(kind: PairType, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
-        let first = kind.first_count();
+    fn new(pair_type: PairType, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
+        let first = pair_type.first_count();
         let on_garment = |i: usize| match sides {
             Sides::Garment => true,
             Sides::GarmentThenAvatar => i < first,
@@ -63,14 +63,14 @@ impl Case {
         let mut barrier = Barrier::new(Arc::new(bodies), SETTINGS);
         let one = [pair];
         let (none, garment) = (&[][..], sides == Sides::Garment);
-        *barrier.candidates_mut() = match (kind, garment) {
+        *barrier.candidates_mut() = match (pair_type, garment) {
             (PairType::PointTriangle, true) => CandidateSet::new(&one, none, none, none),
             (PairType::EdgeEdge, true) => CandidateSet::new(none, &one, none, none),
             (PairType::PointTriangle, false) => CandidateSet::new(none, none, &one, none),
             (PairType::EdgeEdge, false) => CandidateSet::new(none, none, none, &one),
         };
         let x = own.iter().map(|&i| positions[i]).collect();
-        Self { barrier, x, pair, kind, is_within_garment: garment }
+        Self { barrier, x, pair, pair_type, is_within_garment: garment }
     }
 
     fn at(&self) -> Configuration<'_> {
@@ -91,9 +91,9 @@ impl Case {
 }
 
 /// Moves the first primitive so that the pair is at `distance`.
-fn placed(kind: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
-    let r = kind.separation(&x).vector;
-    for p in &mut x[..kind.first_count()] {
+fn placed(pair_type: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
+    let r = pair_type.separation(&x).vector;
+    for p in &mut x[..pair_type.first_count()] {
         *p += (distance / r.length() - 1.0) * r;
     }
     x
@@ -103,12 +103,12 @@ fn placed(kind: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
 /// edges on request.
 fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &mut Random)) {
     let mut random = Random::new(seed);
-    for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
-        if parallel && kind == PairType::PointTriangle {
+    for pair_type in [PairType::PointTriangle, PairType::EdgeEdge] {
+        if parallel && pair_type == PairType::PointTriangle {
             continue;
         }
         for sides in [Sides::Garment, Sides::GarmentThenAvatar, Sides::AvatarThenGarment] {
-            if kind == PairType::EdgeEdge && sides == Sides::AvatarThenGarment {
+            if pair_type == PairType::EdgeEdge && sides == Sides::AvatarThenGarment {
                 continue;
             }
             for _ in 0..30 {
@@ -117,9 +117,9 @@ fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &m
                 if parallel {
                     x[3] = x[2] + 0.8 * (x[1] - x[0]) + 0.008 * SIZE * random.vector();
                 }
-                let x = placed(kind, x, SETTINGS.min_separation + fraction * (dhat - SETTINGS.min_separation));
+                let x = placed(pair_type, x, SETTINGS.min_separation + fraction * (dhat - SETTINGS.min_separation));
                 let rest = x.map(|p| p + 0.2 * SIZE * random.vector());
-                let case = Case::new(kind, sides, x, rest);
+                let case = Case::new(pair_type, sides, x, rest);
                 each(case, &mut random);
             }
         }
@@ -227,14 +227,14 @@ fn hessian_is_that_of_the_frozen_pair() {
     for (seed, fraction, parallel) in [(6, 0.1, false), (7, 0.5, false), (8, 0.9, false), (9, 0.3, true)] {
         cases(seed, fraction, parallel, |case, random| {
             let x = case.positions();
-            let m = match case.kind {
+            let m = match case.pair_type {
                 PairType::PointTriangle => 1.0,
                 PairType::EdgeEdge => {
                     let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
                     mollifier::value(&x, mollifier::threshold(&rest))
                 }
             };
-            let frozen = Frozen { case: &case, separation: case.kind.separation(&x), m };
+            let frozen = Frozen { case: &case, separation: case.pair_type.separation(&x), m };
             // The model has its own exact derivatives, and those of the term are the same.
             check_hessian(&frozen, &case.x, T, 1e-6, 1e-4);
             let (ours, model) = (dense(&case.barrier, &case.x, T).hessian, dense(&frozen, &case.x, T).hessian);
@@ -270,7 +270,7 @@ fn vertices_without_weight_are_left_out() {
 fn value_is_infinite_at_the_minimum_separation_and_zero_beyond_dhat() {
     for (parallel, seed) in [(false, 10), (true, 11)] {
         cases(seed, -0.0005, parallel, |case, _| {
-            assert!(case.kind.separation(&case.positions()).squared.sqrt() < SETTINGS.min_separation);
+            assert!(case.pair_type.separation(&case.positions()).squared.sqrt() < SETTINGS.min_separation);
             assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
         });
         cases(seed, 1.01, parallel, |case, _| {
@@ -367,7 +367,8 @@ fn the_border_of_a_barrier_path_is_the_derivative_of_its_gradient() {
     for (seed, fraction) in [(8, 0.3), (9, 0.6), (10, 0.95)] {
         cases(seed, fraction, false, |mut case, _| {
             let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
-            if case.kind == PairType::EdgeEdge && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0
+            if case.pair_type == PairType::EdgeEdge
+                && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0
             {
                 return;
             }
