@@ -1,5 +1,5 @@
-// Preprocessed by build.rs to find out whether the headers are there, before the long compilation.
-// Debian's package of OpenVDB does not pull in the Boost headers that Math.h asks for.
+// Preprocessed by build.rs to check for the headers before the long compilation.
+// Debian's package of OpenVDB does not depend on the Boost headers that Math.h includes.
 #include <openvdb/math/Math.h>
 #include <openvdb/version.h>
 #include <tbb/version.h>

@@ -18,14 +18,14 @@ struct BespokeVolume {
 
 namespace {
 
-// Lattice coordinates are 32-bit, and the voxeliser adds to them; far below the limit is far enough.
+// Lattice coordinates are 32-bit, and the voxeliser adds to them, so the limit is well below theirs.
 constexpr float MAX_COORDINATE = 1e8f;
 
-// The adapter and the interrupter below are the ones for which OpenVDB's library holds the voxeliser ready
-// compiled: with types of our own this file would take five times as long to build.
+// OpenVDB's library has the voxeliser instantiated for the adapter and the interrupter below: with other types this
+// file would take five times as long to build.
 using Soup = openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I>;
 
-// Remembers that it was asked to stop, so that a half-built grid is never taken for a whole one.
+// Stays interrupted once it was, so that an incomplete grid is never taken for a complete one.
 class Interrupter final : public openvdb::util::NullInterrupter {
 public:
     Interrupter(BespokeVolumeCancelled cancelled, const void* context)
@@ -87,7 +87,7 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
         return fail(BESPOKE_VOLUME_INVALID, text, message, message_capacity);
     }
     try {
-        // openvdb::initialize() would only register types by name for reading files, and draw all of them in.
+        // openvdb::initialize() would only register types by name for reading files, and link all of them.
         std::vector<openvdb::Vec3s> positions(point_count);
         for (size_t i = 0; i < point_count; ++i) {
             positions[i] = openvdb::Vec3s(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
@@ -101,7 +101,7 @@ int bespoke_volume_build(const float* points, size_t point_count, const uint32_t
         openvdb::util::NullInterrupter& any_interrupter = interrupter;
         const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
         openvdb::FloatGrid::Ptr grid;
-        // More than the machine has would make TBB complain on the standard error of the host.
+        // With more threads than the machine has, TBB would print a warning to the standard error of the host.
         const int most = tbb::this_task_arena::max_concurrency();
         tbb::task_arena arena(std::clamp(static_cast<int>(std::min(threads, 1024u)), 1, std::max(most, 1)));
         arena.execute([&] {

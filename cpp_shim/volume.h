@@ -1,4 +1,4 @@
-// Voxelisation of a triangle soup by OpenVDB behind a C interface: which lattice nodes lie inside.
+// Voxelisation of a triangle soup by OpenVDB behind a C interface: the sign of the distance at lattice nodes.
 //
 // Coordinates are in voxels: the lattice node (i, j, k) is the point (i, j, k).
 #ifndef BESPOKE_CPP_SHIM_VOLUME_H
@@ -15,7 +15,7 @@ enum {
     BESPOKE_VOLUME_OK = 0,
     // `cancelled` returned non-zero; there is no volume.
     BESPOKE_VOLUME_CANCELLED = 1,
-    // OpenVDB or the standard library threw; the message says what.
+    // OpenVDB or the standard library threw; the message is the exception's.
     BESPOKE_VOLUME_FAILED = 2,
     // A null pointer, an index out of range, a coordinate outside the lattice, a bad width.
     BESPOKE_VOLUME_INVALID = 3
@@ -29,10 +29,11 @@ typedef struct BespokeVolume BespokeVolume;
 // Returns non-zero to stop. Called from several threads at once; must not throw.
 typedef int (*BespokeVolumeCancelled)(const void* context);
 
-// Builds a volume from `point_count` points (x, y, z each; single precision is plenty to tell the side) and `triangle_count` index triples.
-// Distances are kept up to `outside_band` and `inside_band` voxels from the surface, the side everywhere.
+// Builds a volume from `point_count` points (x, y, z each; single precision is enough for the sign) and
+// `triangle_count` index triples. Distances are kept up to `outside_band` and `inside_band` voxels from the surface,
+// the sign everywhere.
 // At most `threads` threads work (at least one). On failure `*volume` is null, and `message` (of
-// `message_capacity` bytes, may be null with 0) holds a terminated sentence. Nothing is ever thrown.
+// `message_capacity` bytes, may be null with 0) holds a terminated string. Nothing is ever thrown.
 int bespoke_volume_build(const float* points, size_t point_count, const uint32_t* triangles,
                          size_t triangle_count, float outside_band, float inside_band, uint32_t threads,
                          BespokeVolumeCancelled cancelled, const void* context, BespokeVolume** volume,

@@ -1,4 +1,4 @@
-//! The two bodies that meet, and where their vertices are: garment vertices are free, avatar vertices are
+//! The two bodies in contact, and where their vertices are: garment vertices are free, avatar vertices are
 //! linear in the inflation parameter t.
 
 use glam::DVec3;
@@ -97,7 +97,7 @@ impl Bodies {
     }
 }
 
-/// A step as all the vertices of both bodies go it, in the combined numbering of [`Bodies`].
+/// The motion of all vertices of both bodies along a step, in the combined numbering of [`Bodies`].
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
     start: Vec<DVec3>,
@@ -114,7 +114,7 @@ impl Motion {
         motion
     }
 
-    /// [`Self::new`] in the memory of an old one.
+    /// As [`Self::new`], reusing the memory.
     pub fn set(&mut self, bodies: &Bodies, at: Configuration<'_>, step: Option<&Step<'_>>) {
         let (count, avatar) = (bodies.garment_count(), &bodies.avatar);
         self.t = at.t;
@@ -136,19 +136,19 @@ impl Motion {
         bytes(&self.start) + bytes(&self.displacement)
     }
 
-    /// The inflation parameter at the beginning, and how much it changes in the whole of the step.
+    /// The inflation parameter at the beginning, and its change over the whole step.
     #[inline]
     pub fn inflation(&self) -> [f64; 2] {
         [self.t, self.dt]
     }
 
-    /// Where vertex `i` is after this part of the step.
+    /// Position of vertex `i` after this fraction of the step.
     #[inline]
     pub fn position(&self, i: u32, part: f64) -> DVec3 {
         self.start[i as usize] + part * self.displacement[i as usize]
     }
 
-    /// Where the vertices of a pair are at the beginning.
+    /// Positions of the vertices of a pair at the beginning.
     #[inline]
     pub fn positions(&self, pair: [u32; 4]) -> [DVec3; 4] {
         let [a, b, c, d] = pair;
@@ -156,7 +156,7 @@ impl Motion {
         [of(a), of(b), of(c), of(d)]
     }
 
-    /// How far the vertices of a pair go in the whole of the step.
+    /// Displacements of the vertices of a pair in the whole of the step.
     #[inline]
     pub fn displacements(&self, pair: [u32; 4]) -> [DVec3; 4] {
         let [a, b, c, d] = pair;

@@ -15,38 +15,39 @@ use super::swept::{Plane, SweptSurface, interval};
 use crate::geometry::bvh::{Aabb, NodePair};
 use crate::memory::bytes;
 
-/// Pieces of work for one traversal. Fixed, so that the order of the result does not depend on the threads.
-const PIECES: usize = 128;
+/// Tasks that one traversal is split into. Fixed, so that the order of the result does not depend on the threads.
+const TASKS: usize = 128;
 
-/// Neighbouring pairs a thread looks at at once.
+/// One-ring pairs that a task tests.
 const CHUNK: usize = 2048;
 
-/// What one piece of a traversal finds, with its scratch.
+/// What one task of a traversal finds, with its scratch.
 #[derive(Default)]
-struct Piece {
+struct Task {
     point_triangle: Vec<[u32; 4]>,
     edge_edge: Vec<[u32; 4]>,
     stack: Vec<NodePair>,
 }
 
-/// Finds candidates, again and again: trees and buffers are kept between calls.
+/// Finds candidate pairs. Trees and buffers are kept between calls.
 pub struct BroadPhase {
     garment: SweptSurface,
     avatar: SweptSurface,
     one_ring: OneRingPairs,
-    /// What the avatar follows: t at both ends, and the margin.
+    /// The motion that the avatar's boxes bound: t, its change, and the margin.
     avatar_at: Option<[f64; 3]>,
     garment_work: Vec<NodePair>,
     avatar_work: Vec<NodePair>,
-    pieces: Vec<Piece>,
+    tasks: Vec<Task>,
     exempt: ExemptPairs,
-    most: usize,
+    max_pairs: usize,
     /// The last search ended before it was complete.
     is_incomplete: bool,
 }
 
 impl BroadPhase {
-    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. Nothing is intersecting.
+    /// Builds the trees, over the rest shapes: the source garment and the fully inflated avatar. No pair is
+    /// exempt.
     pub fn new(bodies: &Bodies) -> Self {
         let n = bodies.garment_count();
         let surface =
@@ -58,26 +59,26 @@ impl BroadPhase {
             avatar_at: None,
             garment_work: Vec::new(),
             avatar_work: Vec::new(),
-            pieces: Vec::new(),
+            tasks: Vec::new(),
             exempt: ExemptPairs::default(),
-            most: usize::MAX,
+            max_pairs: usize::MAX,
             is_incomplete: false,
         }
     }
 
-    /// The exempt whose free pairs are left out.
+    /// The initial self-intersections whose exempt pairs are left out.
     pub fn exempt_pairs(&self) -> &ExemptPairs {
         &self.exempt
     }
 
-    /// Replaces the exempt.
+    /// Replaces the exempt pairs.
     pub fn set_exempt_pairs(&mut self, exempt: ExemptPairs) {
         self.exempt = exempt;
     }
 
-    /// From now on a search ends, incomplete, where it has found about `most` pairs.
+    /// Limits a search to about `most` pairs: it ends there, incomplete.
     pub fn set_most(&mut self, most: usize) {
-        self.most = most;
+        self.max_pairs = most;
     }
 
     /// Whether the last search ended before it was complete.
@@ -87,13 +88,13 @@ impl BroadPhase {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        let pieces = self.pieces.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
-        self.garment.memory() + self.avatar.memory() + self.one_ring.memory() + pieces.sum::<u64>()
+        let tasks = self.tasks.iter().map(|p| bytes(&p.point_triangle) + bytes(&p.edge_edge) + bytes(&p.stack));
+        self.garment.memory() + self.avatar.memory() + self.one_ring.memory() + tasks.sum::<u64>()
     }
 
     /// Replaces `out` by all the pairs that come within a margin of each other during the first `part` of `motion`, and
     /// some that do not: `margin_self` for the garment with itself, `margin_avatar` with the avatar. Pairs that share a
-    /// vertex or are free in the exempt are left out. `bodies` is what the broad phase was made for.
+    /// vertex and exempt pairs are left out. `bodies` is what the broad phase was made for.
     ///
     /// The result, its order included, is the same for any number of threads.
     pub fn candidates(
@@ -109,18 +110,18 @@ impl BroadPhase {
         self.divide();
         let found = self.search(bodies, margin_self, margin_avatar);
         self.merge(found, out);
-        self.is_incomplete = out.len() >= self.most;
+        self.is_incomplete = out.len() >= self.max_pairs;
     }
 
-    /// The boxes of the motion. Margins are added where the boxes are made, half of it on either side.
+    /// Refits the boxes to the motion. They include the margins, half of each on either side.
     fn refit(&mut self, bodies: &Bodies, motion: &Motion, part: f64, margin_self: f64, margin_avatar: f64) {
         let own = 0.5 * margin_self;
-        self.garment.follow(&bodies.garment.surface, motion, 0, part, own);
+        self.garment.refit(&bodies.garment.surface, motion, 0, part, own);
         let [t, dt] = motion.inflation();
         let avatar_at = Some([t, part * dt, margin_avatar - own]);
         if self.avatar_at != avatar_at {
             let first = bodies.garment_count() as u32;
-            self.avatar.follow(&bodies.avatar.surface, motion, first, part, margin_avatar - own);
+            self.avatar.refit(&bodies.avatar.surface, motion, first, part, margin_avatar - own);
             self.avatar_at = avatar_at;
         }
     }
@@ -130,22 +131,22 @@ impl BroadPhase {
         let (garment, avatar) = (&self.garment, &self.avatar);
         self.garment_work.clear();
         self.garment_work.extend(garment.tree.roots(&garment.tree));
-        garment.tree.spread(None, PIECES, &mut self.garment_work);
+        garment.tree.subdivide(None, TASKS, &mut self.garment_work);
         self.avatar_work.clear();
         self.avatar_work.extend(garment.tree.roots(&avatar.tree));
-        garment.tree.spread(Some(&avatar.tree), PIECES, &mut self.avatar_work);
+        garment.tree.subdivide(Some(&avatar.tree), TASKS, &mut self.avatar_work);
     }
 
-    /// Fills the pieces. Returns how many of them, from the first on, are of the garment with itself.
+    /// Runs the tasks. Returns how many of them, from the first on, are of the garment with itself.
     fn search(&mut self, bodies: &Bodies, margin_self: f64, margin_avatar: f64) -> usize {
         let near = &self.one_ring;
         let near_count = near.point_triangle.len().max(near.edge_edge.len()).div_ceil(CHUNK);
         let self_count = near_count + self.garment_work.len();
-        self.pieces.resize_with(self_count + self.avatar_work.len(), Piece::default);
-        let (self_pieces, avatar_pieces) = self.pieces.split_at_mut(self_count);
-        let (near_pieces, tree_pieces) = self_pieces.split_at_mut(near_count);
+        self.tasks.resize_with(self_count + self.avatar_work.len(), Task::default);
+        let (self_tasks, avatar_tasks) = self.tasks.split_at_mut(self_count);
+        let (near_tasks, tree_tasks) = self_tasks.split_at_mut(near_count);
         let (self_work, avatar_work) = (&self.garment_work, &self.avatar_work);
-        let budget = &PairBudget { found: AtomicUsize::new(0), most: self.most };
+        let budget = &PairBudget { found: AtomicUsize::new(0), max_pairs: self.max_pairs };
         let own = Operand { surface: &bodies.garment.surface, swept: &self.garment, offset: 0 };
         let offset = bodies.garment_count() as u32;
         let theirs = Operand { surface: &bodies.avatar.surface, swept: &self.avatar, offset };
@@ -153,27 +154,27 @@ impl BroadPhase {
         let avatar_search = Collector { b: theirs, margin: margin_avatar, ..search };
         rayon::join(
             || {
-                near_pieces.par_iter_mut().enumerate().for_each(|(chunk, piece)| search.test_one_ring(chunk, piece));
-                let work = tree_pieces.par_iter_mut().zip(self_work);
-                work.for_each(|(piece, &start)| search.run::<true>(start, piece));
+                near_tasks.par_iter_mut().enumerate().for_each(|(chunk, task)| search.test_one_ring(chunk, task));
+                let work = tree_tasks.par_iter_mut().zip(self_work);
+                work.for_each(|(task, &start)| search.run::<true>(start, task));
             },
             || {
-                let work = avatar_pieces.par_iter_mut().zip(avatar_work);
-                work.for_each(|(piece, &start)| avatar_search.run::<false>(start, piece));
+                let work = avatar_tasks.par_iter_mut().zip(avatar_work);
+                work.for_each(|(task, &start)| avatar_search.run::<false>(start, task));
             },
         );
         self_count
     }
 
-    /// Puts what the pieces found together, in their order; the first `self_count` are of the garment with itself.
+    /// Concatenates what the tasks found, in their order; the first `self_count` are of the garment with itself.
     fn merge(&self, self_count: usize, out: &mut CandidateSet) {
-        let (self_pieces, avatar_pieces) = self.pieces.split_at(self_count);
+        let (self_tasks, avatar_tasks) = self.tasks.split_at(self_count);
         let exempt = &self.exempt;
         out.refill(|pair_type, group, pairs| {
-            for piece in if group == CollisionGroup::Avatar { avatar_pieces } else { self_pieces } {
+            for task in if group == CollisionGroup::Avatar { avatar_tasks } else { self_tasks } {
                 let found = match pair_type {
-                    PairType::PointTriangle => &piece.point_triangle,
-                    PairType::EdgeEdge => &piece.edge_edge,
+                    PairType::PointTriangle => &task.point_triangle,
+                    PairType::EdgeEdge => &task.edge_edge,
                 };
                 if group == CollisionGroup::Avatar || (group == CollisionGroup::Garment && exempt.is_empty()) {
                     pairs.extend_from_slice(found);
@@ -193,7 +194,7 @@ struct Operand<'a> {
     offset: u32,
 }
 
-/// Turns close triangles into close primitives.
+/// Collects the close primitives of close triangles.
 #[derive(Clone, Copy)]
 struct Collector<'a> {
     a: Operand<'a>,
@@ -203,17 +204,17 @@ struct Collector<'a> {
     budget: &'a PairBudget,
 }
 
-/// Pairs that a search may find, all its pieces together.
+/// How many pairs all the tasks of a search may find together.
 struct PairBudget {
     found: AtomicUsize,
-    most: usize,
+    max_pairs: usize,
 }
 
 impl PairBudget {
-    /// Pairs after which a piece says how many it has.
+    /// Pairs after which a task updates the common count.
     const STRIDE: usize = 1024;
 
-    /// Counts what a piece has found that had `before` pairs and has `after`.
+    /// Counts the pairs of a task that had `before` and has `after`.
     #[inline]
     fn count(&self, before: usize, after: usize) {
         let strides = after / Self::STRIDE - before / Self::STRIDE;
@@ -224,14 +225,14 @@ impl PairBudget {
 
     #[inline]
     fn is_full(&self) -> bool {
-        self.found.load(Ordering::Relaxed) >= self.most
+        self.found.load(Ordering::Relaxed) >= self.max_pairs
     }
 }
 
 impl Collector<'_> {
-    /// Fills `piece` with the pairs below `start`. `SAME` if both surfaces are one.
-    fn run<const SAME: bool>(&self, start: NodePair, piece: &mut Piece) {
-        let Piece { point_triangle, edge_edge, stack } = piece;
+    /// Fills `task` with the pairs below `start`. `SAME` if both surfaces are one.
+    fn run<const SAME: bool>(&self, start: NodePair, task: &mut Task) {
+        let Task { point_triangle, edge_edge, stack } = task;
         point_triangle.clear();
         edge_edge.clear();
         let (a, b) = (self.a, self.b);
@@ -279,9 +280,9 @@ impl Collector<'_> {
         });
     }
 
-    /// Fills `piece` with the close pairs of a chunk of the one_ring.
-    fn test_one_ring(&self, chunk: usize, piece: &mut Piece) {
-        let Piece { point_triangle, edge_edge, .. } = piece;
+    /// Fills `task` with the close ones of a chunk of the one-ring pairs.
+    fn test_one_ring(&self, chunk: usize, task: &mut Task) {
+        let Task { point_triangle, edge_edge, .. } = task;
         point_triangle.clear();
         edge_edge.clear();
         if self.budget.is_full() {
@@ -300,21 +301,21 @@ impl Collector<'_> {
         self.budget.count(0, point_triangle.len() + edge_edge.len());
     }
 
-    /// True only where the triangles `s` and `t` stay further apart than the margin, on either side of a plane along one
-    /// of them.
+    /// Separating-plane test: true only where the triangles `s` and `t` stay further apart than the margin, on either side
+    /// of the plane of one of them.
     #[inline]
     fn has_separating_plane(&self, s: u32, s_corners: [u32; 3], t: u32, t_corners: [u32; 3]) -> bool {
         let (s_plane, t_plane) = (&self.a.swept.planes[s as usize], &self.b.swept.planes[t as usize]);
-        self.stays_beside(s_plane, &self.b.swept.places, t_corners)
-            || self.stays_beside(t_plane, &self.a.swept.places, s_corners)
+        self.stays_beside(s_plane, &self.b.swept.positions, t_corners)
+            || self.stays_beside(t_plane, &self.a.swept.positions, s_corners)
     }
 
-    /// Whether three points stay above a triangle, by the margin, or below it.
+    /// Whether three points stay on one side of a triangle's plane, by more than the margin.
     #[inline]
-    fn stays_beside(&self, plane: &Plane, places: &[[DVec3; 2]], [a, b, c]: [u32; 3]) -> bool {
+    fn stays_beside(&self, plane: &Plane, positions: &[[DVec3; 2]], [a, b, c]: [u32; 3]) -> bool {
         let margin = self.margin + ROUNDING;
         let [low, high] = plane.interval;
-        let points = [a, b, c].map(|v| &places[v as usize]);
+        let points = [a, b, c].map(|v| &positions[v as usize]);
         let at = |end: usize| interval(plane.normal, points[0][end], points[1][end], points[2][end]);
         let start = at(0);
         let above = start[0] - high[0] > margin;

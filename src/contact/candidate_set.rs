@@ -1,4 +1,4 @@
-//! Pairs of primitives that may come close, sorted by what they are and by which collision group they belong to.
+//! Candidate pairs: primitives that may come close, sorted by pair type and collision group.
 
 use std::ops::Range;
 
@@ -14,14 +14,15 @@ const FILTER_CHUNK: usize = 1024;
 /// More than rounding can add to the gap between two projections.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// Whom the garment meets in a pair.
+/// Which collision group a pair belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CollisionGroup {
-    /// Itself.
+    /// The garment with itself.
     Garment,
-    /// The avatar.
+    /// The garment with the avatar.
     Avatar,
-    /// Itself, at triangles that pass through each other from the start (see [`ExemptPairs`](super::ExemptPairs)).
+    /// The garment with itself, at triangles that intersect from the start (see [`ExemptPairs`](super::ExemptPairs)).
+    /// The exempt pairs themselves are no candidates.
     Intersecting,
 }
 
@@ -35,20 +36,21 @@ const RANGES: [(PairType, CollisionGroup); 6] = [
     (PairType::EdgeEdge, CollisionGroup::Intersecting),
 ];
 
-/// Pairs of primitives in the combined numbering of [`Bodies`](super::Bodies), sorted into ranges by pair_type and group.
+/// Pairs of primitives in the combined numbering of [`Bodies`](super::Bodies), sorted into ranges by type
+/// and group.
 ///
 /// The four vertices of a pair differ. Of an edge-edge pair with the avatar, the first edge is the garment's.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CandidateSet {
     pairs: Vec<[u32; 4]>,
-    /// Where each run ends in `pairs`.
+    /// Where each range ends in `pairs`.
     ends: [usize; RANGES.len()],
 }
 
-/// Pairs of one pair_type and group.
+/// A contiguous range of pairs of one type and group.
 #[derive(Clone, Debug)]
 pub struct PairRange<'a> {
-    /// The pair_type of all of them.
+    /// The type of all of them.
     pub pair_type: PairType,
     /// The group of all of them.
     pub group: CollisionGroup,
@@ -59,7 +61,7 @@ pub struct PairRange<'a> {
 }
 
 impl CandidateSet {
-    /// The set of the given pairs, nothing being intersecting.
+    /// The set of the given pairs, without any in [`CollisionGroup::Intersecting`].
     pub fn new(
         garment_point_triangle: &[[u32; 4]],
         garment_edge_edge: &[[u32; 4]],
@@ -68,9 +70,9 @@ impl CandidateSet {
     ) -> Self {
         let mut set = Self::default();
         let ranges = [garment_point_triangle, garment_edge_edge, avatar_point_triangle, avatar_edge_edge];
-        for (run, pairs) in ranges.into_iter().enumerate() {
+        for (k, pairs) in ranges.into_iter().enumerate() {
             set.pairs.extend_from_slice(pairs);
-            set.ends[run..].fill(set.pairs.len());
+            set.ends[k..].fill(set.pairs.len());
         }
         set
     }
@@ -92,13 +94,13 @@ impl CandidateSet {
         bytes(&self.pairs)
     }
 
-    /// All pairs, run by run.
+    /// All pairs, range by range.
     #[inline]
     pub fn pairs(&self) -> &[[u32; 4]] {
         &self.pairs
     }
 
-    /// The pairs of one pair_type and group.
+    /// The pairs of one type and group.
     pub fn of(&self, pair_type: PairType, group: CollisionGroup) -> &[[u32; 4]] {
         self.ranges(0..self.len()).find(|r| r.pair_type == pair_type && r.group == group).map_or(&[], |r| r.pairs)
     }
@@ -107,41 +109,42 @@ impl CandidateSet {
     pub fn retain_near(&mut self, motion: &Motion, part: f64, margin: impl Fn(CollisionGroup) -> f64 + Sync) {
         let mut kept = Vec::new();
         let mut ends = [0; RANGES.len()];
-        for (run, (pair_type, group)) in RANGES.into_iter().enumerate() {
+        for (k, (pair_type, group)) in RANGES.into_iter().enumerate() {
             let margin = margin(group) + ROUNDING;
             let near = |pair: &&[u32; 4]| !stays_apart(pair_type, **pair, motion, part, margin);
             let chunks = self.of(pair_type, group).par_chunks(FILTER_CHUNK);
             let parts: Vec<Vec<[u32; 4]>> = chunks.map(|c| c.iter().filter(near).copied().collect()).collect();
             parts.iter().for_each(|part| kept.extend_from_slice(part));
-            ends[run] = kept.len();
+            ends[k] = kept.len();
         }
-        // Copied, so that the next search has the room of this one.
+        // Copied, so that the buffer keeps its capacity for the next search.
         self.pairs.clear();
         self.pairs.extend_from_slice(&kept);
         self.ends = ends;
     }
 
-    /// Replaces all pairs: `add` is called for each run in order, with the list that its pairs are to be appended to.
+    /// Replaces all pairs: `add` is called for each range in order, with the list that its pairs are to be appended to.
     pub(super) fn refill(&mut self, mut add: impl FnMut(PairType, CollisionGroup, &mut Vec<[u32; 4]>)) {
         self.pairs.clear();
-        for (run, (pair_type, group)) in RANGES.into_iter().enumerate() {
+        for (k, (pair_type, group)) in RANGES.into_iter().enumerate() {
             add(pair_type, group, &mut self.pairs);
-            self.ends[run] = self.pairs.len();
+            self.ends[k] = self.pairs.len();
         }
     }
 
-    /// The part of each run that lies in `range`, without empty ones.
+    /// The part of each of them that lies in `range`, without empty ones.
     pub fn ranges(&self, range: Range<usize>) -> impl Iterator<Item = PairRange<'_>> {
-        (0..RANGES.len()).filter_map(move |run| {
-            let start = if run == 0 { 0 } else { self.ends[run - 1] };
-            let (first, end) = (start.max(range.start), self.ends[run].min(range.end));
-            let (pair_type, group) = RANGES[run];
+        (0..RANGES.len()).filter_map(move |k| {
+            let start = if k == 0 { 0 } else { self.ends[k - 1] };
+            let (first, end) = (start.max(range.start), self.ends[k].min(range.end));
+            let (pair_type, group) = RANGES[k];
             (first < end).then(|| PairRange { pair_type, group, first, pairs: &self.pairs[first..end] })
         })
     }
 }
 
-/// True only where a pair stays further apart than `gap`, on either side of planes across its first separation.
+/// Separating-plane test: true only where a pair stays further apart than `gap`, on either side of planes across its first
+/// separation.
 #[inline]
 fn stays_apart(pair_type: PairType, pair: [u32; 4], motion: &Motion, part: f64, gap: f64) -> bool {
     let (x, v) = (motion.positions(pair), motion.displacements(pair));

@@ -19,14 +19,14 @@ use super::bodies::Motion;
 use super::candidate_set::{CandidateSet, CollisionGroup};
 use super::distance::PairType;
 
-/// The fraction of its gap above the min_separation that a pair keeps in one step.
+/// The fraction of its gap above the minimum separation that a pair keeps in one step.
 const KEPT_GAP: f64 = 0.1;
 
 /// Advancing ends where less than this fraction of the way from the first distance to the target is left.
 const TOLERANCE: f64 = 0.02;
 
-/// Below the min_separation, a pair that does not approach may still lose this fraction of its distance.
-const SLACK_BELOW_FLOOR: f64 = 0.1;
+/// Below the minimum separation, a pair that does not approach may still lose this fraction of its distance.
+const SLACK_BELOW_SEPARATION: f64 = 0.1;
 
 /// Most evaluations of the distance of one pair. What was found safe by then is the answer.
 const MAX_ADVANCES: usize = 256;
@@ -34,8 +34,8 @@ const MAX_ADVANCES: usize = 256;
 /// Pairs a thread takes at once.
 const CHUNK: usize = 1024;
 
-/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `min_separation` of its group plus a
-/// tenth of its initial gap above it. 0 if a pair at or below the min_separation approaches.
+/// The largest part of `motion`, at most `limit`, during which every candidate keeps more than the `min_separation` of its
+/// group plus a tenth of its initial gap above it. 0 if a pair at or below the minimum separation approaches.
 ///
 /// The same bits for any number of threads.
 pub fn max_step(
@@ -50,13 +50,13 @@ pub fn max_step(
     // already in place: the result is the minimum over all pairs, whatever the order. The bit patterns of
     // non-negative numbers are ordered as the numbers are.
     let shared = AtomicU64::new(limit.max(0.0).to_bits());
-    for run in candidates.ranges(0..candidates.len()) {
-        let min_separation = min_separation(run.group);
-        run.pairs.par_chunks(CHUNK).for_each(|chunk| {
+    for range in candidates.ranges(0..candidates.len()) {
+        let min_separation = min_separation(range.group);
+        range.pairs.par_chunks(CHUNK).for_each(|chunk| {
             for &pair in chunk {
                 let bound = f64::from_bits(shared.load(Ordering::Relaxed));
                 let (x, v) = (motion.positions(pair), motion.displacements(pair));
-                let answer = pair_step(run.pair_type, &x, &v, min_separation, bound);
+                let answer = pair_step(range.pair_type, &x, &v, min_separation, bound);
                 if answer < bound {
                     shared.fetch_min(answer.to_bits(), Ordering::Relaxed);
                 }
@@ -66,7 +66,8 @@ pub fn max_step(
     f64::from_bits(shared.into_inner())
 }
 
-/// The largest part of the motion `v`, at most `bound`, during which the pair at `x` keeps its distance.
+/// The largest part of the motion `v`, at most `bound`, during which the pair at `x` keeps the distance
+/// described at [`max_step`].
 pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, bound: f64) -> f64 {
     // Relative coordinates keep their digits where the pair is small or moves as one.
     let base = x[1];
@@ -86,7 +87,7 @@ pub fn pair_step(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separa
         if closing < 0.0 || (distance == 0.0 && !still) {
             return 0.0;
         }
-        (1.0 - SLACK_BELOW_FLOOR) * distance
+        (1.0 - SLACK_BELOW_SEPARATION) * distance
     };
     let close = TOLERANCE * (distance - target);
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::geometry::closest_point::segment_parameter;
 
-/// The two kinds of pairs that can touch.
+/// The two types of pairs of primitives that can touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PairType {
     /// Vertex 0 against the triangle of vertices 1, 2, 3.
@@ -63,7 +63,7 @@ pub struct Separation {
     pub squared: f64,
 }
 
-/// Below this squared sine between two directions their cross product says too little about which feature is
+/// Below this squared sine between two directions their cross product is too inaccurate to decide which feature is
 /// closest, and the boundary is examined as well.
 const NEARLY_PARALLEL: f64 = 1e-10;
 

@@ -1,12 +1,18 @@
-//! Garment triangles that pass through each other from the start, and what may be let off the barrier for it.
+//! Initial self-intersections of the garment, and the pairs of primitives that are exempt from contact because of them.
 //!
-//! Two triangles that are apart can only begin to intersect where a point of one meets the other, or two of their edges
-//! meet. A pair of such primitives is *free* where every pair of triangles that it belongs to is intersecting already, and
-//! guarded otherwise. So triangles that are apart have all their primitives guarded and stay apart, while intersecting ones may
-//! move through each other, and come apart where nothing else is in the way. A exempt only ever gets smaller.
+//! Two triangles that do not intersect can only begin to where a point of one meets the other, or two of their edges
+//! meet. A pair of such primitives is *exempt* where every pair of triangles that it belongs to intersects already, and
+//! *constrained* otherwise. So disjoint triangles have all their primitives constrained and stay disjoint, while
+//! intersecting ones may move through each other and separate where nothing else is in the way. The set of intersecting
+//! pairs only ever gets smaller.
 //!
-//! A guarded pair that also belongs to intersecting triangles lies where the surface passes through itself. It cannot be asked to
-//! keep the distance that other pairs keep, and is a group of its own ([`CollisionGroup::Intersecting`]).
+//! A constrained pair that also belongs to intersecting triangles lies where the surface passes through itself. It cannot
+//! keep the distance that other pairs keep, and has a group of its own ([`CollisionGroup::Intersecting`]).
+//!
+//! The literature calls the problem *untangling*: Baraff, Witkin and Kass 2003, "Untangling cloth"; Volino and
+//! Magnenat-Thalmann 2006, "Resolving surface collisions through intersection contour minimization". Both pull
+//! intersecting cloth apart. Here the exempt pairs get no force: the other terms may separate them, and from then on they
+//! stay separate.
 
 use std::collections::HashMap;
 
@@ -14,25 +20,25 @@ use super::candidate_set::CollisionGroup;
 use super::distance::PairType;
 use super::surface::Surface;
 
-/// The intersecting pairs of triangles of one surface, and its free pairs of primitives.
+/// The intersecting pairs of triangles of one surface, and its exempt pairs of primitives.
 #[derive(Clone, Debug, Default)]
 pub struct ExemptPairs {
     /// The lower index first, in ascending order.
     triangle_pairs: Vec<[u32; 2]>,
-    /// The pairs of primitives of intersecting triangles, in the form that [`canonical`] gives them; true where they are free.
-    held: HashMap<[u32; 4], bool>,
-    /// For each vertex, whether a intersecting triangle has it.
-    concerned: Vec<bool>,
+    /// The pairs of primitives of intersecting triangles, in the form that [`canonical`] gives them; true where exempt.
+    is_exempt: HashMap<[u32; 4], bool>,
+    /// For each vertex, whether an intersecting triangle has it.
+    is_intersecting: Vec<bool>,
 }
 
 impl ExemptPairs {
-    /// The exempt of the given pairs of `surface`'s triangles, in any order.
+    /// The exempt pairs of primitives for these intersecting pairs of `surface`'s triangles, in any order.
     pub fn new(surface: &Surface, triangle_pairs: &[[u32; 2]]) -> Self {
         let mut sorted: Vec<[u32; 2]> = triangle_pairs.iter().map(|&[s, t]| [s.min(t), s.max(t)]).collect();
         sorted.sort_unstable();
         sorted.dedup();
         let mut exempt = Self { triangle_pairs: sorted, ..Self::default() };
-        exempt.find_held(surface);
+        exempt.find_exempt(surface);
         exempt
     }
 
@@ -46,36 +52,37 @@ impl ExemptPairs {
         &self.triangle_pairs
     }
 
-    /// Whether two triangles are intersecting.
+    /// Whether two triangles are an intersecting pair.
     pub fn contains(&self, s: u32, t: u32) -> bool {
         self.triangle_pairs.binary_search(&[s.min(t), s.max(t)]).is_ok()
     }
 
-    /// The group of a pair of garment primitives, as the broad phase has it; none where it is free.
+    /// The group of a pair of garment primitives, as the broad phase has it; none where it is exempt.
     #[inline]
     pub fn group(&self, pair_type: PairType, pair: [u32; 4]) -> Option<CollisionGroup> {
-        if self.is_empty() || !pair.iter().all(|&v| self.concerned[v as usize]) {
+        if self.is_empty() || !pair.iter().all(|&v| self.is_intersecting[v as usize]) {
             return Some(CollisionGroup::Garment);
         }
-        match self.held.get(&canonical(pair_type, pair)) {
+        match self.is_exempt.get(&canonical(pair_type, pair)) {
             None => Some(CollisionGroup::Garment),
             Some(false) => Some(CollisionGroup::Intersecting),
             Some(true) => None,
         }
     }
 
-    fn find_held(&mut self, surface: &Surface) {
-        self.concerned = vec![false; surface.vertex_count];
-        let around = Around::new(surface, self.triangle_pairs.iter().flatten().copied());
-        let mut held = HashMap::new();
+    fn find_exempt(&mut self, surface: &Surface) {
+        self.is_intersecting = vec![false; surface.vertex_count];
+        let adjacency = VertexTriangles::new(surface, self.triangle_pairs.iter().flatten().copied());
+        let mut is_exempt = HashMap::new();
         for &[s, t] in &self.triangle_pairs {
             for (pair_type, pair) in primitive_pairs(surface, s, t) {
-                pair.iter().for_each(|&v| self.concerned[v as usize] = true);
-                held.entry(canonical(pair_type, pair))
-                    .or_insert_with(|| around.all_triangle_pairs(surface, pair_type, pair, |s, t| self.contains(s, t)));
+                pair.iter().for_each(|&v| self.is_intersecting[v as usize] = true);
+                is_exempt.entry(canonical(pair_type, pair)).or_insert_with(|| {
+                    adjacency.all_triangle_pairs(surface, pair_type, pair, |s, t| self.contains(s, t))
+                });
             }
         }
-        self.held = held;
+        self.is_exempt = is_exempt;
     }
 }
 
@@ -85,10 +92,10 @@ pub fn triangle_pairs_of(surface: &Surface, pairs: &[(PairType, [u32; 4])]) -> V
     if pairs.is_empty() {
         return Vec::new();
     }
-    let around = Around::new(surface, 0..surface.triangles.len() as u32);
+    let adjacency = VertexTriangles::new(surface, 0..surface.triangles.len() as u32);
     let mut found = Vec::new();
     for &(pair_type, pair) in pairs {
-        around.all_triangle_pairs(surface, pair_type, pair, |s, t| {
+        adjacency.all_triangle_pairs(surface, pair_type, pair, |s, t| {
             found.push([s.min(t), s.max(t)]);
             true
         });
@@ -100,7 +107,7 @@ pub fn triangle_pairs_of(surface: &Surface, pairs: &[(PairType, [u32; 4])]) -> V
 
 /// One form for a pair of primitives, however its vertices are ordered. A point and a triangle have the point first and the
 /// triangle in descending order; of two edges, each has its lower end first and the lower edge leads. The order of the last
-/// two tells the kinds apart.
+/// two distinguishes the two types.
 #[inline]
 fn canonical(pair_type: PairType, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
     match pair_type {
@@ -140,28 +147,28 @@ fn primitive_pairs(surface: &Surface, s: u32, t: u32) -> Vec<(PairType, [u32; 4]
     pairs
 }
 
-/// The triangles around the vertices of some triangles.
-struct Around(HashMap<u32, Vec<u32>>);
+/// Vertex-to-triangle adjacency of the vertices of some triangles.
+struct VertexTriangles(HashMap<u32, Vec<u32>>);
 
-impl Around {
+impl VertexTriangles {
     fn new(surface: &Surface, triangles: impl Iterator<Item = u32>) -> Self {
-        let mut around: HashMap<u32, Vec<u32>> = HashMap::new();
+        let mut adjacency: HashMap<u32, Vec<u32>> = HashMap::new();
         for t in triangles {
             for v in surface.triangles[t as usize] {
-                around.entry(v).or_default();
+                adjacency.entry(v).or_default();
             }
         }
         for (t, corners) in (0..).zip(&surface.triangles) {
             for (k, v) in corners.iter().enumerate() {
-                // A triangle that repeats a corner is still one.
+                // A triangle that repeats a corner is listed once there.
                 if !corners[..k].contains(v)
-                    && let Some(list) = around.get_mut(v)
+                    && let Some(list) = adjacency.get_mut(v)
                 {
                     list.push(t);
                 }
             }
         }
-        Self(around)
+        Self(adjacency)
     }
 
     fn of(&self, v: u32) -> &[u32] {

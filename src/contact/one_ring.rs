@@ -1,10 +1,10 @@
-//! The pairs of primitives of triangles that have a vertex in common, listed once: their boxes nearly always overlap, so that
-//! a search through a tree would only find them again.
+//! One-ring pairs: the pairs of primitives of triangles that have a vertex in common, listed once. Their boxes nearly
+//! always overlap, so that a search through a tree would only find them again.
 
 use super::surface::Surface;
 use crate::memory::bytes;
 
-/// A vertex with more triangles around it than these takes no part in the list, whose length grows with their square.
+/// A vertex of more triangles than these takes no part in the list, whose length grows with the square of the valence.
 const MAX_VALENCE: usize = 16;
 
 /// The pairs of primitives, without a vertex in common, of neighbouring triangles of one surface.
@@ -14,25 +14,25 @@ pub struct OneRingPairs {
     pub point_triangle: Vec<[u32; 4]>,
     /// Two edges.
     pub edge_edge: Vec<[u32; 4]>,
-    /// For each vertex, whether too many triangles have it.
-    crowded: Vec<bool>,
+    /// For each vertex, whether more than [`MAX_VALENCE`] triangles have it.
+    exceeds_valence: Vec<bool>,
 }
 
 impl OneRingPairs {
     /// Lists the pairs of `surface`. Each is listed by the triangles that own its primitives.
     pub fn new(surface: &Surface) -> Self {
-        let mut around: Vec<Vec<u32>> = vec![Vec::new(); surface.vertex_count];
+        let mut vertex_triangles: Vec<Vec<u32>> = vec![Vec::new(); surface.vertex_count];
         for (t, corners) in (0..).zip(&surface.triangles) {
             for (k, &v) in corners.iter().enumerate() {
-                // A triangle that repeats a corner is still one.
+                // A triangle that repeats a corner is listed once there.
                 if !corners[..k].contains(&v) {
-                    around[v as usize].push(t);
+                    vertex_triangles[v as usize].push(t);
                 }
             }
         }
-        let crowded = around.iter().map(|triangles| triangles.len() > MAX_VALENCE).collect();
-        let mut found = Self { crowded, ..Self::default() };
-        for (v, triangles) in (0..).zip(&around) {
+        let exceeds_valence = vertex_triangles.iter().map(|triangles| triangles.len() > MAX_VALENCE).collect();
+        let mut found = Self { exceeds_valence, ..Self::default() };
+        for (v, triangles) in (0..).zip(&vertex_triangles) {
             for (k, &s) in triangles.iter().enumerate() {
                 for &t in &triangles[k + 1..] {
                     // Triangles with several vertices in common count at one of them.
@@ -72,10 +72,10 @@ impl OneRingPairs {
         self.shared(s, t).is_some()
     }
 
-    /// The smallest common vertex of two triangles that is not crowded.
+    /// The smallest common vertex of two triangles within [`MAX_VALENCE`].
     #[inline]
     fn shared(&self, s: [u32; 3], t: [u32; 3]) -> Option<u32> {
-        let common = |v: u32| (v == t[0] || v == t[1] || v == t[2]) && !self.crowded[v as usize];
+        let common = |v: u32| (v == t[0] || v == t[1] || v == t[2]) && !self.exceeds_valence[v as usize];
         let at = |v: u32| if common(v) { v } else { u32::MAX };
         let least = at(s[0]).min(at(s[1])).min(at(s[2]));
         (least != u32::MAX).then_some(least)
@@ -83,6 +83,6 @@ impl OneRingPairs {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.point_triangle) + bytes(&self.edge_edge) + bytes(&self.crowded)
+        bytes(&self.point_triangle) + bytes(&self.edge_edge) + bytes(&self.exceeds_valence)
     }
 }

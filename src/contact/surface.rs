@@ -1,5 +1,5 @@
 //! Connectivity of a surface for contact, with "representative triangles" (Curtis et al. 2008): each vertex and
-//! each edge belongs to exactly one triangle, so that a search for close triangles meets every pair of a point
+//! each edge is owned by exactly one triangle, so that a search for close triangles finds every pair of a point
 //! and a triangle, or of two edges, exactly once.
 
 use crate::memory::bytes;
@@ -31,7 +31,7 @@ impl Ownership {
     }
 }
 
-/// Triangles, their edges, and who owns what.
+/// Triangles, their edges, and which triangle owns which vertices and edges.
 #[derive(Clone, Debug, Default)]
 pub struct Surface {
     /// Three vertex indices a triangle.
@@ -41,7 +41,7 @@ pub struct Surface {
     pub edges: Vec<[u32; 2]>,
     /// Number of vertices, isolated ones included.
     pub vertex_count: usize,
-    /// What each triangle owns.
+    /// Vertices and edges that each triangle owns.
     ownership: Vec<Ownership>,
 }
 

@@ -1,4 +1,4 @@
-//! One surface during a part of a motion: what bounds it, for the search of pairs.
+//! Bounds of one surface over a part of a motion: boxes and planes for the broad phase.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,16 +16,16 @@ const CHUNK: usize = 2048;
 pub(super) struct Plane {
     /// The unit normal, zero where the triangle has no area.
     pub normal: DVec3,
-    /// The smallest coordinate of the triangle along the normal at the beginning and at the end, then the largest.
+    /// The projection interval on the normal: the smallest coordinate at the beginning and at the end, then the largest.
     pub interval: [[f64; 2]; 2],
 }
 
-/// One surface during a part of a motion.
+/// One surface with its bounds over a part of a motion.
 pub(super) struct SweptSurface {
     /// Boxes of the vertices.
     pub vertices: Vec<Aabb>,
-    /// Where the vertices are at the beginning and at the end.
-    pub places: Vec<[DVec3; 2]>,
+    /// Positions of the vertices at the beginning and at the end.
+    pub positions: Vec<[DVec3; 2]>,
     /// Planes of the triangles.
     pub planes: Vec<Plane>,
     /// The tree over the triangles.
@@ -38,26 +38,26 @@ impl SweptSurface {
         let vertices: Vec<Aabb> =
             (0..surface.vertex_count).map(|i| Aabb::around(at_rest(i), at_rest(i), 0.0)).collect();
         let triangles: Vec<Aabb> = surface.triangles.iter().map(|&t| triangle_box(&vertices, t)).collect();
-        Self { tree: Bvh::new(&triangles), vertices, places: Vec::new(), planes: Vec::new() }
+        Self { tree: Bvh::new(&triangles), vertices, positions: Vec::new(), planes: Vec::new() }
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.vertices) + bytes(&self.places) + bytes(&self.planes) + self.tree.memory()
+        bytes(&self.vertices) + bytes(&self.positions) + bytes(&self.planes) + self.tree.memory()
     }
 
-    /// Follows the first `part` of `motion`, in which the surface's vertices are numbered from `offset`; boxes get the
-    /// margin on all sides.
-    pub fn follow(&mut self, surface: &Surface, motion: &Motion, offset: u32, part: f64, margin: f64) {
-        fill(&mut self.places, surface.vertex_count, |v| {
+    /// Refits the bounds to the first `part` of `motion`, in which the surface's vertices are numbered from `offset`. Boxes
+    /// get the margin on all sides.
+    pub fn refit(&mut self, surface: &Surface, motion: &Motion, offset: u32, part: f64, margin: f64) {
+        fill(&mut self.positions, surface.vertex_count, |v| {
             let v = v as u32 + offset;
             [motion.position(v, 0.0), motion.position(v, part)]
         });
-        let places = &self.places;
-        fill(&mut self.vertices, surface.vertex_count, |v| Aabb::around(places[v][0], places[v][1], margin));
+        let positions = &self.positions;
+        fill(&mut self.vertices, surface.vertex_count, |v| Aabb::around(positions[v][0], positions[v][1], margin));
         fill(&mut self.planes, surface.triangles.len(), |t| {
             let [a, b, c] = surface.triangles[t];
-            let (a, b, c) = (&places[a as usize], &places[b as usize], &places[c as usize]);
+            let (a, b, c) = (&positions[a as usize], &positions[b as usize], &positions[c as usize]);
             let normal = (b[0] - a[0]).cross(c[0] - a[0]).normalize_or_zero();
             let interval = [0, 1].map(|end| interval(normal, a[end], b[end], c[end]));
             Plane { normal, interval: [[interval[0][0], interval[1][0]], [interval[0][1], interval[1][1]]] }
@@ -67,7 +67,7 @@ impl SweptSurface {
     }
 }
 
-/// The smallest and the largest coordinate of three points along `n`.
+/// The projection interval of three points on `n`: smallest and largest coordinate.
 #[inline]
 pub(super) fn interval(n: DVec3, a: DVec3, b: DVec3, c: DVec3) -> [f64; 2] {
     let (a, b, c) = (n.dot(a), n.dot(b), n.dot(c));

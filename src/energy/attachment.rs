@@ -1,7 +1,7 @@
-//! Attachment of loose pieces: a button or a belt keeps its place on the piece that it lies on.
+//! Attachment of loose pieces: a button or a belt keeps its position relative to the piece that it lies on.
 //!
-//! A loose piece shares no vertex with the rest of the garment, so the surface term is blind to any similarity of it: it
-//! could drift, turn and grow. Each vertex v of it is held to the triangle (a, b, c) of its host that is closest at rest:
+//! A loose piece shares no vertex with the rest of the garment, so the surface term is zero for any similarity of it: it
+//! could drift, turn and grow. Each vertex v of it is bound to the triangle (a, b, c) of its host that is closest at rest:
 //!
 //! ```text
 //! L = sum w |v - a - c1 e1 - c2 e2 - c3 N(e1 x e2)|^2,   e1 = b - a,  e2 = c - a,  N(n) = n / sqrt(|n|),
@@ -9,11 +9,11 @@
 //! ```
 //!
 //! with the coefficients that reproduce v - a at rest, so that a similarity of both costs nothing. area(v) is a third of
-//! the triangles at v, length^2 the mean square of the host triangle's edges, distance the one from v to that triangle (by
-//! which a long lever gets soft). The residual in these units is a strain, as it is in the surface term, and one weight
+//! the triangles at v, length^2 the mean square of the host triangle's edges, distance the one from v to that triangle (so
+//! that a long lever is softer). The residual in these units is a strain, as it is in the surface term, and one weight
 //! serves both terms. Like that term's, the value grows with s^2 where an imperfect fit grows by s.
 //!
-//! Which pieces are loose, and what holds them, is decided by `stage/setup/loose_pieces.rs`.
+//! `stage/setup/loose_pieces.rs` decides which pieces are loose, and which triangles hold them.
 
 use std::ops::Range;
 
@@ -23,20 +23,20 @@ use super::triangle_frame::{BoundVertex, least_squares};
 use super::{Configuration, Energy, Sink};
 use crate::memory::bytes;
 
-/// A vertex of a loose piece, and what holds it.
+/// A vertex of a loose piece, and the host triangle that holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
     /// The vertex.
     pub vertex: u32,
     /// The vertices of the host's triangle.
     pub triangle: [u32; 3],
-    /// The distance between them at rest.
+    /// Distance from the vertex to the triangle at rest.
     pub distance: f64,
     /// The area around the vertex at rest.
     pub area: f64,
 }
 
-/// A held vertex and the triangle that holds it.
+/// A bound vertex with its weight.
 #[derive(Clone, Copy, Debug)]
 struct Element {
     bound: BoundVertex,
@@ -50,7 +50,7 @@ pub struct Attachment {
 }
 
 impl Attachment {
-    /// The term for a garment with vertices `rest`. What a triangle without a frame would hold is left free.
+    /// The term for a garment with vertices `rest`. A hold by a triangle without area, which has no frame, is skipped.
     pub fn new(rest: &[DVec3], holds: &[Hold]) -> Self {
         Self { elements: holds.iter().filter_map(|hold| Element::new(rest, hold)).collect() }
     }

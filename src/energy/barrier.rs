@@ -1,9 +1,10 @@
 //! Contact (Eq. 1 of the paper): IPC's barrier on squared distances (Li et al. 2020), above a minimum separation.
 //!
 //! With `D = d^2 - min_separation^2` and `Dhat = dhat^2 - min_separation^2`, a pair at distance d costs
-//! `b = -(D - Dhat)^2 ln(D / Dhat)` for `0 < D < Dhat`, nothing beyond, and infinity at the min_separation. Edge-edge pairs are
-//! weighed by the mollifier m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are
-//! `g = m db/dd` and `h = m max(0, d2b/dd2)`, and the mollifier adds `b grad m` to the gradient.
+//! `b = -(D - Dhat)^2 ln(D / Dhat)` for `0 < D < Dhat`, nothing beyond, and infinity at the minimum
+//! separation (the thickness offset of Codimensional IPC, Li et al. 2021). Edge-edge pairs are weighed by the mollifier
+//! m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are `g = m db/dd` and `h = m max(0, d2b/dd2)`,
+//! and the mollifier adds `b grad m` to the gradient.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,11 +16,12 @@ use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
 use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, mollifier};
 
-/// Candidates a thread takes at once.
+/// Candidates in one task.
 const CHUNK: usize = 2048;
 
-/// d-hat of intersecting pairs in d-hat of the garment. Where the surface passes through itself there is no room for more. The
-/// barrier's force at a given part of d-hat grows with the cube of d-hat, so these pairs weigh more.
+/// d-hat of pairs in [`CollisionGroup::Intersecting`], as a share of the garment's. Where the surface passes through itself
+/// distances are too small for more. The barrier's force at a given fraction of d-hat grows with the cube of d-hat, so these
+/// pairs weigh more.
 const INTERSECTING_SHARE: f64 = 1.0 / 16.0;
 
 /// The shape of the barrier. Lengths are in the normalised space.
@@ -31,13 +33,13 @@ pub struct BarrierSettings {
     pub dhat_avatar: f64,
     /// Distance that no pair may reach.
     pub min_separation: f64,
-    /// The same for intersecting pairs.
+    /// The same for pairs in [`CollisionGroup::Intersecting`].
     pub min_separation_intersecting: f64,
     /// Factor on the pairs with the avatar.
     pub avatar_weight: f64,
 }
 
-/// How the barrier changes along a path in a parameter s: logarithmic rates per unit of s.
+/// How the barrier changes along a continuation path in its parameter s: logarithmic rates per unit of s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarrierPathRates {
     /// Rate of `dhat_avatar`.
@@ -88,22 +90,23 @@ impl BarrierSettings {
     }
 }
 
-/// What is in contact at a configuration.
+/// Number of close pairs and the smallest distances at a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Activity {
     /// Number of pairs closer than their d-hat.
     pub count: usize,
-    /// Smallest distance of the garment from itself but for intersecting pairs, infinite if none is below d-hat.
+    /// Smallest distance of the garment from itself without [`CollisionGroup::Intersecting`], infinite if none is below
+    /// d-hat.
     pub min_distance_self: f64,
     /// Smallest distance of the garment from the avatar, infinite if none is below d-hat.
     pub min_distance_avatar: f64,
-    /// Smallest distance of a intersecting pair, infinite if none is below its d-hat.
+    /// Smallest distance of a pair in [`CollisionGroup::Intersecting`], infinite if none is below its d-hat.
     pub min_distance_intersecting: f64,
 }
 
 /// The contact term: the barrier summed over a set of candidates.
 ///
-/// Its elements are the candidates. Value and derivatives see all of them, wherever they are evaluated.
+/// Its elements are the candidates.
 #[derive(Clone, Debug)]
 pub struct Barrier {
     bodies: Arc<Bodies>,
@@ -128,7 +131,7 @@ impl Barrier {
         &self.candidates
     }
 
-    /// The pairs, to be replaced: the broad phase writes here.
+    /// The pairs, for the broad phase to replace.
     pub fn candidates_mut(&mut self) -> &mut CandidateSet {
         &mut self.candidates
     }
@@ -143,13 +146,14 @@ impl Barrier {
         self.settings = settings;
     }
 
-    /// From now on the border of the Hessian is not that of t, which must stand still, but that of s: the mixed
-    /// derivatives by the vertices and s. `None` makes it that of t again.
+    /// Chooses the parameter of the bordered Hessian: with rates it is s, and the border holds the mixed derivatives by the
+    /// vertices and s, while t must be constant; with `None` it is t.
     pub fn set_barrier_path(&mut self, path: Option<BarrierPathRates>) {
         self.path = path;
     }
 
-    /// The speed of a pair's distance along s at constant force, negated: its component of the border, by h. With f = db/dd,
+    /// The tangent of the path at a pair, its component of the border over its stiffness h: the negated rate of its distance
+    /// along s at constant force. With f = db/dd,
     /// `-dd/ds = (df/ds + f dln w/ds) / (df/dd)`.
     #[inline]
     fn path_tangent(
@@ -172,7 +176,7 @@ impl Barrier {
         (by_s + g * rates.weight) / h
     }
 
-    /// What is in contact at `at`.
+    /// Number of close pairs and the smallest distances at `at`.
     pub fn activity(&self, at: Configuration<'_>) -> Activity {
         let parts: Vec<Activity> = self.map_chunks(|range| self.activity_in(at, range));
         parts.iter().fold(Activity::NONE, Activity::merged)
@@ -232,8 +236,8 @@ impl Barrier {
         mollifier::threshold(&pair.map(|i| self.bodies.rest(i)))
     }
 
-    /// Hands on `g a` and `h a a^T`, where `a` has the given component at each vertex of the pair: zero components are
-    /// left out, and those of the avatar are turned into one along t, to which `path_tangent` is added.
+    /// Hands `g a` and `h a a^T` to the sink, where `a` has the given component at each vertex of the pair: zero
+    /// components are left out, and those of the avatar are turned into one along t, to which `path_tangent` is added.
     #[inline]
     fn emit(&self, pair: [u32; 4], components: [DVec3; 4], path_tangent: f64, [g, h]: [f64; 2], sink: &mut dyn Sink) {
         let n = self.bodies.garment_count();
@@ -278,7 +282,7 @@ impl Activity {
     }
 }
 
-/// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and above the squared min_separation.
+/// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and less the squared minimum separation.
 #[inline]
 fn barrier(big_d: f64, dhat: f64) -> [f64; 3] {
     let (e, ln) = (big_d - dhat, (big_d / dhat).ln());
@@ -300,7 +304,7 @@ impl Energy for Barrier {
         self.candidates.memory()
     }
 
-    /// Infinite if a candidate is at or below the min_separation.
+    /// Infinite if a candidate is at or below the minimum separation.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let mut sum = 0.0;
         self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
@@ -322,7 +326,7 @@ impl Energy for Barrier {
         sum
     }
 
-    /// Pairs at or below the min_separation, where the value is infinite, have none.
+    /// Pairs at or below the minimum separation, where the value is infinite, have none.
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
             let dhat = self.settings.dhat(group);
@@ -347,6 +351,7 @@ impl Energy for Barrier {
         });
     }
 
-    /// None: pairs come and go with every step. Assembly tells those that a pattern lacks, which then grows by them.
+    /// None: contacts change with every step. Assembly reports pairs of vertices missing from the pattern, which is then
+    /// extended by them.
     fn stencils(&self, _: &mut dyn FnMut(&[u32])) {}
 }

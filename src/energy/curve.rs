@@ -10,8 +10,8 @@
 //! L_torsion   = sum w ((beta - beta_rest)^2 + (gamma - gamma_rest)^2)
 //! ```
 //!
-//! where w is the mean rest length of the two edges at v. Directions do not know their scale: both terms are
-//! exactly zero for every similarity of the rest curve.
+//! where w is the mean rest length of the two edges at v. Unit directions do not depend on scale: both terms
+//! are exactly zero for every similarity of the rest curve.
 
 use std::ops::Range;
 
@@ -102,8 +102,8 @@ pub struct Curvature {
 impl Curvature {
     /// The term for `curves` (boundary loops or polylines) of a garment with vertices `rest`.
     ///
-    /// A closed curve of fewer than three vertices is no curve. A corner that meets an edge without rest
-    /// length, or that goes back to where it came from, gets no element.
+    /// A closed curve of fewer than three vertices is left out. A corner at an edge without rest length, or whose two
+    /// neighbours are one vertex, gets no element.
     pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>) -> Self {
         let mut corners = Vec::new();
         for curve in curves {
@@ -228,7 +228,7 @@ impl Twist {
         [Edge::new(x, u, v), Edge::new(x, v, w), Edge::new(x, w, z)]
     }
 
-    /// Hands over one scalar residual, whose derivatives by the unit directions of `edges` are `by`.
+    /// Hands one scalar residual to the sink, whose derivatives by the unit directions of `edges` are `by`.
     #[inline]
     fn emit(&self, edges: &[Edge; 3], by: [DVec3; 3], residual: f64, sink: &mut dyn Sink) {
         let [a, b, c] = [edges[0].pull_back(by[0]), edges[1].pull_back(by[1]), edges[2].pull_back(by[2])];

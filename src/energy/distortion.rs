@@ -1,15 +1,15 @@
-//! How much each triangle of a garment is distorted: the surface term, element by element and without a unit.
+//! Distortion of each triangle of a garment: the surface term, element by element and without a unit.
 
 use glam::DVec3;
 
 use super::surface::l_surf;
 use crate::geometry::mesh::{Topology, triangle_area};
 
-/// For each of `triangles`, the mean over its hinges of `|tau1 x - tau2 x|^2` of Eq. 2, in the form that is free for any
-/// similarity, over the ratio of the garment's area at `x` to that at `rest`. So it is 0 for any similarity of the garment as
-/// a whole, and the same whatever the units of both.
+/// For each of `triangles`, the mean over its hinges of `|tau1 x - tau2 x|^2` of Eq. 2, in the form that is zero for any
+/// similarity, over the ratio of the garment's area at `x` to that at `rest`. So it is 0 for any similarity of the
+/// garment as a whole, and the same whatever the units of both.
 ///
-/// A triangle without a hinge that has a shape at rest has none, and gets 0, as do all of a garment without area.
+/// A triangle without a hinge that is not degenerate at rest gets 0, as do all of a garment without area.
 pub fn distortion(rest: &[DVec3], x: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let area = |x: &[DVec3]| triangles.iter().map(|t| triangle_area(t.map(|v| x[v as usize]))).sum::<f64>();
     let growth = area(x) / area(rest);

@@ -1,13 +1,13 @@
 //! The fit term, Eq. 4 of the paper: `L_fit = integral over G_fit of r(D(p))^2 dp`.
 //!
-//! D is the signed distance to the target avatar. What is farther away than the largest clearance wanted, or nearer than the
+//! D is the signed distance to the target avatar. What is farther away than the largest target clearance, or nearer than the
 //! smallest, costs:
 //!
 //! ```text
 //! r(D) = D - most where D > most,   D - least where D < least,   else 0.
 //! ```
 //!
-//! A tight fit as in the paper has most = 0 and no least: keeping the garment off the avatar is the barrier's part. The
+//! A tight fit as in the paper has most = 0 and no least: the barrier keeps the garment off the avatar. The
 //! integral is a sum over faces f and quadrature points q, with weights omega that sum to 1 and the caller's density w:
 //!
 //! ```text
@@ -26,7 +26,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::memory::bytes;
 use crate::sdf::Field;
 
-/// A quadrature point: barycentric coordinates and weight.
+/// A quadrature node: barycentric coordinates and weight.
 type Node = ([f64; 3], f64);
 
 /// Exact for polynomials of degree 2: three points (Strang and Fix 1973).
@@ -48,7 +48,7 @@ const DEGREE_4: [Node; 6] = {
     [([B, A, A], V), ([A, B, A], V), ([A, A, B], V), ([D, C, C], W), ([C, D, C], W), ([C, C, D], W)]
 };
 
-/// A garment face that fits.
+/// A garment face with a fit weight.
 #[derive(Clone, Copy, Debug)]
 struct Element {
     vertices: [u32; 3],
@@ -57,7 +57,7 @@ struct Element {
     rule: &'static [Node],
 }
 
-/// What is known of a sample beforehand.
+/// A quadrature point: its precomputed weight and clearance.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     /// `area_f omega_q w_q`.
@@ -70,7 +70,7 @@ struct Sample {
 pub struct Clearance {
     /// Farther than this is too loose.
     pub most: f64,
-    /// Nearer than this is too tight; minus infinity where nothing is.
+    /// Nearer than this is too tight; minus infinity where nothing is too tight.
     pub least: f64,
 }
 
@@ -125,13 +125,13 @@ impl Fit {
         Self { field, elements, samples }
     }
 
-    /// Where the samples lie for the garment vertices `x`: to measure, on the source body, the clearance that
-    /// each was designed with.
+    /// Positions of the samples for the garment vertices `x`: to measure, on the source body, the designed clearance of
+    /// each.
     pub fn sample_points(&self, x: &[DVec3]) -> Vec<DVec3> {
         self.elements.iter().flat_map(|e| e.rule.iter().map(|(b, _)| interpolate(e.corners(x), b))).collect()
     }
 
-    /// Sets the clearance wanted at each sample, in the order of [`Self::sample_points`]: `most` a number from 0 on, `least`
+    /// Sets the target clearance of each sample, in the order of [`Self::sample_points`]: `most` a number from 0 on, `least`
     /// not above it.
     ///
     /// # Errors
@@ -163,14 +163,14 @@ impl Fit {
 }
 
 /// Samples of a face, at most.
-const MOST: usize = DEGREE_4.len();
+const MAX_SAMPLES: usize = DEGREE_4.len();
 
 impl Element {
-    /// Where its samples lie; the first ones of the array.
+    /// Positions of its samples; they fill the first entries of the array.
     #[inline]
-    fn points(&self, x: &[DVec3]) -> [DVec3; MOST] {
+    fn points(&self, x: &[DVec3]) -> [DVec3; MAX_SAMPLES] {
         let corners = self.corners(x);
-        let mut points = [DVec3::ZERO; MOST];
+        let mut points = [DVec3::ZERO; MAX_SAMPLES];
         for (point, (b, _)) in points.iter_mut().zip(self.rule) {
             *point = interpolate(corners, b);
         }
@@ -204,7 +204,7 @@ impl Energy for Fit {
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let cost = |element: &Element| {
             let samples = self.samples_of(element);
-            let mut distances = [0.0; MOST];
+            let mut distances = [0.0; MAX_SAMPLES];
             self.field.values(&element.points(at.x)[..samples.len()], &mut distances);
             let one = |(sample, distance): (&Sample, &f64)| {
                 let residual = sample.clearance.residual(*distance);
@@ -218,9 +218,9 @@ impl Energy for Fit {
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for element in &self.elements[range] {
             let samples = self.samples_of(element);
-            let mut distances = [(0.0, DVec3::ZERO); MOST];
+            let mut distances = [(0.0, DVec3::ZERO); MAX_SAMPLES];
             self.field.values_gradients(&element.points(at.x)[..samples.len()], &mut distances);
-            let mut rows = [Row::default(); MOST];
+            let mut rows = [Row::default(); MAX_SAMPLES];
             let mut count = 0;
             for (((b, _), sample), (distance, slope)) in element.rule.iter().zip(samples).zip(distances) {
                 let residual = sample.clearance.residual(distance);

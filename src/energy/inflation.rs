@@ -1,4 +1,4 @@
-//! Avatar inflation, section 3.5 of the paper: the augmented Lagrangian that drives t to 1.
+//! Avatar inflation, section 3.5 of the paper: the augmented Lagrangian of the constraint t = 1.
 //!
 //! ```text
 //! L_AL = lambda1 / 2 (1 - t)^2 + lambda2 (1 - t)

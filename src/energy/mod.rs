@@ -1,9 +1,9 @@
 //! The terms of the objective (section 3.4 of the paper), one file each, under one small trait.
 //!
 //! Every term is a sum over *elements* that touch at most four garment vertices and, perhaps, the inflation
-//! parameter t. An element hands its derivatives to a [`Sink`] as rank-one pieces
-//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`. A Hessian made of such pieces is positive semidefinite by
-//! construction: no eigenvalue is ever computed.
+//! parameter t. An element hands its derivatives to a [`Sink`] as rank-one updates
+//! `gradient += g a`, `hessian += h a a^T` with `h >= 0`. A Hessian made of such updates is positive semidefinite by
+//! construction, so that no eigenvalue has to be computed or clamped: Gauss-Newton's for the terms of squared residuals.
 
 pub mod attachment;
 pub mod barrier;
@@ -34,10 +34,11 @@ pub struct Direction<'a> {
     pub t: f64,
 }
 
-/// One of several rank-one pieces over the same vertices: `gradient += g a`, `hessian += h a a^T`.
+/// One of several rank-one updates over the same vertices, a row of the Jacobian of a residual: `gradient += g a`,
+/// `hessian += h a a^T`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
-    /// The component of the direction a at each vertex; those beyond the vertices do not count.
+    /// The component of the direction a at each vertex; those beyond the vertices are ignored.
     pub components: [DVec3; 4],
     /// The component along t.
     pub t: f64,
@@ -47,12 +48,12 @@ pub struct Row {
     pub h: f64,
 }
 
-/// Receives derivatives, element by element.
+/// A visitor that accumulates low-rank updates of gradient and Hessian, element by element.
 pub trait Sink {
     /// Adds `g a` to the gradient and `h a a^T` to the Hessian. `h` must not be negative.
     fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64);
 
-    /// Adds several such pieces over the same vertices (each once, at most four), sooner than one by one.
+    /// Adds several such updates over the same vertices (each once, at most four): faster than one by one.
     fn low_rank(&mut self, vertices: &[u32], rows: &[Row]) {
         for row in rows {
             let components = &row.components[..vertices.len()];
@@ -64,8 +65,8 @@ pub trait Sink {
 /// One term of the objective.
 ///
 /// Values are unweighted by the term's overall weight (`w_surf`, `w_pos`, ...); the solver multiplies.
-/// Elements are numbered `0..len()`, so that the solver can spread them over threads in fixed ranges:
-/// the result must not depend on how they are spread.
+/// Elements are numbered `0..len()`, so that the solver can distribute them over threads in fixed ranges:
+/// the result must not depend on how.
 pub trait Energy: Sync {
     /// Name of the term in reports.
     fn name(&self) -> &'static str;

@@ -1,11 +1,11 @@
-//! Pins: vertices that are to be in given places.
+//! Pins: vertices drawn to target positions by springs.
 //!
 //! ```text
 //! L = sum |x_v - p_v(t)|^2,   p_v(t) = (1 - t) p_v(0) + t p_v(1)
 //! ```
 //!
-//! p(0) is where the vertex was designed, so that the garment begins with all pins at rest, and goes with them as the avatar
-//! grows. A pin is a spring and not a fixed vertex: what a body stands in the way of is not reached.
+//! p(0) is the rest position of the vertex, so that all pins begin without force and move as the avatar grows. A pin is a
+//! spring and not a fixed vertex: a target that the avatar obstructs is not reached.
 
 use std::ops::Range;
 
@@ -14,14 +14,14 @@ use glam::DVec3;
 use super::{Configuration, Energy, Row, Sink};
 use crate::memory::bytes;
 
-/// A vertex and its place.
+/// A vertex and its target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
     /// The garment vertex.
     pub vertex: u32,
-    /// Where it is to be at t = 0.
+    /// Its target at t = 0.
     pub start: DVec3,
-    /// Where it is to be at t = 1.
+    /// Its target at t = 1.
     pub end: DVec3,
 }
 

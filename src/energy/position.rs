@@ -1,11 +1,11 @@
-//! Position along the skeleton, Eq. 3 of the paper: cuffs and hems keep their place on their bones.
+//! Position along the skeleton, Eq. 3 of the paper: cuffs and hems keep their coordinate along their bones.
 //!
 //! ```text
 //! L = sum l_v (w(x_v, t) - w_v)^2,   w(x, t) = (x - A) . (B - A) / |B - A|^2
 //! ```
 //!
-//! A and B are the ends of the vertex's [`MovingAxis`] at t, `w_v` is the coordinate of the rest vertex on the guide
-//! at t = 0, and `l_v` the mean rest length of the edges at v. The guide moves with t, so w depends on t too.
+//! A and B are the ends of the vertex's [`MovingAxis`] at t, `w_v` is the coordinate of the rest vertex on the axis
+//! at t = 0, and `l_v` the mean rest length of the edges at v. The axis moves with t, so w depends on t too.
 
 use std::ops::Range;
 
@@ -23,18 +23,19 @@ pub struct MovingAxis {
     pub end: [DVec3; 2],
 }
 
-/// A guide whose squared length falls below this has no direction, and no say.
-const NO_AXIS: f64 = 1e-24;
+/// An axis whose squared length falls below this has no direction and is ignored.
+const MIN_SQUARED_LENGTH: f64 = 1e-24;
 
 #[derive(Clone, Copy, Debug)]
 struct Constraint {
     vertex: u32,
-    guide: u32,
+    /// Index of its axis.
+    axis: u32,
     coordinate: f64,
     weight: f64,
 }
 
-/// The axis of a guide at one t: its first end, the vector to the other, and how fast both move with t.
+/// A [`MovingAxis`] at one t: its first end, the vector to the other, and how fast both move with t.
 #[derive(Clone, Copy)]
 struct Axis {
     origin: DVec3,
@@ -46,12 +47,12 @@ struct Axis {
 
 impl Axis {
     #[inline]
-    fn new(guide: &MovingAxis, t: f64) -> Option<Self> {
-        let [a, b] = [0, 1].map(|k| guide.start[k].lerp(guide.end[k], t));
-        let [a_rate, b_rate] = [0, 1].map(|k| guide.end[k] - guide.start[k]);
+    fn new(moving: &MovingAxis, t: f64) -> Option<Self> {
+        let [a, b] = [0, 1].map(|k| moving.start[k].lerp(moving.end[k], t));
+        let [a_rate, b_rate] = [0, 1].map(|k| moving.end[k] - moving.start[k]);
         let span = b - a;
         let squared = span.length_squared();
-        (squared > NO_AXIS).then_some(Self {
+        (squared > MIN_SQUARED_LENGTH).then_some(Self {
             origin: a,
             span,
             squared,
@@ -73,7 +74,7 @@ impl Axis {
     }
 }
 
-/// Position term; an element is a vertex on its guide.
+/// Position term; an element is a vertex on its axis.
 #[derive(Clone, Debug)]
 pub struct Position {
     constraints: Vec<Constraint>,
@@ -84,14 +85,14 @@ impl Position {
     /// The term for a garment with vertices `rest`.
     ///
     /// `constraints` are pairs of a vertex and an index into `axes`; `weights` holds one value for each
-    /// vertex of the garment, the mean rest length of its edges. A guide without length at t = 0 constrains nothing.
+    /// vertex of the garment, the mean rest length of its edges. An axis without length at t = 0 constrains nothing.
     pub fn new(rest: &[DVec3], constraints: &[(u32, u32)], axes: Vec<MovingAxis>, weights: &[f64]) -> Self {
         let constraints = constraints
             .iter()
-            .filter_map(|&(vertex, guide)| {
-                let axis = Axis::new(&axes[guide as usize], 0.0)?;
+            .filter_map(|&(vertex, index)| {
+                let axis = Axis::new(&axes[index as usize], 0.0)?;
                 let coordinate = axis.coordinate(rest[vertex as usize]);
-                Some(Constraint { vertex, guide, coordinate, weight: weights[vertex as usize] })
+                Some(Constraint { vertex, axis: index, coordinate, weight: weights[vertex as usize] })
             })
             .collect();
         Self { constraints, axes }
@@ -99,7 +100,7 @@ impl Position {
 
     #[inline]
     fn axis(&self, k: &Constraint, t: f64) -> Option<Axis> {
-        Axis::new(&self.axes[k.guide as usize], t)
+        Axis::new(&self.axes[k.axis as usize], t)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rigid groups: buttons, buckles and armour plates keep their shape and their size.
 //!
-//! Three anchors (a, b, c) of a group, far apart, hold each other at their rest distances, and every other vertex v to the
-//! frame that they make:
+//! Three anchors (a, b, c) of a group, far apart, keep their rest distances, and every other vertex v is bound to their
+//! frame:
 //!
 //! ```text
 //! L = sum_v |r_v|^2 / s^2 + m sum_e (|e|^2 - l_e^2)^2 / (2 l_e^2)^2,
@@ -10,8 +10,8 @@
 //!
 //! with the coefficients that reproduce v at rest, `l_e` the rest length of e, s the longest of these, and m the number of
 //! vertices in the group. L is zero for the rigid motions of the group alone. A group on a line has two anchors and
-//! `r_v = v - a - c1 e1`. What a stiff term leaves is taken away by [`Rigid::placed`], which gives the rigid motion next to
-//! where a group is.
+//! `r_v = v - a - c1 e1`. [`Rigid::placed`] removes the remaining deviation of a stiff term: it gives the rigid motion
+//! nearest to a group's positions.
 
 use std::ops::Range;
 
@@ -21,30 +21,30 @@ use super::triangle_frame::{BoundVertex, least_squares};
 use super::{Configuration, Energy, Row, Sink};
 use crate::memory::bytes;
 
-/// A group whose third anchor is nearer than this share of its length to the line of the first two is on a line.
-const FLAT: f64 = 1e-3;
+/// A group whose third anchor is nearer than this share of its length to the line of the first two is collinear.
+const MIN_WIDTH: f64 = 1e-3;
 
-/// A part of the energy of a group.
+/// One summand of the energy of a group.
 #[derive(Clone, Copy, Debug)]
 enum Element {
     /// Two anchors, their squared distance at rest, and m.
     Distance { vertices: [u32; 2], square: f64, weight: f64 },
     /// A vertex in the frame of three anchors, with 1 / s^2.
     InFrame { bound: BoundVertex, weight: f64 },
-    /// `[a, b, v]` on one line, the place of v along it, with 1 / s^2.
+    /// `[a, b, v]` on one line, the coordinate of v along it, with 1 / s^2.
     OnLine { vertices: [u32; 3], along: f64, weight: f64 },
 }
 
-/// Vertices that move as one body, and where they are at rest.
+/// Vertices that move as one rigid body, and their rest positions.
 #[derive(Clone, Debug)]
 struct Group {
     vertices: Vec<u32>,
     rest: Vec<DVec3>,
-    /// Indices into these: one for a group in one place, two on a line, else three.
+    /// Indices into these: one for a group at one point, two for a collinear group, else three.
     anchors: Vec<usize>,
 }
 
-/// Rigid groups' term; an element is a vertex or a pair of anchors.
+/// Rigid group term; an element is a vertex or a pair of anchors.
 #[derive(Clone, Debug, Default)]
 pub struct Rigid {
     elements: Vec<Element>,
@@ -59,7 +59,8 @@ impl Rigid {
         Self { elements, groups }
     }
 
-    /// For each group the rigid motion of its rest shape that is next to where it is in `x`: the place of each vertex.
+    /// For each group the rigid motion of its rest shape that is nearest to its positions in `x`: the position of each
+    /// vertex.
     pub fn placed(&self, x: &[DVec3]) -> impl Iterator<Item = Vec<(u32, DVec3)>> {
         self.groups.iter().map(|group| {
             let now: Vec<DVec3> = group.vertices.iter().map(|&v| x[v as usize]).collect();
@@ -86,7 +87,7 @@ impl Group {
             anchors.push(b);
             let away = |p: DVec3| (p - rest[a]).reject_from(span).length();
             let c = farthest(&away);
-            if away(rest[c]) > FLAT * span.length() {
+            if away(rest[c]) > MIN_WIDTH * span.length() {
                 anchors.push(c);
             }
         }
@@ -97,7 +98,7 @@ impl Group {
         let anchors: Vec<u32> = self.anchors.iter().map(|&k| self.vertices[k]).collect();
         let square = |[v, w]: [u32; 2]| rest[v as usize].distance_squared(rest[w as usize]);
         let others = || self.vertices.iter().copied().filter(|v| !anchors.contains(v));
-        let held = |vertices: [u32; 2]| Element::Distance {
+        let fixed_length = |vertices: [u32; 2]| Element::Distance {
             vertices,
             square: square(vertices),
             weight: self.vertices.len() as f64,
@@ -108,20 +109,20 @@ impl Group {
                 let weight = 1.0 / edges.map(square).into_iter().fold(0.0, f64::max);
                 let bound = others().filter_map(|v| BoundVertex::new(rest, [a, b, c, v]));
                 let framed = bound.map(|bound| Element::InFrame { bound, weight });
-                edges.map(held).into_iter().chain(framed).collect()
+                edges.map(fixed_length).into_iter().chain(framed).collect()
             }
             [a, b] => {
                 let span = rest[b as usize] - rest[a as usize];
                 let along = |v: u32| (rest[v as usize] - rest[a as usize]).dot(span) / span.length_squared();
                 let weight = 1.0 / span.length_squared();
                 let lined = others().map(|v| Element::OnLine { vertices: [a, b, v], along: along(v), weight });
-                [held([a, b])].into_iter().chain(lined).collect()
+                [fixed_length([a, b])].into_iter().chain(lined).collect()
             }
             _ => Vec::new(),
         }
     }
 
-    /// The orthonormal frame that the anchors make where the group's vertices are `points`.
+    /// The orthonormal frame of the anchors where the group's vertices are `points`.
     fn frame(&self, points: &[DVec3]) -> DMat3 {
         let arm = |k: usize| points[self.anchors[k]] - points[self.anchors[0]];
         let Some(first) = (self.anchors.len() > 1).then(|| arm(1)).and_then(DVec3::try_normalize) else {
@@ -129,12 +130,12 @@ impl Group {
         };
         match (self.anchors.len() > 2).then(|| arm(2).reject_from_normalized(first)).and_then(DVec3::try_normalize) {
             Some(second) => DMat3::from_cols(first, second, first.cross(second)),
-            // On a line any turn about it is as good: the least one away from where the line points at first.
+            // About a line any rotation will do: the smallest from the rest direction.
             None => DMat3::from_quat(DQuat::from_rotation_arc(self.line(), first)),
         }
     }
 
-    /// The direction of a group on a line, at rest.
+    /// The rest direction of a collinear group.
     fn line(&self) -> DVec3 {
         (self.rest[self.anchors[1]] - self.rest[self.anchors[0]]).normalize_or(DVec3::X)
     }

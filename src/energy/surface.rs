@@ -1,4 +1,4 @@
-//! Surface shape, Eq. 2 of the paper: neighbouring triangles must deform alike.
+//! Surface shape, Eq. 2 of the paper: it penalises neighbouring triangles that deform differently.
 //!
 //! For a hinge `t1 = (v1, v2, v3)`, `t2 = (v2, v1, v4)` and `x = (v4 - v3) / |v4 - v3|` at rest,
 //!
@@ -22,7 +22,7 @@ use super::{Configuration, Energy, Sink};
 use crate::geometry::mesh::{Hinge, has_area};
 use crate::memory::bytes;
 
-/// One hinge: its vertices and what is known from the rest shape.
+/// One hinge: its vertices and the coefficients of the rest shape.
 #[derive(Clone, Copy, Debug)]
 struct Element {
     vertices: [u32; 4],
@@ -42,7 +42,7 @@ pub struct Surface {
     form: SurfaceForm,
 }
 
-/// The three free edges of a hinge and its two normals.
+/// The three edges of a hinge that its residual uses, and its two normals.
 struct Shape {
     e1: DVec3,
     e2: DVec3,
@@ -72,12 +72,12 @@ impl Shape {
         let (n1, n2) = (&self.n1, &self.n2);
         let (c3, d3) = (k.first[1], k.second[1]);
         let by_e1 = scaled_cross(k.shared, self.e2 * (-c3 * n1.scale) - self.f2 * (d3 * n2.scale))
-            - outer(n1.n * (c3 * n1.pull), self.e2.cross(n1.n))
-            + outer(n2.n * (d3 * n2.pull), n2.n.cross(self.f2));
+            - outer(n1.n * (c3 * n1.radial), self.e2.cross(n1.n))
+            + outer(n2.n * (d3 * n2.radial), n2.n.cross(self.f2));
         let by_e2 =
-            scaled_cross(k.first[0], self.e1 * (c3 * n1.scale)) - outer(n1.n * (c3 * n1.pull), n1.n.cross(self.e1));
+            scaled_cross(k.first[0], self.e1 * (c3 * n1.scale)) - outer(n1.n * (c3 * n1.radial), n1.n.cross(self.e1));
         let by_f2 =
-            scaled_cross(-k.second[0], self.e1 * (d3 * n2.scale)) + outer(n2.n * (d3 * n2.pull), self.e1.cross(n2.n));
+            scaled_cross(-k.second[0], self.e1 * (d3 * n2.scale)) + outer(n2.n * (d3 * n2.radial), self.e1.cross(n2.n));
         [-(by_e1 + by_e2), by_e1 - by_f2, by_e2, by_f2]
     }
 }
@@ -85,8 +85,9 @@ impl Shape {
 impl Surface {
     /// The term for a garment with vertices `rest` and `hinges` between its triangles.
     ///
-    /// A hinge with a rest triangle without area, or with both opposite corners in one place, gets no element. So hinges
-    /// must come from triangles without caps (see [`crate::geometry::sliver_caps`]), else the surface is torn there.
+    /// A hinge with a rest triangle without area, or with both opposite corners at one point, gets no element. So hinges
+    /// must come from triangles without caps (see [`crate::geometry::sliver_caps`]), else no energy connects the
+    /// surface there.
     pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
         Self { elements: hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect(), form }
     }

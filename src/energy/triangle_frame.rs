@@ -1,13 +1,13 @@
-//! The frame of a triangle, two edges and a normal, by which a term follows how the triangle deforms; and a vertex that is
-//! bound by one.
+//! The frame of a triangle, two edges and a normal, by which a term follows the triangle's deformation; and a vertex that is
+//! bound to one (deformation transfer, Sumner and Popovic 2004).
 
 use glam::{DMat3, DVec3};
 
 use super::{Row, Sink};
 
-/// Below this squared length (of the normalised space, to the fourth) a normal counts as none: the square
+/// Below this squared length (of the normalised space, to the fourth) a normal counts as zero: the square
 /// root has no derivative there.
-const NO_NORMAL: f64 = 1e-60;
+const MIN_SQUARED_NORMAL: f64 = 1e-60;
 
 /// How the normal of a triangle's frame grows with the triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,13 +20,13 @@ pub enum SurfaceForm {
 }
 
 /// The normal of a triangle in the chosen form, with what its differential
-/// `dN = scale dn - pull n (n . dn)` needs.
+/// `dN = scale dn - radial n (n . dn)` needs.
 #[derive(Clone, Copy)]
 pub(super) struct Normal {
     pub value: DVec3,
     pub n: DVec3,
     pub scale: f64,
-    pub pull: f64,
+    pub radial: f64,
 }
 
 impl Normal {
@@ -34,14 +34,14 @@ impl Normal {
     #[inline]
     pub fn new(n: DVec3, form: SurfaceForm) -> Self {
         match form {
-            SurfaceForm::Printed => Self { value: n, n, scale: 1.0, pull: 0.0 },
+            SurfaceForm::Printed => Self { value: n, n, scale: 1.0, radial: 0.0 },
             SurfaceForm::Similarity => {
                 let squared = n.length_squared();
-                if squared < NO_NORMAL {
-                    return Self { value: DVec3::ZERO, n, scale: 0.0, pull: 0.0 };
+                if squared < MIN_SQUARED_NORMAL {
+                    return Self { value: DVec3::ZERO, n, scale: 0.0, radial: 0.0 };
                 }
                 let scale = 1.0 / squared.sqrt().sqrt();
-                Self { value: n * scale, n, scale, pull: 0.5 * scale / squared }
+                Self { value: n * scale, n, scale, radial: 0.5 * scale / squared }
             }
         }
     }
@@ -79,18 +79,18 @@ impl BoundVertex {
         Some(Self { vertices, factors: coefficients(v - a, e1, e2, &normal)? })
     }
 
-    /// How the four lie now.
+    /// Its frame at the vertices `x`.
     #[inline]
-    pub fn at(&self, x: &[DVec3]) -> CarriedNow {
+    pub fn at(&self, x: &[DVec3]) -> CurrentBinding {
         let [a, b, c, v] = self.vertices.map(|i| x[i as usize]);
         let (e1, e2) = (b - a, c - a);
         let normal = Normal::new(e1.cross(e2), SurfaceForm::Similarity);
-        CarriedNow { factors: self.factors, e1, e2, arm: v - a, normal }
+        CurrentBinding { factors: self.factors, e1, e2, arm: v - a, normal }
     }
 }
 
-/// A [`BoundVertex`] as it is now.
-pub(super) struct CarriedNow {
+/// A [`BoundVertex`] at a configuration.
+pub(super) struct CurrentBinding {
     factors: [f64; 3],
     e1: DVec3,
     e2: DVec3,
@@ -98,7 +98,7 @@ pub(super) struct CarriedNow {
     normal: Normal,
 }
 
-impl CarriedNow {
+impl CurrentBinding {
     /// r.
     #[inline]
     pub fn residual(&self) -> DVec3 {
@@ -110,9 +110,9 @@ impl CarriedNow {
     #[inline]
     pub fn jacobian(&self) -> [DMat3; 4] {
         let [c1, c2, c3] = self.factors;
-        let Normal { n, scale, pull, .. } = self.normal;
-        let by_e1 = scaled_cross(c1, self.e2 * (-c3 * scale)) - outer(n * (c3 * pull), self.e2.cross(n));
-        let by_e2 = scaled_cross(c2, self.e1 * (c3 * scale)) - outer(n * (c3 * pull), n.cross(self.e1));
+        let Normal { n, scale, radial, .. } = self.normal;
+        let by_e1 = scaled_cross(c1, self.e2 * (-c3 * scale)) - outer(n * (c3 * radial), self.e2.cross(n));
+        let by_e2 = scaled_cross(c2, self.e1 * (c3 * scale)) - outer(n * (c3 * radial), n.cross(self.e1));
         [by_e1 + by_e2 - DMat3::IDENTITY, -by_e1, -by_e2, DMat3::IDENTITY]
     }
 }

@@ -18,16 +18,16 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box around nothing.
+    /// The empty box.
     pub const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY };
 
     /// The box around two points, with `margin` added on all sides; a negative one is taken off, which may turn the box
     /// inside out.
     #[inline]
     pub fn around(a: DVec3, b: DVec3, margin: f64) -> Self {
-        // More than rounding to nearest can be wrong by, normal or not.
+        // More than the error of rounding to nearest, also for subnormal numbers.
         let slack = |v: Vec3A| v.abs() * f32::EPSILON + Vec3A::splat(f32::MIN_POSITIVE);
-        // Beyond single precision the nearest is infinite, and infinity minus infinity is nothing.
+        // Beyond single precision the nearest is infinite, and infinity minus infinity is not a number.
         let nearest = |v: DVec3| v.as_vec3a().clamp(Vec3A::MIN, Vec3A::MAX);
         let min = nearest(a.min(b) - DVec3::splat(margin));
         let max = nearest(a.max(b) + DVec3::splat(margin));
@@ -113,7 +113,7 @@ impl Bvh {
         bytes(&self.nodes) + bytes(&self.items) + bytes(&self.boxes)
     }
 
-    /// Follows the boxes, which are as many as when the tree was built.
+    /// Refits the tree to new boxes, as many as when it was built.
     pub fn refit(&mut self, of: impl Fn(u32) -> Aabb) {
         for (bounds, &item) in self.boxes.iter_mut().zip(&self.items) {
             *bounds = of(item);
@@ -134,9 +134,9 @@ impl Bvh {
         (!self.nodes.is_empty() && !other.nodes.is_empty()).then_some([0, 0])
     }
 
-    /// Splits `pairs` in place, breadth first, until there are at least `wanted` or only leaves are left: pieces of
-    /// work for several threads. `other` is `None` for the pairs within this tree.
-    pub fn spread(&self, other: Option<&Bvh>, wanted: usize, pairs: &mut Vec<NodePair>) {
+    /// Splits `pairs` in place, breadth first, until there are at least `wanted` or only leaves are left: tasks
+    /// for several threads. `other` is `None` for the pairs within this tree.
+    pub fn subdivide(&self, other: Option<&Bvh>, wanted: usize, pairs: &mut Vec<NodePair>) {
         let mut next = Vec::new();
         while pairs.len() < wanted {
             let mut leaves_only = true;
@@ -211,7 +211,7 @@ impl Bvh {
         if node_a.count > 0 && node_b.count > 0 {
             return false;
         }
-        // Halve the larger node: the boxes stay alike in size, and fewer pairs are visited.
+        // Descend into the larger node: the boxes stay alike in size, and fewer pairs are visited.
         let size = |n: &Node| (n.bounds.max - n.bounds.min).element_sum();
         if node_b.count > 0 || (node_a.count == 0 && size(node_a) >= size(node_b)) {
             offer(a + 1, b);

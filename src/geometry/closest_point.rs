@@ -1,4 +1,4 @@
-//! Exact distance to a triangle soup, by a tree of axis-aligned boxes.
+//! Closest points of a triangle soup and exact distances to it, by a tree of axis-aligned boxes.
 
 use glam::DVec3;
 
@@ -6,10 +6,10 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::memory::bytes;
 
 /// Triangles in one leaf.
-const LEAF: usize = 4;
+const LEAF_SIZE: usize = 4;
 
 /// Deepest path: halving the triangles at every level cannot need more with 32-bit indices.
-const DEPTH: usize = 40;
+const MAX_DEPTH: usize = 40;
 
 /// The point of a mesh that is closest to a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,10 +56,10 @@ impl ClosestPoint {
         let of = |t: u32| mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]);
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
         let centres: Vec<DVec3> = order.iter().map(|&t| of(t).iter().sum::<DVec3>() / 3.0).collect();
-        // Rounding in a triangle's distance must not beat its box, else pruning would depend on the path.
+        // A triangle's rounded distance must not fall below that of its box, else pruning would depend on the path.
         let largest = mesh.positions.iter().fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
         let slack = DVec3::splat(1e-14 * largest);
-        let mut nodes = Vec::with_capacity(2 * order.len().div_ceil(LEAF));
+        let mut nodes = Vec::with_capacity(2 * order.len().div_ceil(LEAF_SIZE));
         if !order.is_empty() {
             let bounds = |t: u32| {
                 let [a, b, c] = of(t);
@@ -87,7 +87,7 @@ impl ClosestPoint {
         Some(Closest { distance: squared.sqrt(), triangle: self.triangles[slot], point })
     }
 
-    /// The place, in the tree's own order, of a triangle closest to `p`: a hint for
+    /// The slot, in the tree's order, of a triangle closest to `p`: a hint for
     /// [`Self::distance_hinted`] nearby.
     pub(crate) fn hint(&self, p: DVec3) -> u32 {
         self.search(p, None).map_or(0, |(_, slot)| slot as u32)
@@ -99,7 +99,7 @@ impl ClosestPoint {
         self.search(p, Some(hint as usize)).map_or((f64::INFINITY, 0), |(squared, slot)| (squared.sqrt(), slot as u32))
     }
 
-    /// Squared distance and place of the closest triangle.
+    /// Squared distance and slot of the closest triangle.
     fn search(&self, p: DVec3, hint: Option<usize>) -> Option<(f64, usize)> {
         let root = self.nodes.first()?;
         let mut best = f64::INFINITY;
@@ -108,7 +108,7 @@ impl ClosestPoint {
             best = closest_on_triangle(p, corners).distance_squared(p);
             slot = hint.unwrap_or(0);
         }
-        let mut stack = [(0_u32, 0.0_f64); DEPTH];
+        let mut stack = [(0_u32, 0.0_f64); MAX_DEPTH];
         let mut height = 1;
         stack[0] = (0, root.distance_squared(p));
         while height > 0 {
@@ -149,7 +149,7 @@ impl ClosestPoint {
     }
 }
 
-/// Appends the tree over `order`, whose first triangle has place `offset`, and sorts `order` by leaves.
+/// Appends the tree over `order`, whose first triangle has slot `offset`, and sorts `order` by leaves.
 fn build(
     nodes: &mut Vec<Node>,
     order: &mut [u32],
@@ -167,7 +167,7 @@ fn build(
     }
     let index = nodes.len();
     nodes.push(Node { low, high, start: offset as u32, count: order.len() as u32 });
-    if order.len() <= LEAF {
+    if order.len() <= LEAF_SIZE {
         return;
     }
     let extent = centre_high - centre_low;
@@ -190,8 +190,8 @@ fn build(
     nodes[index].count = 0;
 }
 
-/// A triangle narrower than the root of this times its length counts as its three edges: the projection onto
-/// its plane would be off by more.
+/// A triangle narrower than the square root of this times its length is a sliver and counts as its three edges: the
+/// projection onto its plane would be off by more.
 const SLIVER: f64 = 1e-16;
 
 /// The point of a triangle closest to `p`.
@@ -226,8 +226,8 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
     best
 }
 
-/// Barycentric coordinates of a point of a triangle: at least 0, of sum 1. In a triangle without area, the nearest corner
-/// has it all.
+/// Barycentric coordinates of a point of a triangle: at least 0, of sum 1. In a triangle without area, the nearest
+/// corner has weight 1.
 pub fn barycentric(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let opposite = |q: DVec3, r: DVec3| (q - p).cross(r - p).length();
     let areas = [opposite(b, c), opposite(c, a), opposite(a, b)];

@@ -28,7 +28,7 @@ pub fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {
 /// noise of coordinates that came in 32 bits.
 pub const NO_AREA: f64 = 1e-6;
 
-/// False for a triangle whose corners lie on a line or in a point, up to [`NO_AREA`].
+/// False for a degenerate triangle: its corners lie on a line or in a point, up to [`NO_AREA`].
 pub fn has_area([a, b, c]: [DVec3; 3]) -> bool {
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     (b - a).cross(c - a).length() > NO_AREA * longest
@@ -50,8 +50,8 @@ pub struct BoundaryLoop {
     pub vertices: Vec<u32>,
 }
 
-/// An edge with more triangles than this is hinged between consecutive triangles only, not between all pairs:
-/// their number grows with the square, and such an edge is no surface any more.
+/// A non-manifold edge with more triangles than this is hinged between consecutive triangles only, not between all
+/// pairs, whose number grows with the square.
 const MAX_FAN: usize = 32;
 
 /// The connectivity of a mesh. Triangles that repeat an index take no part in it.
@@ -73,7 +73,7 @@ pub struct Topology {
     pub loops: Vec<BoundaryLoop>,
     /// Boundary curves that do not close: where a boundary runs into an edge of three or more triangles.
     pub open_boundaries: Vec<Vec<u32>>,
-    /// Number of pieces; triangles that share a vertex belong to the same one.
+    /// Number of connected components; triangles that share a vertex belong to the same one.
     pub components: usize,
     vertex_count: usize,
 }
@@ -144,7 +144,7 @@ fn hinge(h: &HalfEdge, k: &HalfEdge) -> Option<Hinge> {
         .then_some(Hinge { vertices: [v1, v2, h.opposite, k.opposite], triangles: [h.triangle, k.triangle] })
 }
 
-/// Strings directed boundary edges together: closed curves, and what stays open.
+/// Chains directed boundary edges: closed curves, and open ones.
 ///
 /// Walks along the half-edges; only where winding is inconsistent and no half-edge leads on is one walked
 /// backwards. Whenever the walk meets itself, the part since then is cut off as a closed curve.
@@ -213,10 +213,10 @@ fn trace_boundary(boundary: &[[u32; 2]]) -> (Vec<BoundaryLoop>, Vec<Vec<u32>>) {
     (loops, open)
 }
 
-/// The label of a vertex that belongs to no piece.
+/// The label of a vertex that belongs to no piece (connected component).
 pub const NO_PIECE: u32 = u32::MAX;
 
-/// For each vertex the piece that it belongs to, pieces being what `links` between vertices join, numbered from 0 in the
+/// The piece of each vertex: connected components under `links` between vertices, by union-find, numbered from 0 in the
 /// order of their lowest vertices; [`NO_PIECE`] for a vertex without a link. And the number of pieces.
 pub fn label_pieces(vertex_count: usize, links: impl Iterator<Item = [u32; 2]>) -> (Vec<u32>, usize) {
     let mut parent: Vec<u32> = (0..vertex_count as u32).collect();

@@ -1,10 +1,10 @@
-//! The ground: triangle meshes, search trees over boxes, closest points. Knows neither a user nor a solver.
+//! Geometry: triangle meshes, search trees over boxes, closest points. It depends on neither the inputs nor the solver.
 //!
 //! There are two trees of boxes. That of [`bvh`] has boxes in single precision, which are refitted in every step, and is
 //! traversed against another tree; that of [`closest_point`] has boxes in double precision, is built once, and is asked for
 //! points. A builder for both would save some 25 lines, and tie the orders of both to each other, on which the bits of
-//! results depend. The third tree, of [`crate::verify`], is apart on purpose: the verifier uses none of the code that keeps
-//! contact free.
+//! results depend. The third tree, of [`crate::verify`], is separate on purpose: the verifier uses none of the
+//! contact code.
 
 pub mod bvh;
 pub mod closest_point;

@@ -1,4 +1,4 @@
-//! The nodes of 8^3 cells of the lattice, filled in as they are needed and read without a lock.
+//! A block: the nodes of 8^3 cells of the lattice, computed when first needed and read without a lock.
 
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,23 +6,23 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::volume::BLOCK;
 
-/// Nodes along one side: a cell's spline needs four of them, so the last ones are those of the next block, too. Thus
-/// all the nodes of a cell are in one place.
+/// Nodes along one side: a cell's spline needs four of them, so the last ones are stored in the next block as well. Thus
+/// all the nodes of a cell are in one block.
 pub(super) const SIDE: usize = BLOCK + 3;
 
 /// Nodes in a block.
 const NODES: usize = SIDE * SIDE * SIDE;
 
-/// A node not yet computed. Not a number; its sign tells the side, negative inside.
+/// A node not yet computed: not a number, whose sign bit is already that of the distance, negative inside.
 const UNKNOWN: f32 = f32::NAN;
 
 /// A block: signed distances at its nodes.
 #[derive(Debug)]
 pub(super) struct Block {
-    /// A bit for each cell, set once its 4^3 nodes are known. It stays set, and so do they.
+    /// A bit for each cell, set once its 4^3 nodes are known. Neither is ever cleared.
     known: [AtomicU64; BLOCK],
     nodes: UnsafeCell<[f32; NODES]>,
-    /// Held by who writes to the nodes, or reads those that may be unknown.
+    /// Locked to write nodes, or to read nodes that may be unknown.
     filling: Mutex<()>,
     /// A triangle close to the block's centre, for the search tree.
     pub hint: u32,
@@ -40,9 +40,9 @@ pub(super) struct Known<'a> {
 }
 
 impl Block {
-    /// A block without any distance; `inside` tells the side of each node.
+    /// A block without any distance; `inside` gives the sign of each node.
     pub fn new(inside: impl Fn([usize; 3]) -> bool, hint: u32) -> Self {
-        let node = |n: usize| UNKNOWN.copysign(if inside(steps(n, SIDE)) { -1.0 } else { 1.0 });
+        let node = |n: usize| UNKNOWN.copysign(if inside(coordinates(n, SIDE)) { -1.0 } else { 1.0 });
         Self {
             known: Default::default(),
             nodes: UnsafeCell::new(std::array::from_fn(node)),
@@ -51,12 +51,12 @@ impl Block {
         }
     }
 
-    /// The nodes around a cell, once all of them are known. Of the coordinates, here as below, whole blocks are left out.
+    /// The nodes around a cell, once all of them are known. Coordinates are taken modulo the block, here as below.
     #[inline(always)]
     pub fn known(&self, cell: [usize; 3]) -> Option<Known<'_>> {
         let [i, j, k] = cell.map(|c| c % BLOCK);
         let known = self.known[i].load(Ordering::Acquire) & bit(j, k) != 0;
-        known.then(|| Known { block: self, first: place([i, j, k]) })
+        known.then(|| Known { block: self, first: node_index([i, j, k]) })
     }
 
     /// The unknown ones among the nodes around a cell: bit n stands for the n-th of the 4^3.
@@ -71,7 +71,7 @@ impl Block {
         debug_assert!(at.iter().all(|&c| c < SIDE));
         let _filling = self.lock();
         // SAFETY: the lock is held.
-        let value = unsafe { *self.nodes.get().cast::<f32>().add(place(at.map(|c| c.min(SIDE - 1)))) };
+        let value = unsafe { *self.nodes.get().cast::<f32>().add(node_index(at.map(|c| c.min(SIDE - 1)))) };
         (!value.is_nan()).then_some(value.abs())
     }
 
@@ -90,18 +90,18 @@ impl Block {
         }
         let [i, j, k] = cell.map(|c| c % BLOCK);
         self.known[i].fetch_or(bit(j, k), Ordering::Release);
-        Known { block: self, first: place([i, j, k]) }
+        Known { block: self, first: node_index([i, j, k]) }
     }
 
     /// The n-th of the 4^3 nodes around a cell.
     fn around(&self, cell: [usize; 3], n: usize) -> *mut f32 {
-        let step = steps(n % 64, 4);
+        let step = coordinates(n % 64, 4);
         let at = [0, 1, 2].map(|a| cell[a] % BLOCK + step[a]);
         // SAFETY: coordinates below 8 + 3 are within the array.
-        unsafe { self.nodes.get().cast::<f32>().add(place(at)) }
+        unsafe { self.nodes.get().cast::<f32>().add(node_index(at)) }
     }
 
-    /// Who panicked under the lock left whole nodes.
+    /// A panic under the lock leaves each node either unknown or known, so poisoning is ignored.
     fn lock(&self) -> MutexGuard<'_, ()> {
         self.filling.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -114,7 +114,9 @@ impl Known<'_> {
         debug_assert!(i < 4 && j < 4);
         // SAFETY: a cell's coordinates are below 8, so the row is within the array; its nodes are known and so are never
         // written again. The pointer does not pass through a reference to the array, of which others may be written.
-        unsafe { self.block.nodes.get().cast::<f32>().add(self.first + place([i, j, 0])).cast::<[f32; 4]>().read() }
+        unsafe {
+            self.block.nodes.get().cast::<f32>().add(self.first + node_index([i, j, 0])).cast::<[f32; 4]>().read()
+        }
     }
 }
 
@@ -124,14 +126,14 @@ fn bit(j: usize, k: usize) -> u64 {
     1 << (j * BLOCK + k)
 }
 
-/// Place of a node in its block.
+/// Index of a node in its block.
 #[inline(always)]
-fn place([i, j, k]: [usize; 3]) -> usize {
+fn node_index([i, j, k]: [usize; 3]) -> usize {
     (i * SIDE + j) * SIDE + k
 }
 
 /// The coordinates of entry `n` in a cube of the given side.
 #[inline]
-fn steps(n: usize, side: usize) -> [usize; 3] {
+fn coordinates(n: usize, side: usize) -> [usize; 3] {
     [n / (side * side), (n / side) % side, n % side]
 }

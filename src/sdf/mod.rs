@@ -4,16 +4,16 @@
 //! published implementation does it. It reproduces planes exactly and smooths the rest: D is off by about
 //! `voxel^2 / 6` times the Laplacian of the distance, `voxel^2 / (3 r)` outside a ball of radius r.
 //!
-//! The two halves of a node's value come from different places. The *side* is OpenVDB's: it floods the outside
+//! The two halves of a node's value come from different places. The *sign* is OpenVDB's: it flood-fills the outside
 //! from infinity, so that inner walls, cracks below a voxel and overlaps do no harm. The *distance* is exact, from
-//! a tree of boxes, and so right also where an open avatar has no inside, beyond any band, and the same
+//! a tree of boxes, and so correct also where an open avatar has no inside, beyond any band, and the same
 //! whatever the number of threads. Nodes are computed when a sample first touches them. As a node's value depends on
 //! nothing but the node, it does not matter which thread does so: sampling needs no preparation, and no lock where the
 //! nodes are known.
 //!
 //! Nodes are stored as single-precision numbers, in blocks that overlap, so that all the nodes of a sample are in one
-//! place. The spline is then that of distances which are off by up to 6e-8 of themselves: as smooth, with derivatives
-//! that are its own to the last digits.
+//! block. The spline is then that of distances which are off by up to 6e-8 of themselves: just as smooth, with derivatives
+//! that are consistent to the last digits.
 
 mod block;
 mod spline;
@@ -31,14 +31,14 @@ use crate::simd::four::{Four, Kernel, dispatch};
 use block::{Block, Known, SIDE};
 use volume::{BLOCK, Volume};
 
-/// Blocks that have a place to be stored, at most: 32 MB for the places themselves.
+/// Blocks that can be stored, at most: their pointers alone take 32 MB.
 const MAX_BLOCKS: usize = 1 << 21;
 
-/// Narrowest rim around the avatar that is stored, in voxels: more than OpenVDB's band, so all beyond is outside.
-const MIN_RIM: f64 = 4.0;
+/// Smallest padding of the stored region around the avatar, in voxels: more than OpenVDB's band, so all beyond is outside.
+const MIN_PADDING: f64 = 4.0;
 
-/// Distance, in voxels, up to which OpenVDB keeps distances. Only the side is used, which it finds before
-/// it widens its band; up to 2 it does not widen.
+/// Distance, in voxels, up to which OpenVDB keeps distances (the narrow band). Only the sign is used, which it
+/// finds before it widens its band; up to 2 it does not widen.
 const BAND: f32 = 2.0;
 
 /// Layers of blocks around a surface that are in use, and bytes of a block: its nodes here, and what OpenVDB has there
@@ -77,9 +77,9 @@ pub struct Field {
 
 /// The cell of the lattice that holds a point.
 struct Cell {
-    /// The lowest of the 4^3 nodes that the spline needs, and the cell's place among those stored.
+    /// The lowest of the 4^3 nodes that the spline needs, which is also the cell's index among those stored.
     base: [i64; 3],
-    /// The point's place in the cell, in [0, 1).
+    /// The point's local coordinates in the cell, in [0, 1).
     t: DVec3,
 }
 
@@ -88,7 +88,7 @@ impl Field {
     ///
     /// # Errors
     /// [`ErrorKind::InvalidMesh`] without triangles, [`ErrorKind::InvalidArgument`] for a voxel that is not positive or too
-    /// small for the mesh, and [`ErrorKind::Cancelled`] soon after that was asked for.
+    /// small for the mesh, and [`ErrorKind::Cancelled`] soon after `cancel` is set.
     pub fn build(mesh: &TriangleMesh, options: FieldOptions, cancel: &Cancel) -> Result<Self> {
         let voxel = options.voxel;
         if !(voxel > 0.0 && voxel.is_finite()) {
@@ -116,13 +116,13 @@ impl Field {
         let (low, high) = used_bounds(mesh)?;
         let (_, extent) = layout(low, high, voxel)?;
         let places: usize = extent.iter().product();
-        // Blocks along the surface, and the layers beside them that OpenVDB and the samples touch; never more than all.
+        // Blocks along the surface, and the neighbouring layers that OpenVDB and the samples touch; never more than all.
         let along = mesh.areas().iter().sum::<f64>() / (BLOCK as f64 * voxel).powi(2);
         let stored = (LAYERS * along + 64.0).min(places as f64);
         Ok((places * size_of::<OnceLock<Box<Block>>>()) as u64 + (stored * BLOCK_BYTES) as u64)
     }
 
-    /// The search tree over the mesh: exact distances without a side.
+    /// The search tree over the mesh: exact distances without a sign.
     pub fn closest_point(&self) -> &ClosestPoint {
         &self.tree
     }
@@ -132,7 +132,7 @@ impl Field {
         self.voxel
     }
 
-    /// Memory in use, in bytes, without the search tree. It grows while new places are sampled.
+    /// Memory in use, in bytes, without the search tree. It grows as new cells are sampled.
     pub fn memory(&self) -> u64 {
         let stored = self.blocks.iter().filter(|b| b.get().is_some()).count();
         let places = self.blocks.len() * size_of::<OnceLock<Box<Block>>>();
@@ -153,14 +153,14 @@ impl Field {
         out[0]
     }
 
-    /// D at each of `points`, written to the entries of `out`. Does as many as both have.
+    /// D at each of `points`, written to the entries of `out`; as many as the shorter of both.
     #[inline]
     pub fn values(&self, points: &[DVec3], out: &mut [f64]) {
         dispatch(Samples::<Value> { field: self, points, out });
     }
 
-    /// D and its gradient at each of `points`, written to the entries of `out`. Does as many as both have. Values have the
-    /// same bits as those of [`Self::values`].
+    /// D and its gradient at each of `points`, written to the entries of `out`; as many as the shorter of both. Values
+    /// have the same bits as those of [`Self::values`].
     #[inline]
     pub fn values_gradients(&self, points: &[DVec3], out: &mut [(f64, DVec3)]) {
         dispatch(Samples::<ValueGradient> { field: self, points, out });
@@ -170,12 +170,12 @@ impl Field {
     fn cell(&self, p: DVec3) -> Cell {
         let u = (p - self.origin) * self.per_voxel;
         let floor = u.floor();
-        // Conversion saturates; nothing sensible is that far away, but nothing may overflow either.
+        // Conversion saturates; points that far away make no sense, but must not overflow.
         let base = floor.to_array().map(|f| (f as i64).clamp(-(1 << 62), 1 << 62) - 1);
         Cell { base, t: u - floor }
     }
 
-    /// The block of a cell and the cell's place in it, where it is stored.
+    /// The block of a cell and the cell's lowest node, where it is stored.
     #[inline(always)]
     fn stored(&self, cell: &Cell) -> Option<(&Block, [usize; 3])> {
         let stored = (0..3).all(|a| cell.base[a] >= 0 && cell.base[a] < (self.extent[a] * BLOCK) as i64);
@@ -184,7 +184,7 @@ impl Field {
         }
         let base = cell.base.map(|b| b as usize);
         let at = base.map(|b| b / BLOCK);
-        let block = &self.blocks[self.place(at)];
+        let block = &self.blocks[self.block_index(at)];
         Some((if let Some(block) = block.get() { block } else { block.get_or_init(|| self.new_block(at)) }, base))
     }
 
@@ -194,7 +194,7 @@ impl Field {
         if let Some(known) = block.known(base) { known } else { self.complete(block, base) }
     }
 
-    /// Computes the unknown nodes around a stored cell, but for those that a block beside it has.
+    /// Computes the unknown nodes around a stored cell, or copies them from a neighbouring block.
     #[cold]
     fn complete<'a>(&self, block: &'a Block, base: [usize; 3]) -> Known<'a> {
         // The neighbour's triangle is the best hint; a hint changes how long the search takes, not its result.
@@ -203,7 +203,7 @@ impl Field {
         let missing = block.missing(base);
         for n in (0..64).filter(|n| missing >> n & 1 == 1) {
             let node = [0, 1, 2].map(|a| base[a] + [n / 16, (n / 4) % 4, n % 4][a]);
-            distances[n] = self.found_beside(base, node).unwrap_or_else(|| {
+            distances[n] = self.find_in_neighbours(base, node).unwrap_or_else(|| {
                 let (distance, triangle) = self.tree.distance_hinted(self.node(node.map(|i| i as f64)), hint);
                 hint = triangle;
                 distance as f32
@@ -212,8 +212,8 @@ impl Field {
         block.complete(base, &distances)
     }
 
-    /// A node that a block other than that of `base` has computed.
-    fn found_beside(&self, base: [usize; 3], node: [usize; 3]) -> Option<f32> {
+    /// The distance at a node, where a block other than that of `base` has computed it.
+    fn find_in_neighbours(&self, base: [usize; 3], node: [usize; 3]) -> Option<f32> {
         let own = base.map(|i| i / BLOCK);
         let last = node.map(|i| i / BLOCK);
         // Along an axis, a node is in one block, or in two.
@@ -225,7 +225,7 @@ impl Field {
                         continue;
                     }
                     let inner = [0, 1, 2].map(|a| node[a] - [x, y, z][a] * BLOCK);
-                    let found = self.blocks[self.place([x, y, z])].get().and_then(|block| block.node(inner));
+                    let found = self.blocks[self.block_index([x, y, z])].get().and_then(|block| block.node(inner));
                     if found.is_some() {
                         return found;
                     }
@@ -237,18 +237,18 @@ impl Field {
 
     /// Index of a block.
     #[inline(always)]
-    fn place(&self, [x, y, z]: [usize; 3]) -> usize {
+    fn block_index(&self, [x, y, z]: [usize; 3]) -> usize {
         (x * self.extent[1] + y) * self.extent[2] + z
     }
 
     /// The nodes around a cell outside the stored region, where nothing is inside: slow, but the same field.
     #[cold]
-    fn beyond(&self, cell: &Cell) -> [f32; 64] {
+    fn nodes_outside(&self, cell: &Cell) -> [f32; 64] {
         let node = |n: usize| {
             let step = [n / 16, (n / 4) % 4, n % 4];
             self.node([0, 1, 2].map(|a| (cell.base[a] + step[a] as i64) as f64))
         };
-        // A neighbour's closest triangle is nearly always a node's own: the search only has to make sure.
+        // A neighbour's closest triangle is nearly always a node's own: the search only has to confirm it.
         let mut hint = self.tree.hint(node(0));
         std::array::from_fn(|n| {
             let (distance, closest) = self.tree.distance_hinted(node(n), hint);
@@ -263,11 +263,11 @@ impl Field {
         self.origin + DVec3::from_array(index) * self.voxel
     }
 
-    /// The block at a place within the stored region, with the side of its nodes but no distance.
+    /// A new block of the stored region, with the sign of its nodes but no distance.
     #[cold]
-    fn new_block(&self, place: [usize; 3]) -> Box<Block> {
-        let first = place.map(|b| b * BLOCK);
-        // A block has nodes of the next ones, too.
+    fn new_block(&self, block: [usize; 3]) -> Box<Block> {
+        let first = block.map(|b| b * BLOCK);
+        // A block also has nodes of the next ones.
         let volumes: [_; 8] = std::array::from_fn(|n| {
             let next = [n / 4, (n / 2) % 2, n % 2];
             self.volume.read_block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32))
@@ -281,7 +281,7 @@ impl Field {
     }
 }
 
-/// What is computed from the nodes around a point.
+/// A quantity computed from the nodes around a point.
 trait Sample {
     type Output;
 
@@ -331,7 +331,7 @@ impl<S: Sample> Kernel for Samples<'_, S> {
                 let nodes = field.nodes(block, base);
                 S::compute::<V>(|i, j| nodes.row(i, j), cell.t, field.per_voxel)
             } else {
-                let nodes = field.beyond(&cell);
+                let nodes = field.nodes_outside(&cell);
                 S::compute::<V>(|i, j| row(&nodes, i, j), cell.t, field.per_voxel)
             };
         }
@@ -353,18 +353,18 @@ fn used_bounds(mesh: &TriangleMesh) -> Result<(DVec3, DVec3)> {
     Ok(corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p))))
 }
 
-/// Node (0, 0, 0) and the number of blocks along each axis: the avatar with a rim of half its longest side,
-/// less where that would be too many.
+/// Node (0, 0, 0) and the number of blocks along each axis: the avatar with a padding of half its longest
+/// side, less where that would be too many.
 fn layout(low: DVec3, high: DVec3, voxel: f64) -> Result<(DVec3, [usize; 3])> {
     let size = (high - low) / voxel;
     let longest = size.max_element();
-    let mut rim = (0.5 * longest).max(MIN_RIM);
+    let mut padding = (0.5 * longest).max(MIN_PADDING);
     loop {
-        let blocks = ((size + 2.0 * rim) / BLOCK as f64).ceil() + 1.0;
+        let blocks = ((size + 2.0 * padding) / BLOCK as f64).ceil() + 1.0;
         if blocks.x * blocks.y * blocks.z <= MAX_BLOCKS as f64 {
-            return Ok((low - rim * voxel, blocks.to_array().map(|b| b as usize)));
+            return Ok((low - padding * voxel, blocks.to_array().map(|b| b as usize)));
         }
-        if rim <= MIN_RIM || !longest.is_finite() {
+        if padding <= MIN_PADDING || !longest.is_finite() {
             let longest = longest * voxel;
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
@@ -373,6 +373,6 @@ fn layout(low: DVec3, high: DVec3, voxel: f64) -> Result<(DVec3, [usize; 3])> {
                 ),
             ));
         }
-        rim = (0.5 * rim).max(MIN_RIM);
+        padding = (0.5 * padding).max(MIN_PADDING);
     }
 }

@@ -1,14 +1,14 @@
 //! The uniform cubic B-spline in three dimensions on the 4 x 4 x 4 nodes around a cell:
 //! `D(p) = sum_ijk c_ijk B_i(u) B_j(v) B_k(w)`.
 //!
-//! Rows of four nodes along the last axis are contracted along the first two axes at once; the last axis comes at the
-//! end. All functions compute the value by the same operations, and so to the same bits.
+//! Rows of four nodes along the last axis are contracted along the first two axes first, as vectors; the last axis
+//! follows. All functions compute the value by the same operations, and so to the same bits.
 
 use glam::DVec3;
 
 use crate::simd::four::Four;
 
-/// The four basis functions, or one of their derivatives, at a place in a cell.
+/// The four basis functions, or their derivatives, at a point of a cell.
 type Weights = [f64; 4];
 
 /// The basis functions at `t` in [0, 1) of a cell of unit width.

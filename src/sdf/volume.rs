@@ -1,4 +1,4 @@
-//! The only file that calls the C++ shim: a triangle soup voxelised by OpenVDB, which tells inside from outside.
+//! The only file that calls the C++ shim: a triangle soup voxelised by OpenVDB, for the sign of the distance.
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::{self, NonNull};
@@ -61,7 +61,7 @@ impl Volume {
     /// voxels, at least 1), with at most `threads` threads.
     ///
     /// # Errors
-    /// `InvalidMesh` for what cannot be voxelised, `Cancelled` soon after that was asked for, `Internal`.
+    /// `InvalidMesh` for what cannot be voxelised, `Cancelled` soon after `cancel` is set, `Internal`.
     pub fn build(
         points: &[[f32; 3]],
         triangles: &[[u32; 3]],
@@ -121,7 +121,7 @@ impl Volume {
 
 impl Drop for Volume {
     fn drop(&mut self) {
-        // SAFETY: the only owner, and nobody uses it afterwards.
+        // SAFETY: the only owner, and it is not used afterwards.
         unsafe { bespoke_volume_destroy(self.0.as_ptr()) }
     }
 }

@@ -1,4 +1,4 @@
-//! A tree of axis-aligned boxes: candidates for the exact test. Comparisons only, so nothing is rounded away.
+//! A tree of axis-aligned boxes: the broad phase of the exact test. Overlap compares coordinates, so nothing is rounded.
 
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ impl Aabb {
 }
 
 /// Boxes in a leaf.
-const LEAF: usize = 4;
+const LEAF_SIZE: usize = 4;
 
 struct Node {
     bounds: Aabb,
@@ -32,7 +32,7 @@ struct Node {
     count: u32,
 }
 
-/// Boxes by place, halved at the median of their centres along the longest side.
+/// Boxes, halved at the median of their centres along the longest side.
 pub struct Tree {
     nodes: Vec<Node>,
     /// Indices and boxes of the items, leaf after leaf.
@@ -57,7 +57,7 @@ impl Tree {
             bounds = Aabb { low: bounds.low.min(b.low), high: bounds.high.max(b.high) };
         }
         let node = self.nodes.len();
-        if items.len() <= LEAF {
+        if items.len() <= LEAF_SIZE {
             self.nodes.push(Node { bounds, first: begin as u32, count: items.len() as u32 });
             return;
         }
@@ -73,19 +73,19 @@ impl Tree {
 
     /// Calls `visit` with each item whose box has a point in common with `query`.
     pub fn for_each_overlap(&self, query: &Aabb, mut visit: impl FnMut(u32)) {
-        // Depth is at most 32 (halving fewer than 2^32 items), and each level leaves one node waiting.
-        let mut waiting = [0u32; 64];
+        // Depth is at most 32 (halving fewer than 2^32 items), and each level leaves one node on the stack.
+        let mut stack = [0u32; 64];
         let mut depth = usize::from(!self.nodes.is_empty());
         while depth > 0 {
             depth -= 1;
-            let index = waiting[depth];
+            let index = stack[depth];
             let node = &self.nodes[index as usize];
             if !node.bounds.overlaps(query) {
                 continue;
             }
             if node.count == 0 {
-                waiting[depth] = node.first;
-                waiting[depth + 1] = index + 1;
+                stack[depth] = node.first;
+                stack[depth + 1] = index + 1;
                 depth += 2;
             } else {
                 let first = node.first as usize;

@@ -1,4 +1,5 @@
-//! The independent judge: counts intersecting triangle pairs exactly, sharing nothing with the solver's contact code.
+//! The verifier: counts intersecting pairs of triangles exactly. It uses none of the contact code; the same exact predicates
+//! decide which triangles intersected at the start.
 //!
 //! Triangles are closed, so touching counts. Every decision is the sign of a determinant of the coordinates as
 //! stored, taken with exact predicates. These are exact unless a product of coordinates underflows; both meshes are
@@ -33,16 +34,16 @@ const CHUNK: usize = 64;
 ///
 /// Within one mesh, triangles that share a vertex count where the side opposite to it in one touches the other;
 /// triangles that share an edge, where they have more than that edge in common (folded flat onto each other);
-/// triangles with the same three corners always. Corners are shared by index: vertices in one place but with
-/// different indices are a contact. A triangle without area is the segment or the point that it is.
+/// triangles with the same three corners always. Corners are shared by index: vertices at equal positions but
+/// with different indices are a contact. A triangle without area is the segment or the point that it is.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidMesh`]: a coordinate is not finite or an index is out of range, so that nothing can be judged.
+/// [`ErrorKind::InvalidMesh`]: a coordinate is not finite or an index is out of range, so that nothing can be verified.
 pub fn intersections(a: &TriangleMesh, b: Option<&TriangleMesh>, limit: usize) -> Result<Intersections> {
     intersections_with_cancel(a, b, limit, &Cancel::new())
 }
 
-/// [`intersections`], until somebody asks to stop.
+/// [`intersections`], with a cancellation token that is checked between chunks of triangles.
 ///
 /// # Errors
 /// As [`intersections`], and [`ErrorKind::Cancelled`].
@@ -86,8 +87,8 @@ pub fn intersections_with_cancel(
                 });
                 hits.sort_unstable();
                 found.count += hits.len() as u64;
-                let room = limit - found.pairs.len();
-                found.pairs.extend(hits.iter().take(room).map(|&j| [i as u32, j]));
+                let remaining = limit - found.pairs.len();
+                found.pairs.extend(hits.iter().take(remaining).map(|&j| [i as u32, j]));
             }
             Ok(found)
         })
@@ -101,7 +102,7 @@ pub fn intersections_with_cancel(
     Ok(all)
 }
 
-/// Those of `pairs` of triangles of one mesh that intersect, by the same measure as [`intersections`].
+/// Those of `pairs` of triangles of one mesh that intersect, by the same rules as [`intersections`].
 ///
 /// # Errors
 /// As [`intersections`]; no index of a pair may be out of range.
@@ -113,15 +114,15 @@ pub fn intersecting(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Result<Vec<[u32;
     Ok(pairs.iter().copied().filter(hit).collect())
 }
 
-/// Refuses what would be judged wrongly or not at all. An empty mesh is fine: it intersects nothing.
-fn validate(mesh: &TriangleMesh, what: &str) -> Result<()> {
+/// Refuses a mesh for which counts would be wrong or undefined. An empty mesh is fine: it intersects nothing.
+fn validate(mesh: &TriangleMesh, name: &str) -> Result<()> {
     let fail = |message: String| Err(Error::new(ErrorKind::InvalidMesh, message));
     if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
-        return fail(format!("{what} to verify: vertex {v} is {}", mesh.positions[v]));
+        return fail(format!("{name} to verify: vertex {v} is {}", mesh.positions[v]));
     }
     let count = mesh.positions.len();
     if let Some(t) = mesh.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= count)) {
-        return fail(format!("{what} to verify: triangle {t} has an index beyond its {count} vertices"));
+        return fail(format!("{name} to verify: triangle {t} has an index beyond its {count} vertices"));
     }
     Ok(())
 }
@@ -145,7 +146,7 @@ impl Scale {
         if largest == 0.0 {
             return Self([1.0, 1.0]);
         }
-        // Subnormal numbers have no exponent of their own: lift them first. 2^200 is exact.
+        // The exponent bits of subnormal numbers are zero: scale them first. 2^200 is exact.
         let (lifted, lift) = if largest < f64::MIN_POSITIVE { (largest * 2f64.powi(200), 200) } else { (largest, 0) };
         let exponent = (lifted.to_bits() >> 52) as i32 - 1023 - lift;
         let shift = 300 - exponent;

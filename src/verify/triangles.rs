@@ -1,8 +1,8 @@
 //! Whether two closed triangles have a point in common, exactly, for triangles of any shape.
 //!
-//! Two triangles meet exactly where a side of one meets the other. A side is cut with a triangle by signs of volumes;
-//! what lies in one plane is decided in a projection that keeps the plane's area (dropping a coordinate rounds
-//! nothing), what lies on one line by intervals.
+//! Two triangles intersect exactly where a side of one intersects the other. A side and a triangle are tested by signs of
+//! volumes (orientation predicates, Shewchuk 1997); coplanar ones in a projection that keeps the plane's area (dropping a
+//! coordinate rounds nothing), collinear ones by intervals.
 
 use glam::DVec3;
 use robust::{Coord, Coord3D};
@@ -73,7 +73,7 @@ pub fn touch_in_mesh(points: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> bool {
     match shared.as_slice() {
         [] => touch(s_points, t_points),
         [common] => {
-            // What is opposite to the shared corner: a side, or its one end where an index is repeated, or nothing.
+            // Opposite to the shared corner: a side, or a point where an index is repeated, or nothing.
             let opposite = |triangle: &[u32; 3]| match distinct(triangle, |v| v != *common).as_slice() {
                 [p, q] => Some([at(*p), at(*q)]),
                 [p] => Some([at(*p); 2]),
@@ -121,7 +121,7 @@ fn folded_flat([p, q]: Segment, a: DVec3, b: DVec3) -> bool {
         return false;
     }
     match (projection(p, q, a), projection(p, q, b)) {
-        // In one plane, which this projection shows: on the same side of the common one?
+        // Coplanar: on the same side of the common edge in this projection?
         (Some(axis), Some(_)) => orient2(axis, p, q, a) == orient2(axis, p, q, b),
         // One has no area: it is on the line through p and q, on which the other has just that side.
         (Some(_), None) | (None, Some(_)) => false,
@@ -150,8 +150,8 @@ fn segment_meets([p, q]: Segment, ends: [i8; 2], t: Triangle) -> bool {
     if ends == [0, 0] {
         return coplanar_meets([p, q], t);
     }
-    // The segment reaches the plane in one point, which is in the triangle where its line turns the same way round
-    // all three sides.
+    // The segment reaches the plane in one point, which is in the triangle where its line has the same orientation
+    // to all three sides.
     ends[0] * ends[1] <= 0 && none_of_both_signs(sides(t).map(|[a, b]| orient3(p, q, a, b)))
 }
 
@@ -169,13 +169,13 @@ fn segments_meet([p, q]: Segment, [a, b]: Segment) -> bool {
     if orient3(p, q, a, b) != 0 {
         return false;
     }
-    // Some three of the four points show their plane.
+    // Some three of the four points span their plane.
     let corners = [[p, q, a], [p, q, b], [p, a, b], [q, a, b]];
     if let Some(axis) = corners.into_iter().find_map(|[x, y, z]| projection(x, y, z)) {
         return segments_meet_in_plane(axis, [p, q], [a, b]);
     }
-    // All on one line: an interval on it overlaps where its shadow on any axis does, if the line has an extent there,
-    // and is a point with the same shadow as any other where it has none.
+    // Collinear: intervals on the line overlap where their projections on any axis do, if the line has an extent along
+    // it; where it has none, all project to the same point.
     (0..3).all(|k| p[k].min(q[k]) <= a[k].max(b[k]) && a[k].min(b[k]) <= p[k].max(q[k]))
 }
 

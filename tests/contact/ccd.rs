@@ -4,54 +4,57 @@ use bespoke::contact::{
 };
 use glam::DVec3;
 
-use crate::pairs::{FORMS, KINDS, SIZE, generic, interior, nasty};
+use crate::pairs::{FORMS, PAIR_TYPES, SIZE, generic, interior, nasty};
 use crate::scene::{Scene, sphere};
 use testing::Random;
 
 const MIN_SEPARATION: f64 = 1e-5;
 
-fn distance(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
-    kind.separation(&std::array::from_fn(|i| x[i] + time * v[i])).squared.sqrt()
+fn distance(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> f64 {
+    pair_type.separation(&std::array::from_fn(|i| x[i] + time * v[i])).squared.sqrt()
 }
 
 /// Samples the motion up to `answer` and asserts that the distance stays at the promised target.
-fn check_safe(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, answer: f64) {
-    let first = distance(kind, x, v, 0.0);
+fn check_safe(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, answer: f64) {
+    let first = distance(pair_type, x, v, 0.0);
     let target = min_separation + 0.1 * (first - min_separation);
     for k in 0..=400 {
-        let d = distance(kind, x, v, answer * k as f64 / 400.0);
-        assert!(d >= target - 1e-15 - 1e-9 * (target - min_separation), "{kind:?} {x:?} {v:?}: {d:e} < {target:e}");
+        let d = distance(pair_type, x, v, answer * k as f64 / 400.0);
+        assert!(
+            d >= target - 1e-15 - 1e-9 * (target - min_separation),
+            "{pair_type:?} {x:?} {v:?}: {d:e} < {target:e}"
+        );
     }
 }
 
-/// The first sampled time at which the distance is at or below the min_separation.
-fn time_of_impact(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64) -> Option<f64> {
-    (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(kind, x, v, t) <= min_separation)
+/// The first sampled time at which the distance is at or below the minimum separation.
+fn time_of_impact(pair_type: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64) -> Option<f64> {
+    (0..=4000).map(|k| k as f64 / 4000.0).find(|&t| distance(pair_type, x, v, t) <= min_separation)
 }
 
 #[test]
 fn generic_motions_stop_late_but_not_too_late() {
     let mut random = Random::new(1);
     let (mut stopped, mut ratios) = (0, Vec::new());
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for _ in 0..3000 {
             let x = generic(&mut random);
             let v: [DVec3; 4] = std::array::from_fn(|_| 3.0 * SIZE * random.vector());
-            let first = distance(kind, &x, &v, 0.0);
+            let first = distance(pair_type, &x, &v, 0.0);
             if first <= MIN_SEPARATION {
                 continue;
             }
-            let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
-            check_safe(kind, &x, &v, MIN_SEPARATION, answer);
+            let answer = pair_step(pair_type, &x, &v, MIN_SEPARATION, 1.0);
+            check_safe(pair_type, &x, &v, MIN_SEPARATION, answer);
             if answer < 1.0 {
                 // It stops only where the target is all but reached.
-                let left = distance(kind, &x, &v, answer) - (MIN_SEPARATION + 0.1 * (first - MIN_SEPARATION));
-                assert!(left <= 0.02 * (first - MIN_SEPARATION), "{kind:?} {x:?} {v:?}: {left:e}");
+                let left = distance(pair_type, &x, &v, answer) - (MIN_SEPARATION + 0.1 * (first - MIN_SEPARATION));
+                assert!(left <= 0.02 * (first - MIN_SEPARATION), "{pair_type:?} {x:?} {v:?}: {left:e}");
                 stopped += 1;
             }
             // Every hit is sampled within this width; the target is farther out.
             if first > 4e-3
-                && let Some(impact) = time_of_impact(kind, &x, &v, 2e-4)
+                && let Some(impact) = time_of_impact(pair_type, &x, &v, 2e-4)
             {
                 assert!(answer < impact);
                 ratios.push(answer / impact);
@@ -59,7 +62,7 @@ fn generic_motions_stop_late_but_not_too_late() {
         }
     }
     assert!(stopped > 300 && ratios.len() > 100, "{stopped} {}", ratios.len());
-    // A pair that comes close and then takes its time to hit is stopped early: the gap it keeps is a tenth.
+    // A pair that comes close and hits much later is stopped early: the gap it keeps is a tenth.
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[ratios.len() / 100] > 0.5 && ratios[ratios.len() / 2] > 0.85, "{ratios:?}");
 }
@@ -67,19 +70,19 @@ fn generic_motions_stop_late_but_not_too_late() {
 #[test]
 fn head_on_motion_reaches_nine_tenths() {
     let mut random = Random::new(2);
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for gap in [1e-2, 1e-3, 1e-4, 1e-6] {
             for _ in 0..200 {
-                let x = interior(kind, gap + MIN_SEPARATION, &mut random);
-                let first = kind.separation(&x);
+                let x = interior(pair_type, gap + MIN_SEPARATION, &mut random);
+                let first = pair_type.separation(&x);
                 let direction = first.vector.normalize();
-                // The first primitive goes straight through the second, with all the rest along for the ride.
+                // The first primitive goes straight through the second, on top of a common motion.
                 let ride = 10.0 * random.vector();
-                let count = kind.first_count();
+                let count = pair_type.first_count();
                 let v = std::array::from_fn(|i| if i < count { ride - 2.0 * gap * direction } else { ride });
-                let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
+                let answer = pair_step(pair_type, &x, &v, MIN_SEPARATION, 1.0);
                 // The large common motion costs a few digits of the small relative one.
-                assert!((answer - 0.45).abs() < 1e-3 + 1e-14 / gap, "{kind:?} {gap:e} {answer}");
+                assert!((answer - 0.45).abs() < 1e-3 + 1e-14 / gap, "{pair_type:?} {gap:e} {answer}");
             }
         }
     }
@@ -89,7 +92,7 @@ fn head_on_motion_reaches_nine_tenths() {
 fn hard_motions_are_safe() {
     let mut random = Random::new(3);
     let mut stopped = 0;
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for form in 0..FORMS {
             for k in 0..300 {
                 let x = nasty(form, &mut random);
@@ -98,21 +101,21 @@ fn hard_motions_are_safe() {
                 if k % 3 == 0 {
                     // Both primitives in translation: what is parallel stays parallel.
                     let (a, b) = (v[0], v[3]);
-                    v = std::array::from_fn(|i| if i < kind.first_count() { a } else { b });
+                    v = std::array::from_fn(|i| if i < pair_type.first_count() { a } else { b });
                 }
-                let separation = kind.separation(&x);
+                let separation = pair_type.separation(&x);
                 if separation.squared.sqrt() <= MIN_SEPARATION {
                     continue;
                 }
                 if k % 2 == 0 {
                     // On top of that, straight at each other.
-                    for p in &mut v[..kind.first_count()] {
+                    for p in &mut v[..pair_type.first_count()] {
                         *p -= 1.5 * separation.vector;
                     }
                 }
-                let answer = pair_step(kind, &x, &v, MIN_SEPARATION, 1.0);
+                let answer = pair_step(pair_type, &x, &v, MIN_SEPARATION, 1.0);
                 assert!(answer > 0.0 && answer <= 1.0);
-                check_safe(kind, &x, &v, MIN_SEPARATION, answer);
+                check_safe(pair_type, &x, &v, MIN_SEPARATION, answer);
                 stopped += usize::from(answer < 1.0);
             }
         }
@@ -123,17 +126,17 @@ fn hard_motions_are_safe() {
 #[test]
 fn tiny_gaps_are_kept() {
     let mut random = Random::new(4);
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for min_separation in [0.0, MIN_SEPARATION] {
             for k in 0..1000 {
                 let gap = 10f64.powi(-3 - k % 7);
-                let x = interior(kind, min_separation + gap, &mut random);
+                let x = interior(pair_type, min_separation + gap, &mut random);
                 let v: [DVec3; 4] = std::array::from_fn(|_| 10f64.powi(-(k % 4)) * SIZE * random.vector());
-                let answer = pair_step(kind, &x, &v, min_separation, 1.0);
-                assert!(answer > 0.0, "{kind:?} {gap:e}");
+                let answer = pair_step(pair_type, &x, &v, min_separation, 1.0);
+                assert!(answer > 0.0, "{pair_type:?} {gap:e}");
                 for k in 0..=1000 {
-                    let d = distance(kind, &x, &v, answer * k as f64 / 1000.0);
-                    assert!(d > min_separation + 0.09 * gap - 1e-15, "{kind:?} {gap:e} {d:e}");
+                    let d = distance(pair_type, &x, &v, answer * k as f64 / 1000.0);
+                    assert!(d > min_separation + 0.09 * gap - 1e-15, "{pair_type:?} {gap:e} {d:e}");
                 }
             }
         }
@@ -142,7 +145,7 @@ fn tiny_gaps_are_kept() {
 
 #[test]
 fn sliding_past_each_other_costs_nothing() {
-    // Grazing at a millionth above the min_separation, over the whole size of the primitives.
+    // Grazing at a millionth above the minimum separation, over the whole size of the primitives.
     let gap = MIN_SEPARATION + 1e-6;
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * SIZE;
     let lift = DVec3::Z * gap;
@@ -151,36 +154,39 @@ fn sliding_past_each_other_costs_nothing() {
         (PairType::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(0., -1., 0.), p(0., 1., 0.)]),
         (PairType::EdgeEdge, [p(-0.5, 0., 0.) + lift, p(0.5, 0., 0.) + lift, p(-1., 0., 0.), p(1., 0., 0.)]),
     ];
-    for (kind, x) in cases {
+    for (pair_type, x) in cases {
         let slide = p(0.4, 0.3, 0.0);
-        let v = std::array::from_fn(|i| if i < kind.first_count() { slide } else { DVec3::ZERO });
-        assert_eq!(pair_step(kind, &x, &v, MIN_SEPARATION, 1.0), 1.0);
-        // Everything as one: no relative motion, however large.
-        assert_eq!(pair_step(kind, &x, &[100.0 * slide; 4], MIN_SEPARATION, 1.0), 1.0);
+        let v = std::array::from_fn(|i| if i < pair_type.first_count() { slide } else { DVec3::ZERO });
+        assert_eq!(pair_step(pair_type, &x, &v, MIN_SEPARATION, 1.0), 1.0);
+        // A common motion, however large, is no relative motion.
+        assert_eq!(pair_step(pair_type, &x, &[100.0 * slide; 4], MIN_SEPARATION, 1.0), 1.0);
     }
 }
 
 #[test]
-fn pairs_below_the_floor_may_only_part() {
+fn pairs_below_the_minimum_separation_may_only_separate() {
     let mut random = Random::new(5);
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for _ in 0..300 {
-            let x = interior(kind, 0.5 * MIN_SEPARATION, &mut random);
-            let direction = kind.separation(&x).vector.normalize();
+            let x = interior(pair_type, 0.5 * MIN_SEPARATION, &mut random);
+            let direction = pair_type.separation(&x).vector.normalize();
             let toward = |s: f64| -> [DVec3; 4] {
-                std::array::from_fn(|i| if i < kind.first_count() { s * direction } else { DVec3::ZERO })
+                std::array::from_fn(|i| if i < pair_type.first_count() { s * direction } else { DVec3::ZERO })
             };
-            assert_eq!(pair_step(kind, &x, &toward(-1e-3), MIN_SEPARATION, 1.0), 0.0);
-            assert_eq!(pair_step(kind, &x, &toward(1e-3), MIN_SEPARATION, 1.0), 1.0);
-            assert_eq!(pair_step(kind, &x, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
+            assert_eq!(pair_step(pair_type, &x, &toward(-1e-3), MIN_SEPARATION, 1.0), 0.0);
+            assert_eq!(pair_step(pair_type, &x, &toward(1e-3), MIN_SEPARATION, 1.0), 1.0);
+            assert_eq!(pair_step(pair_type, &x, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
         }
-        let touching = match kind {
+        let touching = match pair_type {
             PairType::PointTriangle => [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ZERO],
             PairType::EdgeEdge => [-DVec3::X, DVec3::X, -DVec3::Y, DVec3::Y],
         };
-        assert_eq!(kind.separation(&touching).squared, 0.0);
-        assert_eq!(pair_step(kind, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], MIN_SEPARATION, 1.0), 0.0);
-        assert_eq!(pair_step(kind, &touching, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
+        assert_eq!(pair_type.separation(&touching).squared, 0.0);
+        assert_eq!(
+            pair_step(pair_type, &touching, &[DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y], MIN_SEPARATION, 1.0),
+            0.0
+        );
+        assert_eq!(pair_step(pair_type, &touching, &[DVec3::ZERO; 4], MIN_SEPARATION, 1.0), 1.0);
     }
 }
 
@@ -205,10 +211,10 @@ fn largest_step_is_the_minimum_over_pairs_for_any_number_of_threads() {
         let mut all = CandidateSet::default();
         let motion = Motion::new(&scene.bodies, at, Some(&step));
         BroadPhase::new(&scene.bodies).candidates(&scene.bodies, &motion, 1.0, 0.01, 0.01, &mut all);
-        // The soup crosses itself; keep what is apart.
-        let apart = |kind: PairType, group: CollisionGroup| -> Vec<[u32; 4]> {
-            let far = |pair: &&[u32; 4]| kind.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
-            all.of(kind, group).iter().filter(far).copied().collect()
+        // The soup intersects itself; keep the pairs above the minimum separation.
+        let apart = |pair_type: PairType, group: CollisionGroup| -> Vec<[u32; 4]> {
+            let far = |pair: &&[u32; 4]| pair_type.separation(&scene.bodies.positions(**pair, at)).squared > 4e-4;
+            all.of(pair_type, group).iter().filter(far).copied().collect()
         };
         let set = CandidateSet::new(
             &apart(PairType::PointTriangle, CollisionGroup::Garment),

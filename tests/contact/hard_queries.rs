@@ -1,5 +1,5 @@
-//! The queries that continuous collision detection is known to get wrong, judged by a distance found by search and by exact
-//! predicates on densely sampled positions: neither shares anything with the answer.
+//! The queries that continuous collision detection is known to get wrong, checked by a distance found by search and by exact
+//! predicates on densely sampled positions: neither uses the code under test.
 
 use bespoke::contact::PairType;
 use bespoke::contact::ccd::pair_step;
@@ -8,7 +8,7 @@ use bespoke::verify::intersections;
 use glam::{DMat3, DVec3};
 
 use crate::distance::searched;
-use crate::pairs::{KINDS, SIZE, interior};
+use crate::pairs::{PAIR_TYPES, SIZE, interior};
 use testing::Random;
 
 const MIN_SEPARATION: f64 = 1e-5;
@@ -17,15 +17,15 @@ fn moved(x: &[DVec3; 4], v: &[DVec3; 4], time: f64) -> [DVec3; 4] {
     std::array::from_fn(|i| x[i] + time * v[i])
 }
 
-fn distance(kind: PairType, x: &[DVec3; 4]) -> f64 {
-    // The search wants its own place near 0: it subtracts nothing.
+fn distance(pair_type: PairType, x: &[DVec3; 4]) -> f64 {
+    // The search does not subtract a base point, so this does.
     let base = x[1];
-    searched(kind, &x.map(|p| p - base)).sqrt()
+    searched(pair_type, &x.map(|p| p - base)).sqrt()
 }
 
 /// Whether the primitives touch, exactly; points and edges are triangles without area.
-fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
-    let first = kind.first_count() as u32;
+fn touch(pair_type: PairType, x: &[DVec3; 4]) -> bool {
+    let first = pair_type.first_count() as u32;
     let mesh = |corners| TriangleMesh { positions: x.to_vec(), triangles: vec![corners] };
     let second = if first == 1 { [1, 2, 3] } else { [2, 3, 3] };
     intersections(&mesh([0, first - 1, first - 1]), Some(&mesh(second)), 0).unwrap().count > 0
@@ -33,22 +33,29 @@ fn touch(kind: PairType, x: &[DVec3; 4]) -> bool {
 
 /// Asserts that the pair keeps its target and never touches up to the answer, which is returned. Coordinates are rounded to
 /// `ulp`.
-fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, ulp: f64, tally: &mut Tally) -> f64 {
-    let answer = pair_step(kind, x, v, min_separation, 1.0);
-    let what = || format!("{kind:?} {x:?} {v:?} min_separation {min_separation:e}, answer {answer:e}");
-    let first = distance(kind, x);
+fn check_query(
+    pair_type: PairType,
+    x: &[DVec3; 4],
+    v: &[DVec3; 4],
+    min_separation: f64,
+    ulp: f64,
+    tally: &mut Tally,
+) -> f64 {
+    let answer = pair_step(pair_type, x, v, min_separation, 1.0);
+    let label = || format!("{pair_type:?} {x:?} {v:?} min_separation {min_separation:e}, answer {answer:e}");
+    let first = distance(pair_type, x);
     let target = min_separation + 0.1 * (first - min_separation);
     let slack = 4.0 * ulp + 1e-6 * (target - min_separation);
-    assert!(answer > 0.0 && answer <= 1.0, "{}", what());
+    assert!(answer > 0.0 && answer <= 1.0, "{}", label());
     let mut last = first;
     for k in 1..=60 {
         let now = moved(x, v, answer * f64::from(k) / 60.0);
-        last = distance(kind, &now);
-        assert!(last >= target - slack, "{}: {last:e} < {target:e} at {k}", what());
-        assert!(k % 15 != 0 || ulp > 0.1 * target || !touch(kind, &now), "{}: touches at {k}", what());
+        last = distance(pair_type, &now);
+        assert!(last >= target - slack, "{}: {last:e} < {target:e} at {k}", label());
+        assert!(k % 15 != 0 || ulp > 0.1 * target || !touch(pair_type, &now), "{}: touches at {k}", label());
     }
     if answer == 1.0 {
-        tally.free += 1;
+        tally.full += 1;
     } else if last <= target + 0.025 * (first - min_separation) + slack {
         tally.stopped += 1;
     } else {
@@ -57,19 +64,19 @@ fn judge(kind: PairType, x: &[DVec3; 4], v: &[DVec3; 4], min_separation: f64, ul
     answer
 }
 
-/// How queries ended: the whole way, near the target, or before that since the advances were used up.
+/// How queries ended: at the full step, near the target, or before that since the advances were used up.
 #[derive(Debug, Default)]
 struct Tally {
-    free: usize,
+    full: usize,
     stopped: usize,
     early: usize,
 }
 
 impl Tally {
     /// At least so many ended each way, and hardly any early.
-    fn check(&self, free: usize, stopped: usize) {
+    fn check(&self, full: usize, stopped: usize) {
         println!("{self:?}");
-        assert!(self.free >= free && self.stopped >= stopped, "{self:?}");
+        assert!(self.full >= full && self.stopped >= stopped, "{self:?}");
         assert!(20 * self.early <= self.stopped, "{self:?}");
     }
 }
@@ -97,7 +104,7 @@ fn nearly_parallel_edges_slide() {
         let slide = turn * DVec3::new(4.0 * SIZE * random.signed(), 1e-3 * SIZE * random.signed(), closing);
         let twist = turn * (DVec3::Z * 0.2 * closing.abs() * random.signed());
         let v = [slide, slide + twist, DVec3::ZERO, DVec3::ZERO];
-        judge(PairType::EdgeEdge, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
+        check_query(PairType::EdgeEdge, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
     }
     tally.check(300, 100);
 }
@@ -117,8 +124,14 @@ fn edges_that_turn_through_the_parallel_position() {
         let fall = sink * DVec3::Z;
         let v = [2.0 * swing + fall, -2.0 * swing + fall, DVec3::ZERO, DVec3::ZERO];
         let turn = rotation(&mut random);
-        let answer =
-            judge(PairType::EdgeEdge, &x.map(|p| turn * p), &v.map(|p| turn * p), MIN_SEPARATION, 1e-17, &mut tally);
+        let answer = check_query(
+            PairType::EdgeEdge,
+            &x.map(|p| turn * p),
+            &v.map(|p| turn * p),
+            MIN_SEPARATION,
+            1e-17,
+            &mut tally,
+        );
         assert!(sink != 0.0 || answer == 1.0, "no motion towards each other: {answer}");
     }
     tally.check(300, 100);
@@ -146,7 +159,7 @@ fn a_point_in_the_plane_of_its_triangle() {
             continue;
         }
         let v = [4.0 * flat(&mut random), 0.1 * flat(&mut random), DVec3::ZERO, DVec3::ZERO].map(|p| turn * p);
-        let answer = judge(PairType::PointTriangle, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
+        let answer = check_query(PairType::PointTriangle, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
         // In the plane, the dense samples alone tell whether it hits.
         let met = (0..=500)
             .any(|k| distance(PairType::PointTriangle, &moved(&x, &v, f64::from(k) / 500.0)) <= MIN_SEPARATION);
@@ -177,10 +190,10 @@ fn primitives_without_extent_meet_as_what_they_are() {
             (PairType::PointTriangle, [p, a, b, a.lerp(b, random.unit())], 1),
             (PairType::PointTriangle, [p, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], 1),
         ];
-        for (kind, x, falling) in cases {
+        for (pair_type, x, falling) in cases {
             let v = std::array::from_fn(|i| if i < falling { fall } else { DVec3::ZERO });
-            let answer = judge(kind, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
-            assert!((answer - 0.45).abs() < 0.011, "{kind:?} {x:?}: {answer}");
+            let answer = check_query(pair_type, &x, &v, MIN_SEPARATION, 1e-17, &mut tally);
+            assert!((answer - 0.45).abs() < 0.011, "{pair_type:?} {x:?}: {answer}");
         }
     }
     tally.check(0, 1000);
@@ -190,27 +203,27 @@ fn primitives_without_extent_meet_as_what_they_are() {
 fn gaps_of_a_thousandth_of_a_millionth_and_less() {
     let mut random = Random::new(25);
     let mut tally = Tally::default();
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for gap in [1e-9, 1e-10, 1e-11, 1e-12] {
             for k in 0..150 {
-                // Near 0, where the coordinates have digits for such a gap, and with a min_separation as low as the gap makes it.
-                let place = interior(kind, 0.0, &mut random);
+                // Near 0, where the coordinates have digits for such a gap, and with a minimum separation below it.
+                let place = interior(pair_type, 0.0, &mut random);
                 let centre = place.iter().sum::<DVec3>() / 4.0;
                 let mut x = place.map(|p| p - centre);
-                let n = match kind {
+                let n = match pair_type {
                     PairType::PointTriangle => (x[2] - x[1]).cross(x[3] - x[1]),
                     PairType::EdgeEdge => (x[1] - x[0]).cross(x[3] - x[2]),
                 };
                 let lift = gap * n.normalize();
-                x[..kind.first_count()].iter_mut().for_each(|p| *p += lift);
+                x[..pair_type.first_count()].iter_mut().for_each(|p| *p += lift);
                 let min_separation = 0.25 * gap * f64::from(k % 2);
-                let first = distance(kind, &x);
+                let first = distance(pair_type, &x);
                 if first < 0.5 * gap {
                     continue;
                 }
                 let speed = if k % 3 == 0 { SIZE } else { 3.0 * gap };
                 let v: [DVec3; 4] = std::array::from_fn(|_| speed * random.vector());
-                judge(kind, &x, &v, min_separation, 1e-17, &mut tally);
+                check_query(pair_type, &x, &v, min_separation, 1e-17, &mut tally);
             }
         }
     }
@@ -221,17 +234,17 @@ fn gaps_of_a_thousandth_of_a_millionth_and_less() {
 fn large_coordinates_cost_digits_but_no_safety() {
     let mut random = Random::new(26);
     let mut tally = Tally::default();
-    for kind in KINDS {
+    for pair_type in PAIR_TYPES {
         for away in [1e2, 1e4, 1e6] {
             let ulp = away * f64::EPSILON;
             for k in 0..200 {
                 let shift = away * random.vector();
                 let gap = MIN_SEPARATION + (1e4 * ulp).max(10f64.powi(-3 - k % 4));
-                let place = interior(kind, gap, &mut random);
+                let place = interior(pair_type, gap, &mut random);
                 let x = place.map(|p| p + shift);
                 let ride = if k % 2 == 0 { 100.0 * random.vector() } else { DVec3::ZERO };
                 let v: [DVec3; 4] = std::array::from_fn(|_| ride + 0.2 * SIZE * random.vector());
-                judge(kind, &x, &v, MIN_SEPARATION, ulp.max(1e-14), &mut tally);
+                check_query(pair_type, &x, &v, MIN_SEPARATION, ulp.max(1e-14), &mut tally);
             }
         }
     }

@@ -1,13 +1,12 @@
 //! Contact against brute force.
 
-mod bvh;
-mod candidates;
+mod broad_phase;
 mod ccd;
 mod distance;
+mod exempt_pairs;
 mod hard_queries;
 mod mollifier;
-mod neighbours;
+mod one_ring;
 mod pairs;
 mod scene;
 mod surface;
-mod tangle;

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use testing::Random;
 
-pub const KINDS: [PairType; 2] = [PairType::PointTriangle, PairType::EdgeEdge];
+pub const PAIR_TYPES: [PairType; 2] = [PairType::PointTriangle, PairType::EdgeEdge];
 
 /// Size of a primitive in the normalised space.
 pub const SIZE: f64 = 0.03;
@@ -17,12 +17,12 @@ pub fn generic(random: &mut Random) -> [DVec3; 4] {
 }
 
 /// A pair that is `gap` apart, with the closest points inside both primitives.
-pub fn interior(kind: PairType, gap: f64, random: &mut Random) -> [DVec3; 4] {
+pub fn interior(pair_type: PairType, gap: f64, random: &mut Random) -> [DVec3; 4] {
     let place = random.vector();
     let (u, v) = (SIZE * random.vector(), SIZE * random.vector());
     let n = gap * u.cross(v).normalize();
     let (s, t) = (0.2 + 0.5 * random.unit(), 0.2 + 0.5 * random.unit());
-    match kind {
+    match pair_type {
         PairType::PointTriangle => {
             let q = place + s * u + t * (1.0 - s) * v;
             [q + n, place, place + u, place + v]

@@ -1,4 +1,4 @@
-//! Attachment of loose pieces: which pieces are loose, and what holds them.
+//! Attachment of loose pieces: which pieces are loose, and which triangles hold them.
 
 use std::f64::consts::TAU;
 
@@ -157,7 +157,7 @@ fn the_hanging_end_of_a_belt_is_free() {
 }
 
 #[test]
-fn a_piece_of_wire_is_held() {
+fn a_piece_without_area_is_held() {
     let (mut garment, first) = button();
     garment.rest.truncate(first);
     garment.triangles.retain(|t| t.iter().all(|&v| (v as usize) < first));

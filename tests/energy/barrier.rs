@@ -20,7 +20,7 @@ const SETTINGS: BarrierSettings = BarrierSettings {
     avatar_weight: 0.3,
 };
 
-/// Who owns the two primitives of a pair.
+/// Which body each of the two primitives of a pair is on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sides {
     Garment,
@@ -33,14 +33,14 @@ struct Case {
     barrier: Barrier,
     x: Vec<DVec3>,
     pair: [u32; 4],
-    kind: PairType,
-    garment_class: bool,
+    pair_type: PairType,
+    is_within_garment: bool,
 }
 
 impl Case {
     /// The pair at `positions` when t = T, with the rest shape `rest` for its vertices.
-    fn new(kind: PairType, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
-        let first = kind.first_count();
+    fn new(pair_type: PairType, sides: Sides, positions: [DVec3; 4], rest: [DVec3; 4]) -> Self {
+        let first = pair_type.first_count();
         let on_garment = |i: usize| match sides {
             Sides::Garment => true,
             Sides::GarmentThenAvatar => i < first,
@@ -63,14 +63,14 @@ impl Case {
         let mut barrier = Barrier::new(Arc::new(bodies), SETTINGS);
         let one = [pair];
         let (none, garment) = (&[][..], sides == Sides::Garment);
-        *barrier.candidates_mut() = match (kind, garment) {
+        *barrier.candidates_mut() = match (pair_type, garment) {
             (PairType::PointTriangle, true) => CandidateSet::new(&one, none, none, none),
             (PairType::EdgeEdge, true) => CandidateSet::new(none, &one, none, none),
             (PairType::PointTriangle, false) => CandidateSet::new(none, none, &one, none),
             (PairType::EdgeEdge, false) => CandidateSet::new(none, none, none, &one),
         };
         let x = own.iter().map(|&i| positions[i]).collect();
-        Self { barrier, x, pair, kind, garment_class: garment }
+        Self { barrier, x, pair, pair_type, is_within_garment: garment }
     }
 
     fn at(&self) -> Configuration<'_> {
@@ -82,32 +82,33 @@ impl Case {
     }
 
     fn dhat(&self) -> f64 {
-        if self.garment_class { SETTINGS.dhat_self } else { SETTINGS.dhat_avatar }
+        if self.is_within_garment { SETTINGS.dhat_self } else { SETTINGS.dhat_avatar }
     }
 
     fn weight(&self) -> f64 {
-        if self.garment_class { 1.0 } else { SETTINGS.avatar_weight }
+        if self.is_within_garment { 1.0 } else { SETTINGS.avatar_weight }
     }
 }
 
 /// Moves the first primitive so that the pair is at `distance`.
-fn placed(kind: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
-    let r = kind.separation(&x).vector;
-    for p in &mut x[..kind.first_count()] {
+fn placed(pair_type: PairType, mut x: [DVec3; 4], distance: f64) -> [DVec3; 4] {
+    let r = pair_type.separation(&x).vector;
+    for p in &mut x[..pair_type.first_count()] {
         *p += (distance / r.length() - 1.0) * r;
     }
     x
 }
 
-/// All kinds and sides, at a distance between min_separation and d-hat given by `fraction`; nearly parallel edges on request.
+/// All pair types and sides, at a distance between minimum separation and d-hat given by `fraction`; nearly parallel
+/// edges on request.
 fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &mut Random)) {
     let mut random = Random::new(seed);
-    for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
-        if parallel && kind == PairType::PointTriangle {
+    for pair_type in [PairType::PointTriangle, PairType::EdgeEdge] {
+        if parallel && pair_type == PairType::PointTriangle {
             continue;
         }
         for sides in [Sides::Garment, Sides::GarmentThenAvatar, Sides::AvatarThenGarment] {
-            if kind == PairType::EdgeEdge && sides == Sides::AvatarThenGarment {
+            if pair_type == PairType::EdgeEdge && sides == Sides::AvatarThenGarment {
                 continue;
             }
             for _ in 0..30 {
@@ -116,9 +117,9 @@ fn cases(seed: u64, fraction: f64, parallel: bool, mut each: impl FnMut(Case, &m
                 if parallel {
                     x[3] = x[2] + 0.8 * (x[1] - x[0]) + 0.008 * SIZE * random.vector();
                 }
-                let x = placed(kind, x, SETTINGS.min_separation + fraction * (dhat - SETTINGS.min_separation));
+                let x = placed(pair_type, x, SETTINGS.min_separation + fraction * (dhat - SETTINGS.min_separation));
                 let rest = x.map(|p| p + 0.2 * SIZE * random.vector());
-                let case = Case::new(kind, sides, x, rest);
+                let case = Case::new(pair_type, sides, x, rest);
                 each(case, &mut random);
             }
         }
@@ -148,7 +149,7 @@ fn gradient_is_exact_where_edges_are_nearly_parallel() {
 }
 
 #[test]
-fn gradient_is_exact_near_the_floor() {
+fn gradient_is_exact_near_the_minimum_separation() {
     for fraction in [1e-3, 1e-4] {
         cases(5, fraction, false, |case, _| {
             check_gradient(&case.barrier, &case.x, T, 1e-9, 1e-4);
@@ -169,7 +170,7 @@ impl Frozen<'_> {
         -self.m * (d - hat).powi(2) * ((d - f) / (hat - f)).ln()
     }
 
-    /// First and second derivative, by differences that shrink towards the min_separation.
+    /// First and second derivative, by differences that shrink towards the minimum separation.
     fn slopes(&self, d: f64) -> (f64, f64) {
         let h = 1e-3 * (d - SETTINGS.min_separation);
         let b = |k: f64| self.barrier(d + k * h);
@@ -226,15 +227,15 @@ fn hessian_is_that_of_the_frozen_pair() {
     for (seed, fraction, parallel) in [(6, 0.1, false), (7, 0.5, false), (8, 0.9, false), (9, 0.3, true)] {
         cases(seed, fraction, parallel, |case, random| {
             let x = case.positions();
-            let m = match case.kind {
+            let m = match case.pair_type {
                 PairType::PointTriangle => 1.0,
                 PairType::EdgeEdge => {
                     let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
                     mollifier::value(&x, mollifier::threshold(&rest))
                 }
             };
-            let frozen = Frozen { case: &case, separation: case.kind.separation(&x), m };
-            // The model is right by itself, and ours is the model.
+            let frozen = Frozen { case: &case, separation: case.pair_type.separation(&x), m };
+            // The model has its own exact derivatives, and those of the term are the same.
             check_hessian(&frozen, &case.x, T, 1e-6, 1e-4);
             let (ours, model) = (dense(&case.barrier, &case.x, T).hessian, dense(&frozen, &case.x, T).hessian);
             let scale = model.iter().flatten().fold(0.0_f64, |s, v| s.max(v.abs()));
@@ -266,10 +267,10 @@ fn vertices_without_weight_are_left_out() {
 }
 
 #[test]
-fn value_is_infinite_at_the_floor_and_zero_beyond_dhat() {
+fn value_is_infinite_at_the_minimum_separation_and_zero_beyond_dhat() {
     for (parallel, seed) in [(false, 10), (true, 11)] {
         cases(seed, -0.0005, parallel, |case, _| {
-            assert!(case.kind.separation(&case.positions()).squared.sqrt() < SETTINGS.min_separation);
+            assert!(case.pair_type.separation(&case.positions()).squared.sqrt() < SETTINGS.min_separation);
             assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
         });
         cases(seed, 1.01, parallel, |case, _| {
@@ -282,7 +283,7 @@ fn value_is_infinite_at_the_floor_and_zero_beyond_dhat() {
 }
 
 #[test]
-fn two_edges_exactly_parallel_at_the_floor_are_still_refused() {
+fn two_edges_exactly_parallel_at_the_minimum_separation_are_still_refused() {
     let p = |x: f64, y: f64, z: f64| SIZE * DVec3::new(x, y, z);
     let lift = DVec3::Z * 0.5 * SETTINGS.min_separation;
     let x = [p(0., 0., 0.) + lift, p(1., 0., 0.) + lift, p(-1., 0., 0.), p(2., 0., 0.)];
@@ -291,7 +292,7 @@ fn two_edges_exactly_parallel_at_the_floor_are_still_refused() {
     assert_eq!(case.barrier.value(case.at(), 0..1), f64::INFINITY);
 }
 
-/// The vertices of each piece of a Hessian.
+/// The vertices of each rank-one update of a Hessian.
 struct Cliques(Vec<Vec<u32>>);
 
 impl Sink for Cliques {
@@ -322,8 +323,8 @@ fn pattern_and_statistics_follow_what_is_active_and_ranges_add_up() {
     let mut barrier = Barrier::new(Arc::new(bodies), SETTINGS);
     *barrier.candidates_mut() = CandidateSet::new(&own, &[], &theirs, &[]);
     let at = Configuration { x: &x, t: 1.0 };
-    // Assembly finds the pairs of a contact by its derivatives; it is not told of them before.
-    barrier.stencils(&mut |_| panic!("contacts come and go"));
+    // Assembly finds the pairs of a contact by its derivatives, not from the stencils.
+    barrier.stencils(&mut |_| panic!("contacts have no stencils"));
     let pattern = |barrier: &Barrier| {
         let mut cliques = Cliques(Vec::new());
         barrier.derivatives(at, 0..barrier.len(), &mut cliques);
@@ -358,15 +359,16 @@ fn pattern_and_statistics_follow_what_is_active_and_ranges_add_up() {
     assert_eq!(pattern(&barrier).len(), barrier.activity(at).count);
 }
 
-/// The border of a rates barrier against differences of the gradient along s.
+/// The border along a barrier path against differences of the gradient along s.
 #[test]
-fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
+fn the_border_of_a_barrier_path_is_the_derivative_of_its_gradient() {
     let rates = BarrierPathRates { dhat_avatar: -1.6, weight: 3.0 };
     let mut compared = 0;
     for (seed, fraction) in [(8, 0.3), (9, 0.6), (10, 0.95)] {
         cases(seed, fraction, false, |mut case, _| {
             let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
-            if case.kind == PairType::EdgeEdge && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0
+            if case.pair_type == PairType::EdgeEdge
+                && mollifier::value(&case.positions(), mollifier::threshold(&rest)) < 1.0
             {
                 return;
             }
@@ -380,7 +382,7 @@ fn the_border_of_a_narrowing_barrier_is_the_change_of_its_gradient() {
             let step = 1e-6;
             let (after, before) = (gradient_at(step), gradient_at(-step));
             case.barrier.set_settings(SETTINGS);
-            // The part of t, which stands still on that path, is in both.
+            // The part of t, which is constant on that path, is in both.
             let of_t = dense(&case.barrier, &case.x, T).hessian;
             case.barrier.set_barrier_path(Some(rates));
             let both = dense(&case.barrier, &case.x, T).hessian;

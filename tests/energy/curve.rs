@@ -146,7 +146,7 @@ fn short_and_degenerate_curves_are_left_out() {
             assert_eq!(distinct.len(), v.len());
         });
     }
-    // One rest edge without length takes the two corners at its ends along, and the three twists around it.
+    // One rest edge without length removes the two corners at its ends, and the three torsion elements around it.
     rest[3] = rest[2];
     let loops = [boundary(6)];
     assert_eq!((Curvature::new(&rest, &loops).len(), Torsion::new(&rest, &loops).len()), (4, 3));

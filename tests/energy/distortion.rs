@@ -11,7 +11,7 @@ fn area(x: &[DVec3], [a, b, c]: [u32; 3]) -> f64 {
     0.5 * (b - a).cross(c - a).length()
 }
 
-/// The definition, word by word: every pair of triangles is looked at, tau is a matrix.
+/// The definition as written: every pair of triangles is tested, tau is a matrix.
 fn by_definition(rest: &[DVec3], x: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let frame = |p: &[DVec3], [i, j, k]: [u32; 3]| {
         let (e1, e2) = (p[j as usize] - p[i as usize], p[k as usize] - p[i as usize]);
@@ -75,7 +75,7 @@ fn a_similarity_costs_nothing_and_units_do_not_count() {
     }
 }
 
-/// What is far from the change has no part in it, but for the area of the whole.
+/// Triangles far from the change keep their value, but for the ratio of areas.
 #[test]
 fn it_is_where_the_change_is() {
     let mut random = Random::new(33);

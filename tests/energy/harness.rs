@@ -1,4 +1,4 @@
-//! Finite differences against what an energy claims.
+//! Finite differences against the derivatives of an energy.
 
 use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Small garments with their hinges, and what can be done to them.
+//! Small garments with their hinges, and deformations of them.
 
 use std::collections::BTreeMap;
 

@@ -14,11 +14,11 @@ fn value(energy: &Position, x: &[DVec3], t: f64) -> f64 {
 
 /// Two axes that turn, move and grow between t = 0 and t = 1.
 fn axes(random: &mut Random) -> Vec<MovingAxis> {
-    let mut guide = |axis: DVec3| {
+    let mut moving = |axis: DVec3| {
         let start = [random.vector(), random.vector() + 3.0 * axis];
         MovingAxis { start, end: start.map(|p| 1.4 * p + 0.5 * random.vector()) }
     };
-    vec![guide(DVec3::X), guide(DVec3::Z)]
+    vec![moving(DVec3::X), moving(DVec3::Z)]
 }
 
 fn sample(random: &mut Random) -> (Vec<DVec3>, Position, Vec<MovingAxis>) {
@@ -33,12 +33,12 @@ fn sample(random: &mut Random) -> (Vec<DVec3>, Position, Vec<MovingAxis>) {
 #[test]
 fn agrees_with_the_definition() {
     let mut random = Random::new(21);
-    let guide = axes(&mut random)[0];
+    let moving = axes(&mut random)[0];
     let (rest, x, t) = ([random.vector()], [random.vector()], 0.35);
-    let energy = Position::new(&rest, &[(0, 0)], vec![guide], &[0.7]);
+    let energy = Position::new(&rest, &[(0, 0)], vec![moving], &[0.7]);
     let coordinate = |p: DVec3, [a, b]: [DVec3; 2]| (p - a).dot(b - a) / (b - a).dot(b - a);
-    let now = [0, 1].map(|k| (1.0 - t) * guide.start[k] + t * guide.end[k]);
-    let expected = 0.7 * (coordinate(x[0], now) - coordinate(rest[0], guide.start)).powi(2);
+    let now = [0, 1].map(|k| (1.0 - t) * moving.start[k] + t * moving.end[k]);
+    let expected = 0.7 * (coordinate(x[0], now) - coordinate(rest[0], moving.start)).powi(2);
     assert!((value(&energy, &x, t) - expected).abs() <= 1e-12 * expected);
 }
 
@@ -64,7 +64,7 @@ fn the_rest_shape_costs_nothing_and_its_hessian_is_exact() {
 }
 
 #[test]
-fn carried_along_with_the_guide_costs_nothing() {
+fn moving_with_the_axis_costs_nothing() {
     let mut random = Random::new(24);
     for _ in 0..10 {
         let rest: Vec<DVec3> = (0..5).map(|_| random.vector()).collect();
@@ -72,12 +72,12 @@ fn carried_along_with_the_guide_costs_nothing() {
         let (turn, shift, scale) = (rotation(&mut random), random.vector(), 0.5 + random.unit());
         let carry = |p: DVec3| turn * (scale * p) + shift;
         let constraints: Vec<(u32, u32)> = (0..5).map(|v| (v, 0)).collect();
-        let guide = MovingAxis { start, end: start.map(carry) };
-        let energy = Position::new(&rest, &constraints, vec![guide], &[1.0; 5]);
+        let moving = MovingAxis { start, end: start.map(carry) };
+        let energy = Position::new(&rest, &constraints, vec![moving], &[1.0; 5]);
         let carried: Vec<DVec3> = rest.iter().copied().map(carry).collect();
         assert!(value(&energy, &carried, 1.0) < 1e-24);
-        // Across the guide a vertex is free, along it not.
-        let axis = (guide.end[1] - guide.end[0]).normalize();
+        // Motion across the axis costs nothing, along it it does.
+        let axis = (moving.end[1] - moving.end[0]).normalize();
         let moved = |by: DVec3| carried.iter().map(|&p| p + by).collect::<Vec<_>>();
         assert!(value(&energy, &moved(axis.any_orthonormal_vector()), 1.0) < 1e-24);
         assert!(value(&energy, &moved(axis), 1.0) > 1e-2);
@@ -85,12 +85,12 @@ fn carried_along_with_the_guide_costs_nothing() {
 }
 
 #[test]
-fn a_guide_without_length_has_no_say() {
+fn an_axis_without_length_is_ignored() {
     let point = [DVec3::ONE; 2];
     let rest = [DVec3::ZERO];
     let nothing = Position::new(&rest, &[(0, 0)], vec![MovingAxis { start: point, end: point }], &[1.0]);
     assert!(nothing.is_empty());
-    // A guide that turns inside out has no length half-way.
+    // An axis that reverses has no length half-way.
     let start = [-DVec3::X, DVec3::X];
     let turned = Position::new(&rest, &[(0, 0)], vec![MovingAxis { start, end: [DVec3::X, -DVec3::X] }], &[1.0]);
     assert_eq!(value(&turned, &[DVec3::ONE], 0.5), 0.0);

@@ -1,4 +1,4 @@
-//! Rigid groups: what costs nothing, derivatives, and the rigid motion beside a bent group.
+//! Rigid groups: what costs nothing, derivatives, and the rigid motion nearest to a bent group.
 
 use bespoke::energy::rigid::Rigid;
 use bespoke::energy::{Configuration, Energy};
@@ -82,7 +82,7 @@ fn derivatives_agree_with_finite_differences() {
 }
 
 #[test]
-fn the_motion_beside_a_bent_group_is_rigid_and_near() {
+fn the_motion_nearest_to_a_bent_group_is_rigid_and_near() {
     let mut random = Random::new(93);
     let (rest, groups) = sample(&mut random);
     let energy = Rigid::new(&rest, &groups);

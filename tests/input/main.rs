@@ -1,12 +1,9 @@
-//! What a caller hands in: checks, connectivity, skeleton, weights, buffers, spaces, guides of boundary loops.
+//! What a caller hands in: checks, skeleton, weights, buffers, coordinate systems, diagnostics.
 
 mod body;
 mod buffer;
-mod cap;
+mod coordinate_system;
 mod diagnostic;
-mod guide;
-mod mesh;
 mod skeleton;
 mod skin;
-mod space;
 mod weld;

@@ -80,7 +80,7 @@ fn derivatives_agree_with_finite_differences() {
             let slope = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
             assert!((slope - gradient[axis]).abs() < 1e-7, "{p}: {slope} {}", gradient[axis]);
         }
-        // The gradient is that of something: its derivatives are symmetric.
+        // The gradient is integrable: its derivatives are symmetric.
         let hessian = hessian(&field, p, voxel);
         for axis in 0..3 {
             let (column, row) = (hessian.col(axis), hessian.row(axis));
@@ -118,7 +118,7 @@ fn continuous_where_the_stored_region_ends() {
 
 #[test]
 fn open_surface_has_distance_and_no_inside() {
-    // A bowl. Where the sign means nothing the distance must be right.
+    // A bowl. Where the sign means nothing the distance must still be correct.
     let mesh = sphere(DVec3::ZERO, 0.5, 60, 0.0);
     let voxel = 0.01;
     let field = field(&mesh, voxel);
@@ -165,7 +165,7 @@ fn bits_do_not_depend_on_threads() {
         let field = Field::build(&mesh, options, &Cancel::new()).expect("a field");
         if parallel {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
-            // The other way round, so that the nodes are first touched in another order.
+            // In reverse order, so that the nodes are first computed in another order.
             let mut bits: Vec<u64> =
                 pool.install(|| points.par_iter().rev().map(|&p| field.value(p).to_bits()).collect());
             bits.reverse();
@@ -194,7 +194,7 @@ fn many_samples_are_those_of_one() {
         assert_eq!(both[i], field.value_gradient(p));
         assert_eq!(values[i], both[i].0);
     }
-    // As many as there is room for.
+    // As many as there are outputs.
     let mut few = [f64::NAN; 3];
     field.values(&points, &mut few[..2]);
     assert!(few[..2] == values[..2] && few[2].is_nan());
@@ -202,7 +202,7 @@ fn many_samples_are_those_of_one() {
     assert!(few[..2] == values[..2] && few[2].is_nan());
 }
 
-/// Threads that come to the same cells at the same time: every node is computed by one of them or by both, to the same bits.
+/// Threads that reach the same cells at the same time: every node is computed by one of them or by both, to the same bits.
 #[test]
 fn threads_that_meet_in_a_cell_agree() {
     let mesh = union(sphere(DVec3::ZERO, 0.5, 40, 2.0), &cuboid(DVec3::new(0.8, 0.3, 0.2)));
@@ -243,7 +243,7 @@ fn refuses_what_it_cannot_use() {
 }
 
 #[test]
-fn a_voxel_larger_than_the_mesh_is_no_trouble() {
+fn a_voxel_may_be_larger_than_the_mesh() {
     let field = field(&cuboid(DVec3::splat(0.01)), 1.0);
     assert!((field.value(DVec3::new(20.0, 0.0, 0.0)) - 20.0).abs() < 0.1);
 }

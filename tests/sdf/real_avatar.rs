@@ -71,7 +71,7 @@ fn field_outside_is_the_distance() {
         } else if value < 0.0 {
             inside += 1;
         }
-        // Never farther from the truth than the support of the spline, whatever the side.
+        // The error is never above the support of the spline, whatever the sign.
         assert!((value.abs() - exact).abs() < 2.0 * voxel, "{p}: {value} {exact}");
     }
     errors.sort_by(f64::total_cmp);

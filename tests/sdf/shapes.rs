@@ -18,7 +18,7 @@ pub fn sphere(centre: DVec3, radius: f64, rings: usize, top: f64) -> TriangleMes
             if quad.iter().any(|p| p.z > top) {
                 continue;
             }
-            // The triangles at the poles have no area: the code has to live with them.
+            // The triangles at the poles have no area, on purpose.
             for corners in [[0, 1, 2], [0, 2, 3]] {
                 let first = mesh.positions.len() as u32;
                 mesh.positions.extend(corners.map(|c| centre + radius * quad[c]));

@@ -1,4 +1,4 @@
-//! The shim: what it refuses, what it reads, and that it can be stopped.
+//! The C++ shim: refused input, blocks as read, cancellation.
 
 use bespoke::control::Cancel;
 use bespoke::error::ErrorKind;
@@ -14,7 +14,7 @@ fn points(mesh: &bespoke::geometry::mesh::TriangleMesh) -> Vec<[f32; 3]> {
 #[test]
 fn refuses_what_it_cannot_use() {
     let triangle = [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 5.0, 0.0]];
-    // What it is, points, triangles, bands.
+    // Message, points, triangles, bands.
     type Case<'a> = (&'a str, &'a [[f32; 3]], &'a [[u32; 3]], [f32; 2]);
     let cases: [Case<'_>; 6] = [
         ("no triangles", &triangle, &[], [3.0, 3.0]),
@@ -24,10 +24,10 @@ fn refuses_what_it_cannot_use() {
         ("band", &triangle, &[[0, 1, 2]], [0.5, 3.0]),
         ("band", &triangle, &[[0, 1, 2]], [3.0, f32::INFINITY]),
     ];
-    for (what, points, triangles, bands) in cases {
-        let error = Volume::build(points, triangles, bands, 1, &Cancel::new()).expect_err(what);
+    for (message, points, triangles, bands) in cases {
+        let error = Volume::build(points, triangles, bands, 1, &Cancel::new()).expect_err(message);
         assert_eq!(error.kind, ErrorKind::InvalidMesh, "{error}");
-        assert!(error.message.contains(what), "{error}");
+        assert!(error.message.contains(message), "{error}");
     }
 }
 
@@ -44,7 +44,7 @@ fn stops_when_asked() {
 }
 
 #[test]
-fn reads_distances_within_the_band_and_the_side_beyond() {
+fn reads_distances_within_the_band_and_the_sign_beyond() {
     let half = DVec3::new(20.3, 15.2, 12.7);
     let mesh = cuboid(half);
     let bands = [5.0, 3.0];
@@ -60,7 +60,7 @@ fn reads_distances_within_the_band_and_the_side_beyond() {
             // Beyond the band all that is stored is its width.
             if *value > -bands[1] && *value < bands[0] {
                 near += 1;
-                // To some triangle, not always the closest: it passes candidates on from voxel to voxel.
+                // To some triangle, not always the closest: OpenVDB passes candidates on from voxel to voxel.
                 let excess = f64::from(value.abs()) - exact.abs();
                 assert!((-1e-4..0.75).contains(&excess), "{p}: {value}, exact {exact}");
             } else {
@@ -74,6 +74,6 @@ fn reads_distances_within_the_band_and_the_side_beyond() {
     }
     assert!(near > 10_000 && far > 10_000);
     assert!(volume.memory() > 4 * near);
-    // Any node of a block names it.
+    // Any node of a block selects it.
     assert_eq!(volume.read_block([-17, 3, 9]), volume.read_block([-24, 0, 8]));
 }

@@ -1,9 +1,10 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
 mod blockage;
-mod frame;
-mod initialize;
-mod layers;
-mod pins;
-mod region;
-mod retreat;
+mod fit_region;
+mod layer_skin;
+mod loop_axis;
+mod normalization;
+mod pin_targets;
+mod projection;
+mod repair;

@@ -1,4 +1,4 @@
-//! Small cases with a known answer, and what cannot be judged.
+//! Small cases with a known answer, and meshes that are refused.
 
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
@@ -36,7 +36,7 @@ fn two_triangles() {
     assert!(with_flat([[-9.0, -9.0, 0.0], [30.0, -9.0, 0.0], [-9.0, 30.0, 0.0]]));
     assert!(with_flat([[4.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, 4.0, 0.0]]));
     assert!(!with_flat([[4.0, 4.0, 0.0], [8.0, 0.0, 0.0], [8.0, 4.0, 0.0]]));
-    // Without area: a segment through, a segment in the plane, a point in, a point beside.
+    // Without area: a segment through, a segment in the plane, a point in, a point outside.
     assert!(with_flat([[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 3.0]]));
     assert!(with_flat([[-1.0, 1.0, 0.0], [5.0, 1.0, 0.0], [2.0, 1.0, 0.0]]));
     assert!(with_flat([[1.0, 1.0, 0.0]; 3]));
@@ -46,14 +46,14 @@ fn two_triangles() {
 #[test]
 fn neighbours() {
     let p = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 4.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
-    // Over an edge: flat, folded onto each other, the same triangle twice.
+    // Across an edge: flat, folded onto each other, the same triangle twice.
     assert_eq!(within(&p, &[[0, 1, 2], [2, 1, 3]]), 0);
     assert_eq!(within(&p, &[[0, 1, 2], [2, 1, 4]]), 1);
     assert_eq!(within(&p, &[[0, 1, 2], [1, 0, 2]]), 1);
-    // Over a corner: beside each other, one inside the other.
+    // At a corner: next to each other, one inside the other.
     assert_eq!(within(&[p[0], p[1], p[3], [-4.0, 0.0, 0.0], [0.0, -4.0, 0.0]], &[[0, 1, 2], [0, 3, 4]]), 0);
     assert_eq!(within(&[p[0], p[1], p[2], p[4], [1.0, 2.0, 0.0]], &[[0, 1, 2], [0, 3, 4]]), 1);
-    // Vertex 5 is in the place of vertex 0 but another vertex: a contact.
+    // Vertex 5 is at the position of vertex 0 but another vertex: a contact.
     let seam = [p[0], p[1], p[2], [-4.0, 0.0, 0.0], [0.0, -4.0, 0.0], p[5]];
     assert_eq!(within(&seam, &[[0, 1, 2], [0, 3, 4]]), 0);
     assert_eq!(within(&seam, &[[0, 1, 2], [5, 3, 4]]), 1);
@@ -72,7 +72,7 @@ fn coordinates_that_no_sum_of_doubles_keeps() {
 }
 
 #[test]
-fn what_cannot_be_judged_is_refused() {
+fn meshes_that_cannot_be_verified_are_refused() {
     let nan = mesh(&[[0.0; 3], [f64::NAN, 0.0, 0.0], [0.0; 3]], &[[0, 1, 2]]);
     let far = mesh(&FLAT, &[[0, 1, 3]]);
     for bad in [&nan, &far] {

@@ -1,4 +1,4 @@
-//! Random triangles on a coarse grid, full of degeneracies, against the integer twin.
+//! Random triangles on a coarse grid, full of degeneracies, against the integer reference.
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::verify::intersections;
@@ -13,7 +13,7 @@ struct Soup {
 }
 
 impl Soup {
-    /// Triangles between vertices on the integer grid from 0 to `side`; some repeat an index or a place.
+    /// Triangles between vertices on the integer grid from 0 to `side`; some repeat an index or a position.
     fn random(random: &mut Random, vertices: usize, triangles: usize, side: f64) -> Self {
         let mut below = |n: f64| (random.unit() * n).floor();
         let points = (0..vertices).map(|_| std::array::from_fn(|_| below(side + 1.0) as i128)).collect();
@@ -104,7 +104,7 @@ fn within_one_mesh() {
         compare_within(&soup, 1.0, DVec3::ZERO, &mut tally);
     }
     println!("pairs by shared corners, [apart, intersecting]: {tally:?}");
-    // Every branch was met both ways (equal triangles always intersect).
+    // Every branch was taken both ways (equal triangles always intersect).
     assert!(tally[..3].iter().flatten().all(|&n| n > 200) && tally[3][1] > 200);
 }
 

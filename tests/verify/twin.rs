@@ -1,4 +1,4 @@
-//! The same question answered by brute force in integers, along another way.
+//! A reference by brute force in integers, with another algorithm.
 //!
 //! Two convex hulls meet where 0 is in the hull of the differences of their points, and by Caratheodory then in a
 //! simplex of at most four of them. No case distinction for degenerate triangles is needed.

@@ -1,4 +1,4 @@
-//! Caps: triangles of T-junctions.
+//! Sliver caps at T-junctions.
 
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ fn other_triangles_stay() {
     assert_eq!(without_caps(&needle, &[[0, 1, 2], [1, 0, 3]]), None);
     assert_eq!(without_caps(&square, &[[0, 1, 1], [0, 1, 2]]), None);
     assert_eq!(without_caps(&[DVec3::ONE; 4], &[[0, 1, 2], [1, 0, 3]]), None);
-    // A cap at the border has nothing beyond it, and a copy of itself or a wire is nothing.
+    // Nothing lies beyond a cap at the border; a copy of it or a triangle that repeats a corner does not count.
     let cap = [p(0.0, 0.0), p(1.0, 0.0), p(0.4, 0.0), p(0.5, 1.0)];
     for beside in [[0, 2, 3], [1, 0, 2], [0, 1, 1]] {
         assert_eq!(without_caps(&cap, &[[0, 1, 2], beside]).unwrap(), [[0, 1, 2], beside]);
@@ -68,7 +68,7 @@ fn other_triangles_stay() {
 }
 
 #[test]
-fn every_triangle_beyond_a_crowded_edge_is_split() {
+fn every_triangle_beyond_a_non_manifold_edge_is_split() {
     let wing = |angle: f64| DVec3::new(0.5, angle.cos(), angle.sin());
     let positions = [p(0.0, 0.0), p(1.0, 0.0), p(0.4, 0.0), wing(0.5), wing(2.5), wing(4.5)];
     let result = without_caps(&positions, &[[0, 1, 3], [0, 1, 4], [0, 2, 1], [5, 0, 1]]).unwrap();
@@ -76,9 +76,10 @@ fn every_triangle_beyond_a_crowded_edge_is_split() {
     assert_eq!(sorted(result), sorted(wanted));
 }
 
-/// A quarter of a polygon's border runs along one edge of a large triangle, over `count` points: the worst T-junction.
+/// A quarter of a polygon's border runs along one edge of a large triangle, over `count` points: the worst kind of
+/// T-junction.
 #[test]
-fn a_comb_of_points_on_one_edge_is_taken_in() {
+fn many_points_on_one_edge_are_connected() {
     let mut random = Random::new(4);
     for round in 0..60 {
         // Points 0..=n on the line in order, then a corner on each side.
@@ -147,10 +148,10 @@ fn sheets_with_t_junctions_become_conforming() {
 }
 
 #[test]
-fn any_soup_comes_to_an_end() {
+fn any_soup_terminates() {
     let mut random = Random::new(6);
     for round in 0..300 {
-        // Many points on few lines, so that caps lie on caps on caps.
+        // Many points on few lines, so that caps have caps as neighbours.
         let positions: Vec<DVec3> = (0..12)
             .map(|k| p((8.0 * random.unit()).floor(), if round % 3 == 0 { 0.0 } else { f64::from(k % 3) }))
             .collect();

@@ -1,4 +1,4 @@
-//! The search tree against brute force and against known answers.
+//! Closest points against brute force and known answers.
 
 use bespoke::geometry::closest_point::{ClosestPoint, barycentric, closest_on_triangle};
 use bespoke::geometry::mesh::TriangleMesh;
@@ -67,14 +67,14 @@ fn tree_agrees_with_brute_force() {
 }
 
 #[test]
-fn equal_triangles_are_no_trouble() {
+fn equal_triangles_are_found() {
     let corner = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let mesh = TriangleMesh { positions: corner.to_vec(), triangles: vec![[0, 1, 2]; 1000] };
     assert_eq!(ClosestPoint::new(&mesh).distance(DVec3::new(0.2, 0.2, 3.0)), 3.0);
 }
 
 #[test]
-fn no_triangle_is_infinitely_far() {
+fn without_triangles_the_distance_is_infinite() {
     let tree = ClosestPoint::new(&TriangleMesh::default());
     assert_eq!(tree.distance(DVec3::ZERO), f64::INFINITY);
     assert!(tree.closest(DVec3::ZERO).is_none());

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::scene::{Scene, grid};
 
-/// Everything against everything: the pairs whose swept boxes come within the margins along every axis.
+/// Brute force: the pairs whose swept boxes come within the margins along every axis.
 fn boxes(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2]) -> [BTreeSet<[u32; 4]>; 4] {
     let n = bodies.garment_count() as u32;
     let around = |vertices: &[u32]| {
@@ -53,52 +53,52 @@ fn boxes(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2]) -> [BTr
     out
 }
 
-/// The pairs of a run with garment edges in ascending order; fails on a pair that occurs twice. A face that is
+/// The pairs of a range with garment edges in ascending order; fails on a pair that occurs twice. A face that is
 /// listed twice in the surface is two faces.
-fn sorted(set: &CandidateSet, kind: PairType, group: CollisionGroup, faces_differ: bool) -> BTreeSet<[u32; 4]> {
-    let pairs = set.of(kind, group).iter().map(|&[a, b, c, d]| {
-        if kind == PairType::EdgeEdge && group == CollisionGroup::Garment && [a, b] > [c, d] {
+fn sorted(set: &CandidateSet, pair_type: PairType, group: CollisionGroup, faces_differ: bool) -> BTreeSet<[u32; 4]> {
+    let pairs = set.of(pair_type, group).iter().map(|&[a, b, c, d]| {
+        if pair_type == PairType::EdgeEdge && group == CollisionGroup::Garment && [a, b] > [c, d] {
             [c, d, a, b]
         } else {
             [a, b, c, d]
         }
     });
     let unique: BTreeSet<_> = pairs.collect();
-    if faces_differ || kind == PairType::EdgeEdge {
-        assert_eq!(unique.len(), set.of(kind, group).len(), "a pair occurs twice");
+    if faces_differ || pair_type == PairType::EdgeEdge {
+        assert_eq!(unique.len(), set.of(pair_type, group).len(), "a pair occurs twice");
     }
     unique
 }
 
-/// Whether a pair is found nearer than `margin` at one of many times.
-fn comes_near(kind: PairType, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
+/// Whether a pair is nearer than `margin` at one of many sampled times.
+fn comes_near(pair_type: PairType, motion: &Motion, part: f64, margin: f64, pair: [u32; 4]) -> bool {
     let distance = |k: usize| {
         let place = pair.map(|v| motion.position(v, part * k as f64 / 40.0));
-        kind.separation(&place).squared.sqrt()
+        pair_type.separation(&place).squared.sqrt()
     };
     (0..=40).any(|k| distance(k) < margin)
 }
 
-/// Every pair in reach of the boxes that comes near is there, and none that is not in their reach. How many of the boxes'
-/// pairs are left out.
+/// Every pair whose boxes overlap and that comes near is found, and none that is not. Returns how many of the boxes' pairs
+/// are left out.
 fn check(bodies: &Bodies, motion: &Motion, part: f64, margins: [f64; 2], out: &CandidateSet) -> usize {
     let inside = boxes(bodies, motion, part, margins);
     let outside = boxes(bodies, motion, part, margins.map(|m| m + 1e-5));
     let unique_faces = |s: &Surface| s.triangles.iter().collect::<BTreeSet<_>>().len() == s.triangles.len();
     let differ = unique_faces(&bodies.garment.surface) && unique_faces(&bodies.avatar.surface);
     let mut left_out = 0;
-    for (k, (kind, group)) in RUNS.into_iter().enumerate() {
-        let found = sorted(out, kind, group, differ);
-        assert!(found.is_subset(&outside[k]), "{kind:?} {group:?}");
+    for (k, (pair_type, group)) in RANGES.into_iter().enumerate() {
+        let found = sorted(out, pair_type, group, differ);
+        assert!(found.is_subset(&outside[k]), "{pair_type:?} {group:?}");
         for &pair in inside[k].difference(&found) {
-            assert!(!comes_near(kind, motion, part, margins[k / 2], pair), "{kind:?} {group:?} {pair:?}");
+            assert!(!comes_near(pair_type, motion, part, margins[k / 2], pair), "{pair_type:?} {group:?} {pair:?}");
             left_out += 1;
         }
     }
     left_out
 }
 
-const RUNS: [(PairType, CollisionGroup); 4] = [
+const RANGES: [(PairType, CollisionGroup); 4] = [
     (PairType::PointTriangle, CollisionGroup::Garment),
     (PairType::EdgeEdge, CollisionGroup::Garment),
     (PairType::PointTriangle, CollisionGroup::Avatar),
@@ -131,7 +131,7 @@ fn broad_phase_misses_nothing_that_brute_force_finds() {
 /// What comes near during a part of the motion stays in the set that was found for the whole, in the same order, and
 /// not much else does.
 #[test]
-fn narrowing_keeps_all_that_comes_near() {
+fn filtering_keeps_all_that_comes_near() {
     let margin = |group: CollisionGroup| if group == CollisionGroup::Garment { 0.01 } else { 0.02 };
     let (mut near, mut kept) = (0, 0);
     for seed in 0..6 {
@@ -143,12 +143,12 @@ fn narrowing_keeps_all_that_comes_near() {
         for part in [0.0, 0.1, 1.0] {
             let mut some = all.clone();
             some.retain_near(&motion, part, margin);
-            for (kind, group) in RUNS {
-                let mut left = some.of(kind, group).iter().copied().peekable();
-                for &pair in all.of(kind, group) {
-                    let is_near = comes_near(kind, &motion, part, margin(group), pair);
+            for (pair_type, group) in RANGES {
+                let mut left = some.of(pair_type, group).iter().copied().peekable();
+                for &pair in all.of(pair_type, group) {
+                    let is_near = comes_near(pair_type, &motion, part, margin(group), pair);
                     let is_kept = left.next_if_eq(&pair).is_some();
-                    assert!(is_kept || !is_near, "{kind:?} {pair:?}");
+                    assert!(is_kept || !is_near, "{pair_type:?} {pair:?}");
                     near += usize::from(is_near);
                     kept += usize::from(is_kept);
                 }
@@ -204,9 +204,9 @@ fn empty_surfaces_and_no_motion() {
     assert!(out.is_empty());
 }
 
-/// All pairs of a grid are near: many more than there is room for.
+/// All pairs of a grid are near: many more than the budget.
 #[test]
-fn a_search_ends_where_there_is_no_more_room() {
+fn a_search_ends_at_the_pair_budget() {
     let (rest, triangles) = grid(24);
     let empty = Avatar { surface: Surface::new(0, vec![]), start: vec![], motion: vec![] };
     let bodies =
@@ -227,7 +227,7 @@ fn a_search_ends_where_there_is_no_more_room() {
 }
 
 #[test]
-fn runs_cover_ranges() {
+fn ranges_cover_any_part_of_a_set() {
     let set = CandidateSet::new(&[[0; 4]; 3], &[], &[[1; 4]; 2], &[[2; 4]; 4]);
     assert_eq!(set.len(), 9);
     for start in 0..=9 {

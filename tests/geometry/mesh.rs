@@ -28,7 +28,7 @@ fn grid(width: u32, height: u32, holes: &[(u32, u32)]) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn unusable_meshes_are_named() {
+fn unusable_meshes_are_refused_by_name() {
     let mut mesh = TriangleMesh::default();
     assert_eq!(message(&mesh), "garment: the mesh has no vertices");
     mesh.positions = vec![DVec3::ZERO; 4];
@@ -54,7 +54,7 @@ fn hinge_over_one_edge() {
     // Rotated corners, and a neighbour wound the other way: the same hinge.
     assert_eq!(made(&[[2, 0, 1], [3, 1, 0]]), [hinge([0, 1, 2, 3], [0, 1])]);
     assert_eq!(made(&[[0, 1, 2], [0, 1, 3]]), [hinge([0, 1, 2, 3], [0, 1])]);
-    // A triangle given twice has no fourth corner, one that repeats an index no part in anything.
+    // A triangle given twice has no fourth corner; one that repeats an index is left out.
     assert_eq!(made(&[[0, 1, 2], [1, 2, 0]]), []);
     assert_eq!(made(&[[0, 1, 2], [0, 0, 1]]), []);
     let degenerate = Topology::new(4, &[[0, 0, 1], [2, 2, 2]]);

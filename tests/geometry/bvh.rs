@@ -25,11 +25,11 @@ fn brute(a: &[Aabb], b: Option<&[Aabb]>) -> Vec<[u32; 2]> {
     out
 }
 
-/// The overlapping pairs by traversal, over `wanted` pieces, sorted.
+/// The overlapping pairs by traversal, over `wanted` tasks, sorted.
 fn found(trees: (&Bvh, Option<&Bvh>), b: Option<&[Aabb]>, wanted: usize) -> Vec<[u32; 2]> {
     let (tree, other) = trees;
     let mut work: Vec<_> = tree.roots(other.unwrap_or(tree)).into_iter().collect();
-    tree.spread(other, wanted, &mut work);
+    tree.subdivide(other, wanted, &mut work);
     let (mut out, mut stack) = (Vec::new(), Vec::new());
     for start in work {
         tree.traverse(other, start, &mut stack, |i, j| {
@@ -41,7 +41,7 @@ fn found(trees: (&Bvh, Option<&Bvh>), b: Option<&[Aabb]>, wanted: usize) -> Vec<
 }
 
 #[test]
-fn traversal_meets_every_overlap_once() {
+fn traversal_finds_every_overlap_once() {
     let mut random = Random::new(1);
     for count in [0, 1, 3, 4, 5, 9, 40, 333] {
         for (size, margin) in [(0.0, 0.02_f64), (0.05, 0.0), (0.05, -0.01), (0.3, 0.0)] {
@@ -55,7 +55,7 @@ fn traversal_meets_every_overlap_once() {
                     let both = found((&tree_a, Some(&tree_b)), Some(&b), wanted);
                     assert_eq!(both, brute(&a, Some(&b)), "{count} {size} {round}");
                 }
-                // The trees stay, everything moves.
+                // The trees stay, the boxes move.
                 a = boxes(a.len(), size, margin.max(0.0), &mut random);
                 b = boxes(b.len(), size, margin, &mut random);
                 tree_a.refit(|i| a[i as usize]);

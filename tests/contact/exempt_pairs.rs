@@ -1,4 +1,4 @@
-//! What may be let off the barrier, against its definition; and that nothing outside a tangle ever gets into one.
+//! Exempt pairs against their definition; and that no new pair of triangles ever intersects.
 
 use bespoke::contact::ccd::max_step;
 use bespoke::contact::exempt_pairs::triangle_pairs_of;
@@ -13,13 +13,13 @@ use glam::DVec3;
 use crate::scene::{Scene, grid, soup};
 use testing::Random;
 
-/// All the pairs of triangles that hold a pair of primitives, by looking at every triangle.
-fn holders(surface: &Surface, kind: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
+/// All the pairs of triangles that hold a pair of primitives, by testing every triangle.
+fn holders(surface: &Surface, pair_type: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u32; 2]> {
     let with = |vertices: &[u32]| -> Vec<u32> {
         let count = surface.triangles.len() as u32;
         (0..count).filter(|&t| vertices.iter().all(|v| surface.triangles[t as usize].contains(v))).collect()
     };
-    let (first, second) = match kind {
+    let (first, second) = match pair_type {
         PairType::PointTriangle => (with(&[a]), with(&[b, c, d])),
         PairType::EdgeEdge => (with(&[a, b]), with(&[c, d])),
     };
@@ -31,7 +31,7 @@ fn holders(surface: &Surface, kind: PairType, [a, b, c, d]: [u32; 4]) -> Vec<[u3
 }
 
 #[test]
-fn a_pair_has_the_class_that_its_triangles_give_it() {
+fn a_pair_has_the_group_that_its_triangles_give_it() {
     let mut counts = [0; 3];
     for seed in 1..20 {
         let mut random = Random::new(seed);
@@ -48,74 +48,75 @@ fn a_pair_has_the_class_that_its_triangles_give_it() {
                 }
             }
         }
-        let tangle = ExemptPairs::new(&surface, &pairs);
-        let tangled = |[s, t]: &[u32; 2]| pairs.contains(&[*s, *t]) || pairs.contains(&[*t, *s]);
+        let exempt = ExemptPairs::new(&surface, &pairs);
+        let intersects = |[s, t]: &[u32; 2]| pairs.contains(&[*s, *t]) || pairs.contains(&[*t, *s]);
 
         let apart = |p: &[u32], q: &[u32]| p.iter().all(|v| !q.contains(v));
-        let mut judge = |kind: PairType, pair: [u32; 4]| {
-            let held = triangle_pairs_of(&surface, &[(kind, pair)]);
-            assert_eq!(held, holders(&surface, kind, pair), "{kind:?} {pair:?}");
-            let (expected, count) = match held.iter().filter(|pair| tangled(pair)).count() {
+        let mut check = |pair_type: PairType, pair: [u32; 4]| {
+            let held = triangle_pairs_of(&surface, &[(pair_type, pair)]);
+            assert_eq!(held, holders(&surface, pair_type, pair), "{pair_type:?} {pair:?}");
+            let (expected, count) = match held.iter().filter(|pair| intersects(pair)).count() {
                 0 => (Some(CollisionGroup::Garment), 0),
                 n if n < held.len() => (Some(CollisionGroup::Intersecting), 1),
                 _ => (None, 2),
             };
-            assert_eq!(tangle.group(kind, pair), expected, "seed {seed}, {kind:?} {pair:?}");
+            assert_eq!(exempt.group(pair_type, pair), expected, "seed {seed}, {pair_type:?} {pair:?}");
             counts[count] += 1;
         };
         for (t, &[a, b, c]) in surface.triangles.iter().enumerate() {
             if surface.ownership(t as u32).face() {
                 let used = |v: &u32| surface.triangles.iter().any(|t| t.contains(v));
                 (0..40).filter(used).filter(|v| apart(&[*v], &[a, b, c])).for_each(|v| {
-                    judge(PairType::PointTriangle, [v, c, a, b]);
+                    check(PairType::PointTriangle, [v, c, a, b]);
                 });
             }
         }
         for (k, &[a, b]) in surface.edges.iter().enumerate() {
             for &[c, d] in &surface.edges[k + 1..] {
                 if apart(&[a, b], &[c, d]) {
-                    judge(PairType::EdgeEdge, [d, c, a, b]);
+                    check(PairType::EdgeEdge, [d, c, a, b]);
                 }
             }
         }
     }
-    // All answers are there in numbers.
+    // Each of the answers occurs often.
     assert!(counts[0] > 10_000 && counts[1] > 1000 && counts[2] > 200, "{counts:?}");
 }
 
 #[test]
-fn an_empty_tangle_frees_nothing() {
+fn no_intersection_exempts_nothing() {
     let surface = soup(20, 20, &mut Random::new(5));
-    let tangle = ExemptPairs::new(&surface, &[]);
-    assert!(tangle.is_empty() && !tangle.contains(0, 1));
-    assert_eq!(tangle.group(PairType::EdgeEdge, [0, 1, 2, 3]), Some(CollisionGroup::Garment));
+    let exempt = ExemptPairs::new(&surface, &[]);
+    assert!(exempt.is_empty() && !exempt.contains(0, 1));
+    assert_eq!(exempt.group(PairType::EdgeEdge, [0, 1, 2, 3]), Some(CollisionGroup::Garment));
 }
 
 #[test]
-fn free_pairs_are_left_out_and_no_others() {
+fn exempt_pairs_are_left_out_and_no_others() {
     for seed in 30..34 {
         let scene = Scene::random(seed, 0.1);
         let at = Configuration { x: &scene.x, t: 0.3 };
         let mesh =
             TriangleMesh { positions: scene.x.clone(), triangles: scene.bodies.garment.surface.triangles.clone() };
-        let tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
-        let tangle = ExemptPairs::new(&scene.bodies.garment.surface, &tangled);
-        let (mut all, mut guarded) = (CandidateSet::default(), CandidateSet::default());
+        let intersecting_pairs = intersections(&mesh, None, usize::MAX).unwrap().pairs;
+        let exempt = ExemptPairs::new(&scene.bodies.garment.surface, &intersecting_pairs);
+        let (mut all, mut constrained) = (CandidateSet::default(), CandidateSet::default());
         let mut broad_phase = BroadPhase::new(&scene.bodies);
         let motion = Motion::new(&scene.bodies, at, None);
         broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut all);
-        broad_phase.set_exempt_pairs(tangle.clone());
-        broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut guarded);
+        broad_phase.set_exempt_pairs(exempt.clone());
+        broad_phase.candidates(&scene.bodies, &motion, 1.0, 0.05, 0.05, &mut constrained);
         let (mut found, mut kept) = (0, 0);
-        for kind in [PairType::PointTriangle, PairType::EdgeEdge] {
+        for pair_type in [PairType::PointTriangle, PairType::EdgeEdge] {
             for group in [CollisionGroup::Garment, CollisionGroup::Intersecting] {
-                let of_class = |pair: &&[u32; 4]| tangle.group(kind, **pair) == Some(group);
-                let expected: Vec<_> = all.of(kind, CollisionGroup::Garment).iter().filter(of_class).copied().collect();
-                assert_eq!(guarded.of(kind, group), expected);
+                let of_group = |pair: &&[u32; 4]| exempt.group(pair_type, **pair) == Some(group);
+                let expected: Vec<_> =
+                    all.of(pair_type, CollisionGroup::Garment).iter().filter(of_group).copied().collect();
+                assert_eq!(constrained.of(pair_type, group), expected);
                 kept += expected.len();
             }
-            found += all.of(kind, CollisionGroup::Garment).len();
-            assert_eq!(guarded.of(kind, CollisionGroup::Avatar), all.of(kind, CollisionGroup::Avatar));
+            found += all.of(pair_type, CollisionGroup::Garment).len();
+            assert_eq!(constrained.of(pair_type, CollisionGroup::Avatar), all.of(pair_type, CollisionGroup::Avatar));
         }
         assert!(kept < found, "seed {seed}");
     }
@@ -133,11 +134,11 @@ fn sheets(random: &mut Random) -> (Vec<DVec3>, Surface) {
     (all, Surface::new(3 * count as usize, list))
 }
 
-/// Random motions, each as far as the guarded pairs admit: the exact verifier never finds a pair of triangles that was not
-/// tangled before, and some come apart.
+/// Random motions, each as far as the constrained pairs admit: the exact verifier never finds a pair of triangles that
+/// did not intersect before, and some separate.
 #[test]
-fn a_tangle_only_shrinks() {
-    let mut came_apart = 0;
+fn initial_intersections_only_get_fewer() {
+    let mut separated = 0;
     for seed in 1..7 {
         let mut random = Random::new(100 + seed);
         let (mut x, surface) = sheets(&mut random);
@@ -147,12 +148,12 @@ fn a_tangle_only_shrinks() {
             avatar: Avatar { surface: Surface::new(0, vec![]), start: vec![], motion: vec![] },
         };
         let mut mesh = TriangleMesh { positions: x.clone(), triangles };
-        let mut tangled = intersections(&mesh, None, usize::MAX).unwrap().pairs;
-        assert!(tangled.len() > 5);
+        let mut intersecting_pairs = intersections(&mesh, None, usize::MAX).unwrap().pairs;
+        assert!(intersecting_pairs.len() > 5);
         let mut broad_phase = BroadPhase::new(&bodies);
         let mut near = CandidateSet::default();
         for round in 0..60 {
-            broad_phase.set_exempt_pairs(ExemptPairs::new(&bodies.garment.surface, &tangled));
+            broad_phase.set_exempt_pairs(ExemptPairs::new(&bodies.garment.surface, &intersecting_pairs));
             // Half of the motions pull the second sheet out of the first.
             let dx: Vec<DVec3> = (0..x.len())
                 .map(|v| {
@@ -167,12 +168,12 @@ fn a_tangle_only_shrinks() {
             x.iter_mut().zip(&dx).for_each(|(x, d)| *x += fraction * *d);
             mesh.positions.clone_from(&x);
             let now = intersections(&mesh, None, usize::MAX).unwrap().pairs;
-            let new: Vec<_> = now.iter().filter(|p| !tangled.contains(p)).collect();
+            let new: Vec<_> = now.iter().filter(|p| !intersecting_pairs.contains(p)).collect();
             assert!(new.is_empty(), "seed {seed}, round {round}: {new:?}");
-            assert_eq!(now, intersecting(&mesh, &tangled).unwrap());
-            came_apart += tangled.len() - now.len();
-            tangled = now;
+            assert_eq!(now, intersecting(&mesh, &intersecting_pairs).unwrap());
+            separated += intersecting_pairs.len() - now.len();
+            intersecting_pairs = now;
         }
     }
-    assert!(came_apart >= 10, "{came_apart}");
+    assert!(separated >= 10, "{separated}");
 }

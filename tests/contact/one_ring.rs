@@ -11,7 +11,7 @@ fn ordered([a, b, c, d]: [u32; 4]) -> [u32; 4] {
     if [a, b] < [c, d] { [a, b, c, d] } else { [c, d, a, b] }
 }
 
-/// What the triangles that own two primitives and are listed as neighbours make of them, all against all.
+/// By brute force, the pairs of primitives owned by triangles that are listed as neighbours.
 fn brute(surface: &Surface, list: &OneRingPairs) -> (Vec<[u32; 4]>, Vec<[u32; 4]>) {
     let (mut point_triangle, mut edge_edge) = (Vec::new(), Vec::new());
     for s in 0..surface.triangles.len() {
@@ -68,9 +68,9 @@ fn every_pair_of_neighbours_is_listed_once() {
     assert_eq!(check(&Surface::new(0, vec![])), 0);
 }
 
-/// Around a vertex with thousands of triangles, all are neighbours: they are left to the search.
+/// At a vertex of thousands of triangles all are neighbours: such pairs are left to the tree.
 #[test]
-fn a_crowded_vertex_does_not_fill_the_list() {
+fn a_vertex_of_large_valence_does_not_fill_the_list() {
     let (positions, triangles) = sphere(40);
     check(&Surface::new(positions.len(), triangles));
     let fan: Vec<[u32; 3]> = (1..5000).map(|k| [0, k, k + 1]).collect();

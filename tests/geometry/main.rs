@@ -1,0 +1,6 @@
+//! Meshes, search trees and closest points against brute force and known answers.
+
+mod bvh;
+mod closest_point;
+mod mesh;
+mod sliver_caps;
