@@ -5,7 +5,8 @@
 # make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
 # make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
 #             removes them again. docs/packaging.md says what goes where
-# make test   every test
+# make test   every test, and make lint
+# make lint   format, clippy and rustdoc: a warning is an error
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make dist   the folder to ship and its archive (build/dist; docs/dist.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
@@ -131,13 +132,23 @@ painter: dependencies
 $(WEB)/node_modules/.package-lock.json: $(WEB)/package.json $(WEB)/package-lock.json
 	cd $(WEB) && npm ci --ignore-scripts --no-audit --no-fund
 
+# With the settings of the tests' build, so that they share what build scripts make. Links and words of the texts are
+# tests of their own (tools/testing/tests/links).
+.PHONY: lint
+lint: dependencies
+	@cargo fmt --version >/dev/null 2>&1 || echo "skipped: the format, for there is no rustfmt (rustup component add rustfmt)"
+	! cargo fmt --version >/dev/null 2>&1 || cargo fmt --all --check
+	@cargo clippy --version >/dev/null 2>&1 || echo "skipped: clippy, which is not there (rustup component add clippy)"
+	! cargo clippy --version >/dev/null 2>&1 || cargo clippy --release --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS='-D warnings' cargo doc --release --workspace --lib --no-deps
+
 # The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
 # so that nothing is built twice. What is shipped is made meanwhile: each of the two has long parts for one core.
 .PHONY: test
 test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
 	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
-	$(MAKE) build/retarget && cargo test --release --workspace --no-run; built=$$?; \
+	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	wait $$shipped && exit $$built
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace

@@ -303,7 +303,7 @@ pub enum Diagnostic {
 const MOST: usize = 1000;
 
 impl Diagnostic {
-    /// Adds a diagnostic for each of the first [`MOST`] items, all of one variant, and one more that counts the others.
+    /// Adds a diagnostic for each of the first thousand items, all of one variant, and one more that counts the others.
     pub fn list<T>(diagnostics: &mut Vec<Self>, items: &[T], diagnostic: impl Fn(&T) -> Self) {
         let first = diagnostics.len();
         diagnostics.extend(items.iter().take(MOST).map(diagnostic));

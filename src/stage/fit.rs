@@ -85,7 +85,7 @@ impl FitStage {
     }
 
     /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
-    /// model still promises, is below the tolerance times the objective (or [`NO_OBJECTIVE`]); or no step decreases it any more.
+    /// model still promises, is below the tolerance times the objective, or rounding; or no step decreases it any more.
     ///
     /// # Errors
     /// `Internal`, `MemoryLimit` and `Cancelled` from the solver.

@@ -42,6 +42,12 @@ pub struct Caller {
     pub session: *mut BespokeSession,
 }
 
+impl Default for Caller {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Caller {
     /// A session without inputs.
     pub fn new() -> Self {
@@ -150,6 +156,12 @@ pub struct Sample {
     pub target_joints: [[f32; 3]; 3],
     /// Of both skeletons.
     pub bones: [[u32; 2]; 2],
+}
+
+impl Default for Sample {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Sample {
