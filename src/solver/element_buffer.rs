@@ -1,8 +1,8 @@
 //! Derivatives of elements, written down as they come and then summed vertex by vertex.
 //!
-//! Whoever owns a vertex owns its columns of the Hessian and its entries of the gradient, so owners need no locks and no
-//! arrays of their own; and as each sums its elements in the order in which they stand, the sums have the same
-//! bits whoever the owners are.
+//! Whoever owns a vertex owns its columns of the Hessian and its entries of the gradient, so owners need no locks and
+//! no arrays of their own; and as each sums its elements in the order in which they stand, the sums have the same bits
+//! whoever the owners are.
 
 use std::cmp::Ordering;
 
@@ -210,7 +210,8 @@ pub(super) struct ColumnBlock<'a> {
 pub(super) struct Scratch {
     /// For each vertex of the pattern, its place among the rows of the column that it was last in.
     mark: Vec<u32>,
-    /// A block column by columns of blocks, each with a fourth entry that does not count: first the diagonal block, then those below.
+    /// A block column by columns of blocks, each with a fourth entry that does not count: first the diagonal block,
+    /// then those below.
     blocks: Vec<[[f64; 4]; 3]>,
 }
 
