@@ -1,10 +1,10 @@
 //! Dense kernels on one front: blocked Cholesky factorisation of its panel, and the product that is subtracted from its
 //! contribution block (a symmetric rank-k update, SYRK).
 //!
-//! A panel holds the columns of a supernode, column-major: first the rows of the supernode itself, then those below, then
-//! zeros up to its leading dimension `ld`, a multiple of 8. Every entry is its first value minus the products of its row
-//! and its column, in the order of the columns, whatever the tiles are. So neither the number of threads nor the width of
-//! the SIMD vectors changes a bit.
+//! A panel holds the columns of a supernode, column-major: first the rows of the supernode itself, then those below,
+//! then zeros up to its leading dimension `ld`, a multiple of 8. Every entry is its first value minus the products of
+//! its row and its column, in the order of the columns, whatever the tiles are. So neither the number of threads nor
+//! the width of the SIMD vectors changes a bit.
 
 use std::ops::Range;
 
@@ -23,8 +23,8 @@ pub(super) const fn padded(n: usize) -> usize {
     n.next_multiple_of(TILE)
 }
 
-/// Scalars of a contribution block with `rows` rows. Only its lower triangle is stored, in strips of eight columns, each
-/// from the row of its first diagonal entry down.
+/// Scalars of a contribution block with `rows` rows. Only its lower triangle is stored, in strips of eight columns,
+/// each from the row of its first diagonal entry down.
 pub(super) const fn contribution_len(rows: usize) -> usize {
     contribution_start(rows, padded(rows) / TILE)
 }
@@ -228,8 +228,9 @@ impl Panel {
         Self { start: memory.as_mut_ptr(), ld }
     }
 
-    /// Factorises the diagonal block: columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a multiple
-    /// of 8, and the columns before it are finished in these rows. False where a pivot is not positive and finite.
+    /// Factorises the diagonal block: columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a
+    /// multiple of 8, and the columns before it are finished in these rows. False where a pivot is not positive and
+    /// finite.
     ///
     /// # Safety
     /// The panel has these columns and rows, and no other thread uses these rows meanwhile.
@@ -239,8 +240,8 @@ impl Panel {
         unsafe { for_this_processor!(factorise_diagonal(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool) }
     }
 
-    /// Solves for columns `begin..end`, at most [`BLOCK_WIDTH`], in `rows`, whole tiles of rows below `padded(end)`, after
-    /// [`Self::factorise_diagonal`] and where the columns before are finished.
+    /// Solves for columns `begin..end`, at most [`BLOCK_WIDTH`], in `rows`, whole tiles of rows below `padded(end)`,
+    /// after [`Self::factorise_diagonal`] and where the columns before are finished.
     ///
     /// # Safety
     /// The panel has these columns and rows, no other thread uses these rows meanwhile, and none writes those from
@@ -283,7 +284,8 @@ unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize,
     true
 }
 
-/// Scalar Cholesky factorisation of a diagonal tile of `width` columns; the rows below them, up to eight, are solved for.
+/// Scalar Cholesky factorisation of a diagonal tile of `width` columns; the rows below them, up to eight, are solved
+/// for.
 #[inline(always)]
 unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) -> bool {
     let mut tile = [[0.0; TILE]; TILE];

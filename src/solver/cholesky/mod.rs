@@ -1,9 +1,10 @@
 //! Sparse Cholesky factorisation of the Hessian by the multifrontal method on all processors, and triangular solves.
 //!
 //! The symbolic factorisation is done once for a pattern, on the graph of the vertices, each of which stands for three
-//! unknowns: a fill-reducing ordering, the elimination tree, its supernodes, the tasks for the threads, and the layout of
-//! factor and work space. The numeric factorisation passes the values through dense frontal matrices, from the leaves of
-//! the tree to its root, independent subtrees in parallel. The result has the same bits with any number of threads.
+//! unknowns: a fill-reducing ordering, the elimination tree, its supernodes, the tasks for the threads, and the layout
+//! of factor and work space. The numeric factorisation passes the values through dense frontal matrices, from the
+//! leaves of the tree to its root, independent subtrees in parallel. The result has the same bits with any number of
+//! threads.
 //!
 //! | step | file | literature |
 //! | --- | --- | --- |
@@ -69,12 +70,12 @@ impl Factor {
         Self { cancel, ..Self::default() }
     }
 
-    /// Symbolic factorisation of `pattern`: orders and analyses it. The memory of the previous one is reused, and `limit`
-    /// does not count it. The factor of the last matrix is lost.
+    /// Symbolic factorisation of `pattern`: orders and analyses it. The memory of the previous one is reused, and
+    /// `limit` does not count it. The factor of the last matrix is lost.
     ///
     /// # Errors
-    /// `Internal` where memory runs out, `MemoryLimit`, `Cancelled` (checked once, at the end); after an error there is no
-    /// symbolic factorisation.
+    /// `Internal` where memory runs out, `MemoryLimit`, `Cancelled` (checked once, at the end); after an error there is
+    /// no symbolic factorisation.
     pub fn analyse(&mut self, limit: MemoryLimit, pattern: &Pattern) -> Result<()> {
         self.symbolic = Symbolic::default();
         let failed = |reason: &str| Error::new(ErrorKind::Internal, format!("the symbolic factorisation {reason}"));
@@ -97,8 +98,8 @@ impl Factor {
         Ok(())
     }
 
-    /// Numeric factorisation of the matrix with the given values (lower triangle, in the order of `pattern`, which is the one that
-    /// was analysed). Returns whether it is numerically positive definite; only then there is a factor.
+    /// Numeric factorisation of the matrix with the given values (lower triangle, in the order of `pattern`, which is
+    /// the one that was analysed). Returns whether it is numerically positive definite; only then there is a factor.
     ///
     /// # Errors
     /// [`Cancelled`]; the token is checked between two fronts.

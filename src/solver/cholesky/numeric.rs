@@ -1,9 +1,9 @@
 //! Numeric multifrontal factorisation (Duff and Reid 1983; Liu 1992): fronts from the leaves of the tree to its root.
 //!
-//! A front is assembled from the matrix's entries in the columns of a supernode and, by extend-add, from the contribution
-//! blocks of its children. Its columns are factorised; the Schur complement on its rows is its own contribution block (Liu's
-//! update matrix), which stays in the work space until the parent has added it. Children are added in a fixed order, so the
-//! bits do not depend on the scheduling.
+//! A front is assembled from the matrix's entries in the columns of a supernode and, by extend-add, from the
+//! contribution blocks of its children. Its columns are factorised; the Schur complement on its rows is its own
+//! contribution block (Liu's update matrix), which stays in the work space until the parent has added it. Children are
+//! added in a fixed order, so the bits do not depend on the scheduling.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -66,7 +66,8 @@ impl Factorisation<'_> {
         self.failed.load(Ordering::Relaxed) || self.cancel.is_requested()
     }
 
-    /// Runs a task after its dependencies. `values` and `work` are the parts of factor and work space that belong to them.
+    /// Runs a task after its dependencies. `values` and `work` are the parts of factor and work space that belong to
+    /// them.
     fn run_task(&self, t: usize, values: &mut [f64], work: &mut [f64]) {
         let task = &self.symbolic.tasks[t];
         let first_value = self.symbolic.panels(task).start;
@@ -197,8 +198,8 @@ impl Factorisation<'_> {
     }
 }
 
-/// Splits `work`, the work space of `task`, into the regions of its dependencies. Their addresses ascend or descend, and they
-/// need not fill it: they are children of the task's first node, while `work` is the region of its last.
+/// Splits `work`, the work space of `task`, into the regions of its dependencies. Their addresses ascend or descend,
+/// and they need not fill it: they are children of the task's first node, while `work` is the region of its last.
 pub(super) fn dependency_regions<'a>(symbolic: &Symbolic, task: &Task, mut work: &'a mut [f64]) -> Vec<&'a mut [f64]> {
     let regions = || task.dependencies.iter().map(|&t| symbolic.tasks[t].region.clone());
     let up = regions().is_sorted_by_key(|region| region.start);
@@ -236,8 +237,8 @@ fn add(to: &mut [f64], values: &[f64]) {
     }
 }
 
-/// Extend-add (Liu 1992): adds to `to` those columns of a child's contribution block that are among `columns` of the front.
-/// `column_at` gives the range in `to` of a column of the front, from its diagonal down.
+/// Extend-add (Liu 1992): adds to `to` those columns of a child's contribution block that are among `columns` of the
+/// front. `column_at` gives the range in `to` of a column of the front, from its diagonal down.
 #[inline(always)]
 fn extend_add(
     child: &Node,

@@ -1,9 +1,9 @@
 //! Triangular solves: forward substitution from the leaves of the tree to its root, backward substitution from the root
 //! to the leaves.
 //!
-//! In the forward pass a front's vector is kept in the place of its contribution block; its parent adds the entries below
-//! the front's columns by the same relative indices. In the backward pass a front reads the solution at its ancestors'
-//! columns, which are done.
+//! In the forward pass a front's vector is kept in the place of its contribution block; its parent adds the entries
+//! below the front's columns by the same relative indices. In the backward pass a front reads the solution at its
+//! ancestors' columns, which are done.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,8 +16,8 @@ pub(super) struct Solve<'a> {
     pub symbolic: &'a Symbolic,
     /// The factor.
     pub values: &'a [f64],
-    /// Bits of the right-hand sides, then of the solutions, `columns` for each position in the elimination order. Each is
-    /// written by the one task that eliminates it, and read by tasks that are ordered after it.
+    /// Bits of the right-hand sides, then of the solutions, `columns` for each position in the elimination order. Each
+    /// is written by the one task that eliminates it, and read by tasks that are ordered after it.
     pub x: &'a [AtomicU64],
     pub columns: usize,
 }

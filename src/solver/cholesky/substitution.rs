@@ -6,8 +6,8 @@
 use super::kernel::TILE;
 use crate::simd::lanes::{Lanes, for_this_processor};
 
-/// Forward substitution: solves with the lower triangle of a panel of `columns` columns, and subtracts the product of its
-/// rows below with the solution from the rest of `vector`.
+/// Forward substitution: solves with the lower triangle of a panel of `columns` columns, and subtracts the product of
+/// its rows below with the solution from the rest of `vector`.
 pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
@@ -15,8 +15,8 @@ pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f6
     unsafe { for_this_processor!(forward_front(panel: *const f64, ld: usize, columns: usize, vector: *mut f64)) }
 }
 
-/// Backward substitution: subtracts from the columns' part of `vector` the product of the transposed rows below with the
-/// rest, and solves with the transposed triangle.
+/// Backward substitution: subtracts from the columns' part of `vector` the product of the transposed rows below with
+/// the rest, and solves with the transposed triangle.
 pub(super) fn backward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
@@ -118,8 +118,8 @@ unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize,
     }
 }
 
-/// The negative inner products of `N` columns with `y`. Each is summed in eight lanes, whatever the SIMD width, so that the
-/// bits do not depend on it.
+/// The negative inner products of `N` columns with `y`. Each is summed in eight lanes, whatever the SIMD width, so that
+/// the bits do not depend on it.
 ///
 /// # Safety
 /// As [`subtract_columns`].

@@ -7,8 +7,8 @@ use super::ordering::Graph;
 /// No parent, no sibling.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Modelled time of a front, in nanoseconds on one core. Two fronts are amalgamated where one costs less than both: that
-/// weighs the explicit zeros against the overhead of a front.
+/// Modelled time of a front, in nanoseconds on one core. Two fronts are amalgamated where one costs less than both:
+/// that weighs the explicit zeros against the overhead of a front.
 fn front_cost(columns: usize, rows: usize) -> f64 {
     const FRONT: f64 = 400.0;
     const SCALAR: f64 = 4.0;
@@ -24,8 +24,8 @@ pub(super) fn multiply_adds(columns: usize, rows: usize) -> f64 {
     k * r * r / 2.0 + k * k * r / 2.0 + k * k * k / 6.0
 }
 
-/// The supernodal elimination tree in postorder. The last supernode is a virtual root without columns, the parent of all
-/// roots.
+/// The supernodal elimination tree in postorder. The last supernode is a virtual root without columns, the parent of
+/// all roots.
 pub(super) struct Supernodes {
     /// The vertex that is eliminated at each position.
     pub vertex_at: Vec<u32>,
@@ -231,7 +231,8 @@ fn children_of(supernodes: &[Supernode], s: usize) -> Vec<u32> {
     std::iter::successors(first, |&c| Some(supernodes[c as usize].sibling).filter(|&c| c != NONE)).collect()
 }
 
-/// Relaxed amalgamation: merges into `s` each child with which one front is cheaper than two, those with the most rows first.
+/// Relaxed amalgamation: merges into `s` each child with which one front is cheaper than two, those with the most rows
+/// first.
 fn amalgamate_children(supernodes: &mut [Supernode], s: usize) {
     // The virtual root has no front.
     if supernodes[s].parent == NONE || supernodes[s].first_child == NONE {
@@ -267,8 +268,8 @@ fn amalgamate_children(supernodes: &mut [Supernode], s: usize) {
     supernodes[s].last_child = last;
 }
 
-/// The final postorder of the amalgamated tree, with the children of each supernode in an order that suits the tasks, and the
-/// parallel split points.
+/// The final postorder of the amalgamated tree, with the children of each supernode in an order that suits the tasks,
+/// and the parallel split points.
 fn postordered_supernodes(order: &[u32], begins: &[u32], supernodes: &[Supernode]) -> Supernodes {
     let count = supernodes.len();
     let root = count - 1;
@@ -288,8 +289,8 @@ fn postordered_supernodes(order: &[u32], begins: &[u32], supernodes: &[Supernode
         let (big, small): (Vec<u32>, Vec<u32>) = children[s].iter().partition(|&&c| work[c as usize] >= large);
         let rest: f64 = small.iter().map(|&c| work[c as usize]).sum();
         split_points[s] = big.len() + usize::from(rest >= large) >= 2;
-        // At a split point the small subtrees come first, together as one task; otherwise the largest subtree comes first,
-        // since its task continues here.
+        // At a split point the small subtrees come first, together as one task; otherwise the largest subtree comes
+        // first, since its task continues here.
         children[s].sort_by(|&a, &b| work[a as usize].total_cmp(&work[b as usize]).then(a.cmp(&b)));
         if !split_points[s] {
             children[s].reverse();

@@ -1,8 +1,9 @@
 //! Symbolic factorisation: the structure of the fronts, their layout in memory, and the tasks with their dependencies.
 //!
-//! All of it follows from the pattern. Each supernode has a panel in the factor and a region in the work space, nested as the
-//! tree is: the regions of its children from one end, its own contribution block at the other end, over memory that its
-//! children no longer need. Children in separate tasks have disjoint regions; those of one task reuse memory like a stack.
+//! All of it follows from the pattern. Each supernode has a panel in the factor and a region in the work space, nested
+//! as the tree is: the regions of its children from one end, its own contribution block at the other end, over memory
+//! that its children no longer need. Children in separate tasks have disjoint regions; those of one task reuse memory
+//! like a stack.
 
 use std::ops::Range;
 
