@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::pattern::{PairCollector, Pattern};
 use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
-use crate::simd::four::{Four, Kernel, dispatch};
+use crate::simd::f64x4::{F64x4, Kernel, dispatch};
 
 /// Vertices of an element, at most.
 const CORNERS: usize = 4;
@@ -277,7 +277,7 @@ impl Kernel for Sum<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Four>(self) {
+    fn run<V: F64x4>(self) {
         let Self { block, pattern, buffers, vertex_elements, scratch: Scratch { mark, blocks } } = self;
         for local in 0..block.gradient.len() / 3 {
             let v = block.first + local;
