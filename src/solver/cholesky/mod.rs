@@ -88,7 +88,7 @@ impl Factor {
             + self.work.memory_for(symbolic.work)
             + (unknowns * size_of::<AtomicU64>()) as u64
             + symbolic.memory();
-        limit.check(&[Part { what: "the factorisation of the garment's linear system", bytes }])?;
+        limit.check(&[Part { name: "the factorisation of the garment's linear system", bytes }])?;
         if !self.values.resize(symbolic.values) || !self.work.resize(symbolic.work) {
             return Err(Error::new(ErrorKind::Internal, "there is no memory for the factorisation's work space"));
         }
