@@ -143,7 +143,7 @@ impl System {
         }
         let n = pattern.vertex_count();
         self.vertex_elements.find(n, &self.buffers);
-        let alone = clock.elapsed();
+        let serial = clock.elapsed();
         let (buffers, vertex_elements) = (&self.buffers, &self.vertex_elements);
         let mut blocks = blocks(pattern, vertex_elements, &mut self.hessian, &mut self.gradient, &mut self.border);
         let work = |scratch: &mut Scratch, block: &mut ColumnBlock<'_>| {
@@ -151,9 +151,9 @@ impl System {
             block.add(pattern, buffers, vertex_elements, scratch);
             clock.elapsed()
         };
-        let together: Duration = blocks.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
+        let parallel: Duration = blocks.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
         blocks.iter_mut().for_each(|block| missing.append(&mut block.missing));
-        alone + together
+        serial + parallel
     }
 }
 

@@ -142,7 +142,7 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
 /// [`tile`] for as many `rows`, a multiple of 8, one strip below the other.
 ///
 /// # Safety
-/// As there.
+/// As [`tile`].
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
@@ -181,7 +181,7 @@ unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
 /// [`strips`] with `width` columns, 1 to 8.
 ///
 /// # Safety
-/// As there.
+/// As [`strips`].
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 unsafe fn columns<V: Lanes, const MODE: u8>(
@@ -217,7 +217,7 @@ pub(super) struct Panel {
     ld: usize,
 }
 
-// SAFETY: it is an address; the unsafe functions that read or write there require exclusive access to their rows.
+// SAFETY: it is an address; the unsafe functions that read or write there state which rows other threads may not use.
 unsafe impl Send for Panel {}
 // SAFETY: as above.
 unsafe impl Sync for Panel {}

@@ -202,13 +202,13 @@ impl Factorisation<'_> {
 /// and they need not fill it: they are children of the task's first node, while `work` is the region of its last.
 pub(super) fn dependency_regions<'a>(symbolic: &Symbolic, task: &Task, mut work: &'a mut [f64]) -> Vec<&'a mut [f64]> {
     let regions = || task.dependencies.iter().map(|&t| symbolic.tasks[t].region.clone());
-    let up = regions().is_sorted_by_key(|region| region.start);
+    let ascending = regions().is_sorted_by_key(|region| region.start);
     let mut start = task.region.start;
     regions()
         .map(|region| {
             let (below, rest) = std::mem::take(&mut work).split_at_mut(region.start - start);
             let (part, above) = rest.split_at_mut(region.len());
-            if up {
+            if ascending {
                 (work, start) = (above, region.end);
             } else {
                 work = below;

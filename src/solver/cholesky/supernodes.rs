@@ -137,13 +137,13 @@ fn postordered_columns(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
     let mut renumbered = vec![NONE; n];
     let mut next_order = Vec::with_capacity(n);
     let mut at = first_child[n];
-    let mut up = Vec::new();
-    while at != NONE || !up.is_empty() {
+    let mut stack = Vec::new();
+    while at != NONE || !stack.is_empty() {
         while at != NONE {
-            up.push(at);
+            stack.push(at);
             at = first_child[at as usize];
         }
-        if let Some(j) = up.pop() {
+        if let Some(j) = stack.pop() {
             renumbered[j as usize] = next_order.len() as u32;
             next_order.push(order[j as usize]);
             at = sibling[j as usize];
@@ -247,9 +247,9 @@ fn amalgamate_children(supernodes: &mut [Supernode], s: usize) {
         let separate = front_cost(columns, rows) + front_cost(child.columns, child.rows);
         let (mut head, mut tail) = (c, c);
         if front_cost(columns + child.columns, rows) < separate {
-            let (together, ranges) = (columns + child.columns, child.head);
+            let (total, ranges) = (columns + child.columns, child.head);
             (head, tail) = (child.first_child, child.last_child);
-            supernodes[s].columns = together;
+            supernodes[s].columns = total;
             supernodes[c as usize].next = supernodes[s].head;
             supernodes[c as usize].amalgamated = true;
             supernodes[s].head = ranges;
@@ -283,12 +283,12 @@ fn postordered_supernodes(order: &[u32], begins: &[u32], supernodes: &[Supernode
         work[s] = multiply_adds(supernodes[s].columns, supernodes[s].rows)
             + children[s].iter().map(|&c| work[c as usize]).sum::<f64>();
     }
-    let large = min_task_work(&work);
+    let min_work = min_task_work(&work);
     let mut split_points = vec![false; count];
     for s in 0..count {
-        let (big, small): (Vec<u32>, Vec<u32>) = children[s].iter().partition(|&&c| work[c as usize] >= large);
+        let (large, small): (Vec<u32>, Vec<u32>) = children[s].iter().partition(|&&c| work[c as usize] >= min_work);
         let rest: f64 = small.iter().map(|&c| work[c as usize]).sum();
-        split_points[s] = big.len() + usize::from(rest >= large) >= 2;
+        split_points[s] = large.len() + usize::from(rest >= min_work) >= 2;
         // At a split point the small subtrees come first, together as one task; otherwise the largest subtree comes
         // first, since its task continues here.
         children[s].sort_by(|&a, &b| work[a as usize].total_cmp(&work[b as usize]).then(a.cmp(&b)));

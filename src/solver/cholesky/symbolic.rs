@@ -257,15 +257,15 @@ fn regions(tree: &Supernodes, nodes: &mut [Node]) -> (usize, Vec<Range<usize>>) 
         let (mut held, mut span) = (0, 0);
         for &c in tree.children(s) {
             let c = c as usize;
-            let alone = tree.split_points[s] && tree.is_large(c);
-            if alone {
+            let own_task = tree.split_points[s] && tree.is_large(c);
+            if own_task {
                 // It runs in parallel to the children before, so their regions may not overlap.
                 held = span;
             }
             offset[c] = held;
             span = span.max(held + size[c]);
             held += contribution[c];
-            if tree.split_points[s] && !alone {
+            if tree.split_points[s] && !own_task {
                 small_span[s] = span;
             }
         }
