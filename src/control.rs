@@ -1,12 +1,12 @@
-//! Progress and cancel: the one part of a session that any thread may touch at any time.
+//! Progress and cancellation: the one part of a session that any thread may use at any time.
 //!
-//! A request to stop travels one way. What takes long is handed a [`Cancel`]: what lives long when it is made, a function as
-//! an argument, before those that it writes to. It looks at the token and gives [`Cancelled`] back, as an error that its
-//! callers hand on with `?`.
+//! A request to stop travels one way. Long work is given a cancellation token, [`Cancel`]: long-lived objects when they
+//! are made, functions as an argument, before those that they write to. It checks the token and returns [`Cancelled`],
+//! an error that its callers pass on with `?`.
 //!
-//! The session writes a [`Progress`] after each iteration; readers take a copy that belongs to one moment. Nobody waits
-//! for anybody: the writer fills the oldest of a few slots and then names it the latest, so a writer that loses its
-//! processor in the middle holds up no reader, and readers never hold up the writer.
+//! The session writes a [`Progress`] after each iteration; readers take a consistent copy. No thread waits for another:
+//! the writer fills the oldest slot of a ring and then publishes it as the latest (a sequence lock for each slot), so
+//! that a preempted writer blocks no reader, and readers never block the writer.
 
 use std::fmt;
 use std::sync::Arc;
@@ -14,26 +14,26 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering, fence};
 
 use crate::error::{Error, ErrorKind};
 
-/// Where a session is on its way.
+/// The stage of a session.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Stage {
-    /// Takes inputs; nothing is computed yet.
+    /// SETUP: takes inputs; nothing is computed yet.
     #[default]
     Setup = 0,
-    /// Step 1 is done: the avatar is projected onto the source skeleton.
+    /// PREPARE is done: the avatar is projected onto the source skeleton.
     Prepared = 1,
-    /// Step 2: the avatar grows to its full size inside the garment.
+    /// INFLATE: the avatar grows to its full size inside the garment.
     Inflate = 2,
-    /// Step 3: the garment settles onto the avatar.
+    /// FIT: the garment is fitted to the full-size avatar.
     Fit = 3,
-    /// The exact verifier looks at the result.
+    /// VERIFY: the exact verifier checks the result.
     Verify = 4,
-    /// The result is final and verified.
+    /// DONE: the result is final and verified.
     Done = 5,
-    /// A call failed for good; what the garment looked like last can still be read.
+    /// FAILED: a call failed for good; the last state of the garment can still be read.
     Failed = 6,
-    /// The caller asked to stop; what the garment looked like last can still be read.
+    /// CANCELLED: the caller asked to stop; the last state of the garment can still be read.
     Cancelled = 7,
 }
 
@@ -48,7 +48,7 @@ impl Stage {
 /// How many energy terms a [`Progress`] can hold.
 pub const MAX_TERMS: usize = 12;
 
-/// A session at one moment. Lengths are in the normalised space.
+/// The progress of a session. Lengths are in normalised coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Progress {
     /// The stage that is running, or that ended the run.
@@ -61,7 +61,7 @@ pub struct Progress {
     pub energy: f64,
     /// Euclidean norm of the objective's gradient.
     pub gradient_norm: f64,
-    /// Smallest distance of a contact pair; infinite where no pair is near.
+    /// Smallest distance of a contact pair; infinite where there is none.
     pub min_distance: f64,
     /// Contact pairs closer than d-hat.
     pub active_contacts: u64,
@@ -109,7 +109,7 @@ impl Progress {
     }
 }
 
-/// The answer to a request to stop: work that ended before it was done. What it was to compute is worth nothing.
+/// The error of work that was stopped on request. Its outputs are unusable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
@@ -127,23 +127,23 @@ impl From<Cancelled> for Error {
     }
 }
 
-/// The cancellation token: a request to stop that long work looks at, between its kernels and in the loops of those that
-/// take long. Clones share one flag, which once set stays so.
+/// The cancellation token: long work checks it between its kernels, and in the loops of long kernels. Clones share one
+/// flag; once set, it stays set.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Nobody has asked to stop.
+    /// A token that is not set.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Asks whoever looks at it to stop.
+    /// Requests all work with this token to stop.
     pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked to stop.
+    /// Whether a stop was requested.
     #[inline]
     pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
@@ -152,19 +152,19 @@ impl Cancel {
     /// A checkpoint.
     ///
     /// # Errors
-    /// [`Cancelled`] where somebody asked to stop.
+    /// [`Cancelled`] where a stop was requested.
     #[inline]
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_requested() { Err(Cancelled) } else { Ok(()) }
     }
 }
 
-/// Records that are kept. A reader has to read again only where all but one of them were replaced while it read one.
+/// Slots of the ring. A reader has to retry only where the writer went around the ring while it read.
 const SLOTS: usize = 4;
 /// The stamp of a slot that is being written.
 const UNFINISHED: u64 = u64::MAX;
 
-/// One record and its number.
+/// A slot: a progress record and its number.
 #[derive(Debug)]
 struct Slot {
     stamp: AtomicU64,
@@ -174,9 +174,9 @@ struct Slot {
 /// Requests to cancel and the progress record of one session; shared with every thread that watches it.
 #[derive(Debug)]
 pub struct Control {
-    /// Requests to stop since the last reset.
+    /// Requests to stop since the last [`Control::clear_cancel`].
     requests: AtomicU64,
-    /// Number of the last whole record, which is in slot `latest % SLOTS`.
+    /// Number of the last complete record, which is in slot `latest % SLOTS`.
     latest: AtomicU64,
     slots: [Slot; SLOTS],
 }
@@ -190,7 +190,7 @@ impl Default for Control {
 }
 
 impl Control {
-    /// No cancel asked for, progress at [`Stage::Setup`].
+    /// No stop requested, progress at [`Stage::Setup`].
     pub fn new() -> Self {
         Self::default()
     }
@@ -201,29 +201,29 @@ impl Control {
         self.requests.fetch_add(1, Ordering::Release);
     }
 
-    /// How often somebody asked to stop since the last [`Control::clear_cancel`].
+    /// Number of requests to stop since the last [`Control::clear_cancel`].
     #[inline]
     pub fn requests(&self) -> u64 {
         self.requests.load(Ordering::Acquire)
     }
 
-    /// Whether somebody asked to stop since the last [`Control::clear_cancel`].
+    /// Whether a stop was requested since the last [`Control::clear_cancel`].
     #[inline]
     pub fn is_cancelled(&self) -> bool {
         self.requests() > 0
     }
 
-    /// Forgets all requests to stop.
+    /// Clears all requests to stop.
     pub fn clear_cancel(&self) {
         self.requests.store(0, Ordering::Release);
     }
 
-    /// Replaces the progress record. For one thread at a time, the one that is inside the session.
+    /// Publishes a progress record. For one thread at a time, the one that works in the session.
     pub fn publish(&self, progress: &Progress) {
         let number = self.latest.load(Ordering::Relaxed) + 1;
         let slot = &self.slots[number as usize % SLOTS];
         slot.stamp.store(UNFINISHED, Ordering::Relaxed);
-        // The words may not be seen changed before the stamp is.
+        // No reader may see changed words before the changed stamp.
         fence(Ordering::Release);
         for (slot, word) in slot.words.iter().zip(progress.to_words()) {
             slot.store(word, Ordering::Relaxed);
@@ -232,7 +232,7 @@ impl Control {
         self.latest.store(number, Ordering::Release);
     }
 
-    /// A copy of the last progress record that was written as a whole.
+    /// A copy of the last complete progress record.
     pub fn progress(&self) -> Progress {
         loop {
             let number = self.latest.load(Ordering::Acquire);
@@ -244,7 +244,7 @@ impl Control {
                     return Progress::from_words(&words);
                 }
             }
-            // The writer has come around to this slot meanwhile: there are newer records, all of them whole.
+            // The writer has reused this slot meanwhile, so newer complete records exist: retry.
         }
     }
 }

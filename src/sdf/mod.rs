@@ -27,7 +27,7 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
-use crate::simd::four::{Four, Kernel, dispatch};
+use crate::simd::f64x4::{F64x4, Kernel, dispatch};
 use block::{Block, Known, SIDE};
 use volume::{BLOCK, Volume};
 
@@ -286,7 +286,7 @@ trait Sample {
     type Output;
 
     /// From `row(i, j)`, nodes (i, j, 0..4), at `t` in the cell. Inlined, to be compiled for the processor.
-    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> Self::Output;
+    fn compute<V: F64x4>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> Self::Output;
 }
 
 struct Value;
@@ -295,7 +295,7 @@ impl Sample for Value {
     type Output = f64;
 
     #[inline(always)]
-    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, _: f64) -> f64 {
+    fn compute<V: F64x4>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, _: f64) -> f64 {
         spline::value::<V>(row, t)
     }
 }
@@ -306,7 +306,7 @@ impl Sample for ValueGradient {
     type Output = (f64, DVec3);
 
     #[inline(always)]
-    fn compute<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> (f64, DVec3) {
+    fn compute<V: F64x4>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3, per_voxel: f64) -> (f64, DVec3) {
         let (value, gradient) = spline::value_gradient::<V>(row, t);
         (value, gradient * per_voxel)
     }
@@ -323,7 +323,7 @@ impl<S: Sample> Kernel for Samples<'_, S> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Four>(self) {
+    fn run<V: F64x4>(self) {
         let field = self.field;
         for (&p, out) in self.points.iter().zip(self.out) {
             let cell = field.cell(p);

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::simd::four::Four;
+use crate::simd::f64x4::F64x4;
 
 /// The four basis functions, or their derivatives, at a point of a cell.
 type Weights = [f64; 4];
@@ -29,7 +29,7 @@ fn slopes(t: f64) -> Weights {
 
 /// The value at the point `t` of the cell; `row(i, j)` are the nodes (i, j, 0..4).
 #[inline(always)]
-pub(super) fn value<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> f64 {
+pub(super) fn value<V: F64x4>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> f64 {
     let (x, y) = (basis(t.x), basis(t.y));
     let mut sum = V::splat(0.0);
     for (i, &wx) in x.iter().enumerate() {
@@ -44,7 +44,7 @@ pub(super) fn value<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -
 
 /// The value and the gradient (for a cell of unit width).
 #[inline(always)]
-pub(super) fn value_gradient<V: Four>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> (f64, DVec3) {
+pub(super) fn value_gradient<V: F64x4>(row: impl Fn(usize, usize) -> [f32; 4], t: DVec3) -> (f64, DVec3) {
     let (x, y, z) = (basis(t.x), basis(t.y), basis(t.z));
     let (dx, dy) = (slopes(t.x), slopes(t.y));
     let (mut sum, mut by_x, mut by_y) = (V::splat(0.0), V::splat(0.0), V::splat(0.0));

@@ -243,8 +243,8 @@ impl Run {
         self.report.memory = self.held + self.field_memory() + contacts + system;
         let limit = self.remaining_budget();
         let parts = [
-            Part { what: "the linear system of the garment", bytes: system },
-            Part { what: "contacts of the garment", bytes: contacts },
+            Part { name: "the linear system of the garment", bytes: system },
+            Part { name: "contacts of the garment", bytes: contacts },
         ];
         limit.check(&parts)?;
         if self.objective.contact.exceeds_pair_budget() {

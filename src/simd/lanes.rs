@@ -1,10 +1,10 @@
-//! Vectors of the processor: what the dense kernels are written in, and which of them there are.
+//! SIMD vectors of the processor's width, for the dense kernels of the factorisation, and run-time dispatch to them.
 
-/// Some scalars that the processor treats at once.
+/// A SIMD vector of doubles.
 pub(crate) trait Lanes: Copy {
-    /// How many; divides 8.
+    /// Number of lanes; divides 8.
     const COUNT: usize;
-    /// How many vectors of rows a tile of eight columns may hold in registers.
+    /// Vectors of rows in a register tile of eight columns, at most.
     const STRIPS: usize;
 
     /// # Safety
@@ -35,11 +35,11 @@ pub(crate) trait Lanes: Copy {
     fn scalar_minus_product(c: f64, a: f64, b: f64) -> f64;
 }
 
-/// Four scalars on any processor. They are rounded once where the target always has a fused operation.
+/// Four doubles without intrinsics, for any processor. Multiply-adds are fused where the target always has them.
 #[derive(Clone, Copy)]
-pub(crate) struct Plain([f64; 4]);
+pub(crate) struct Portable([f64; 4]);
 
-impl Lanes for Plain {
+impl Lanes for Portable {
     const COUNT: usize = 4;
     const STRIPS: usize = 1;
 
@@ -78,7 +78,7 @@ impl Lanes for Plain {
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86 {
-    //! Vectors with a fused multiplication: four scalars with AVX2, eight with AVX-512.
+    //! Vectors with fused multiply-add: four doubles with AVX2, eight with AVX-512.
 
     use std::arch::x86_64::*;
 
@@ -132,12 +132,12 @@ pub(crate) mod x86 {
         };
     }
 
-    lanes!(Four, __m256d, 4, 1, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd, _mm256_mul_pd, _mm256_fnmadd_pd);
-    lanes!(Eight, __m512d, 8, 3, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd, _mm512_mul_pd, _mm512_fnmadd_pd);
+    lanes!(Avx2, __m256d, 4, 1, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd, _mm256_mul_pd, _mm256_fnmadd_pd);
+    lanes!(Avx512, __m512d, 8, 3, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_set1_pd, _mm512_mul_pd, _mm512_fnmadd_pd);
 }
 
-/// Calls a generic kernel, an unsafe function with a [`Lanes`] as its first parameter, in the version for this
-/// processor. The body is inlined there, so that it is compiled for its instructions.
+/// Run-time dispatch: calls a generic kernel, an unsafe function with a [`Lanes`] type as its first parameter, with the
+/// widest vectors of this processor. The kernel is inlined there, so that it is compiled for these instructions.
 macro_rules! for_this_processor {
     ($kernel:ident($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)?) => {{
         #[cfg(target_arch = "x86_64")]
@@ -145,26 +145,26 @@ macro_rules! for_this_processor {
             use $crate::simd::lanes::x86;
 
             #[target_feature(enable = "avx512f")]
-            unsafe fn eight($($argument: $type),*) $(-> $result)? {
+            unsafe fn avx512($($argument: $type),*) $(-> $result)? {
                 // SAFETY: the processor has the instructions of this function; the rest is the caller's promise.
-                unsafe { $kernel::<x86::Eight>($($argument),*) }
+                unsafe { $kernel::<x86::Avx512>($($argument),*) }
             }
             #[target_feature(enable = "avx2,fma")]
-            unsafe fn four($($argument: $type),*) $(-> $result)? {
+            unsafe fn avx2($($argument: $type),*) $(-> $result)? {
                 // SAFETY: as above.
-                unsafe { $kernel::<x86::Four>($($argument),*) }
+                unsafe { $kernel::<x86::Avx2>($($argument),*) }
             }
             if is_x86_feature_detected!("avx512f") {
-                eight($($argument),*)
+                avx512($($argument),*)
             } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                four($($argument),*)
+                avx2($($argument),*)
             } else {
-                $kernel::<$crate::simd::lanes::Plain>($($argument),*)
+                $kernel::<$crate::simd::lanes::Portable>($($argument),*)
             }
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
-            $kernel::<$crate::simd::lanes::Plain>($($argument),*)
+            $kernel::<$crate::simd::lanes::Portable>($($argument),*)
         }
     }};
 }

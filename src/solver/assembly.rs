@@ -1,7 +1,7 @@
 //! Gradient and Hessian of a weighted sum of energies.
 //!
-//! A term's elements are evaluated in fixed chunks, on as many threads as there are; then vertices sum what is theirs.
-//! Both in a fixed order: the sums have the same bits whatever the number of threads.
+//! A term's elements are evaluated in fixed chunks in parallel; then blocks of columns sum the contributions to their
+//! vertices. Both in a fixed order: the sums have the same bits with any number of threads.
 
 use std::time::{Duration, Instant};
 
@@ -17,9 +17,9 @@ use crate::memory::bytes;
 
 /// Elements in a chunk.
 const CHUNK: usize = 32;
-/// Chunks that are evaluated before they are summed: their derivatives are in memory at the same time.
+/// Chunks that are evaluated before they are summed: it bounds the memory of their derivatives.
 const BATCH: usize = 64;
-/// Owners of vertices.
+/// Column blocks, about this many: units of parallel summation.
 const COLUMN_BLOCKS: usize = 64;
 
 /// The linear system of one Newton iteration: `[H b; b^T c] [dx; dt] = -[g; g_t]`.
@@ -43,16 +43,16 @@ pub struct System {
 }
 
 impl System {
-    /// An empty system, which is assembled until somebody asks to stop.
+    /// An empty system. `cancel` is checked in assembly.
     pub fn new(cancel: Cancel) -> Self {
         Self { cancel, ..Self::default() }
     }
 
-    /// Evaluates all the derivatives of `terms` at `at`. Returns the pairs of vertices that the pattern lacks; where
-    /// there are any, the Hessian is incomplete.
+    /// Assembles the derivatives of `terms` at `at`. Returns the pairs of vertices that are missing in the pattern;
+    /// where there are any, the Hessian is incomplete.
     ///
     /// # Errors
-    /// [`Cancelled`]; the token is looked at in each chunk of elements.
+    /// [`Cancelled`]; the token is checked in each chunk of elements.
     pub fn assemble(
         &mut self,
         pattern: &Pattern,
@@ -76,20 +76,20 @@ impl System {
         Ok(missing)
     }
 
-    /// Adds the times that `terms` took in the last assembly, which was of them.
+    /// Adds to `profile` the times of `terms` in the last assembly, which must have been of the same terms.
     pub fn note_times(&self, terms: &[Term<'_>], profile: &mut Profile) {
         for (term, &time) in terms.iter().zip(&self.times).filter(|(_, time)| !time.is_zero()) {
             profile.term(term.energy.name()).derivatives += time;
         }
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub fn memory(&self) -> u64 {
         let buffers: u64 = self.buffers.iter().map(ElementBuffer::memory).sum();
         buffers + self.vertex_elements.memory() + bytes(&self.hessian) + bytes(&self.gradient) + bytes(&self.border)
     }
 
-    /// About how many bytes it will hold for `pattern`.
+    /// Estimate of the bytes held after an assembly with `pattern`.
     pub fn memory_for(pattern: &Pattern) -> u64 {
         let n = pattern.vertex_count();
         // A surface has twice as many triangles as vertices, and three times as many edges.
@@ -97,7 +97,7 @@ impl System {
         ((pattern.value_count() + 6 * n) * size_of::<f64>() + elements * ELEMENT_BYTES) as u64
     }
 
-    /// All zero, in the size of `pattern`.
+    /// Resizes to `pattern` and sets everything to zero.
     fn clear(&mut self, pattern: &Pattern) {
         let n = 3 * pattern.vertex_count();
         for (array, len) in [(&mut self.hessian, pattern.value_count()), (&mut self.gradient, n), (&mut self.border, n)]
@@ -108,7 +108,7 @@ impl System {
         (self.t_gradient, self.t_hessian) = (0.0, 0.0);
     }
 
-    /// Writes the derivatives of the elements from `first` to before `last` down. Returns the time, over all threads.
+    /// Evaluates the derivatives of elements `first..last` into the buffers. Returns the time, over all threads.
     fn evaluate(
         &mut self,
         term: &Term<'_>,
@@ -128,13 +128,13 @@ impl System {
             clock.elapsed()
         };
         let time = self.buffers.par_iter_mut().enumerate().map(work).sum();
-        // Chunks may have been left out.
+        // Chunks were skipped if it was set.
         self.cancel.check()?;
         Ok(time)
     }
 
-    /// Adds what is written down to the system, and the pairs that `pattern` lacks to `missing`. Returns the time, over
-    /// all threads.
+    /// Adds the buffers to the system, and pairs that are missing in `pattern` to `missing`. Returns the time, over all
+    /// threads.
     fn sum(&mut self, pattern: &Pattern, missing: &mut PairCollector) -> Duration {
         let clock = Instant::now();
         for buffer in &self.buffers {
@@ -143,7 +143,7 @@ impl System {
         }
         let n = pattern.vertex_count();
         self.vertex_elements.find(n, &self.buffers);
-        let alone = clock.elapsed();
+        let serial = clock.elapsed();
         let (buffers, vertex_elements) = (&self.buffers, &self.vertex_elements);
         let mut blocks = blocks(pattern, vertex_elements, &mut self.hessian, &mut self.gradient, &mut self.border);
         let work = |scratch: &mut Scratch, block: &mut ColumnBlock<'_>| {
@@ -151,13 +151,13 @@ impl System {
             block.add(pattern, buffers, vertex_elements, scratch);
             clock.elapsed()
         };
-        let together: Duration = blocks.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
+        let parallel: Duration = blocks.par_iter_mut().map_init(|| Scratch::new(pattern), work).sum();
         blocks.iter_mut().for_each(|block| missing.append(&mut block.missing));
-        alone + together
+        serial + parallel
     }
 }
 
-/// Deals all vertices to blocks with about the same number of elements each.
+/// Partitions the vertices, and their columns, into consecutive blocks with about the same number of elements each.
 fn blocks<'a>(
     pattern: &Pattern,
     vertex_elements: &VertexElements,

@@ -1,8 +1,8 @@
-//! Derivatives of elements, written down as they come and then summed vertex by vertex.
+//! Buffers of element derivatives, and their parallel summation by column blocks.
 //!
-//! Whoever owns a vertex owns its columns of the Hessian and its entries of the gradient, so owners need no locks and no
-//! arrays of their own; and as each sums its elements in the order in which they stand, the sums have the same
-//! bits whoever the owners are.
+//! The columns of the Hessian and the entries of the gradient are partitioned by vertices into blocks. Each block is
+//! written by one thread, without locks or private copies, and sums its elements in a fixed order: the sums have the
+//! same bits for any partition.
 
 use std::cmp::Ordering;
 
@@ -11,23 +11,23 @@ use glam::DVec3;
 use super::pattern::{PairCollector, Pattern};
 use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
-use crate::simd::four::{Four, Kernel, dispatch};
+use crate::simd::f64x4::{F64x4, Kernel, dispatch};
 
 /// Vertices of an element, at most.
 const CORNERS: usize = 4;
 
-/// Rows of one element; more make several.
+/// Rank-one updates of one stored element; an element with more is stored as several.
 const ROWS: usize = 6;
 
-/// What an element adds: rank-one pieces over the same vertices.
+/// The derivatives of one element: rank-one updates over the same vertices.
 #[derive(Clone, Copy, Debug)]
 struct ElementDerivatives {
     vertices: [u32; CORNERS],
-    /// Its first row.
+    /// Index of its first rank-one update.
     first: u32,
     corners: u8,
     rows: u8,
-    /// Whether any of its rows adds to the Hessian.
+    /// Whether any of its updates adds to the Hessian.
     curved: bool,
 }
 
@@ -38,8 +38,9 @@ impl ElementDerivatives {
     }
 }
 
-/// A rank-one update, with the term's weight: for each vertex the component of its direction, and in the fourth places
-/// what else belongs to it. Two lines of the cache.
+/// A rank-one update: adds `g a` to the gradient and `h a a^T` to the Hessian, with the term's weight in g and h. A row
+/// for each vertex holds its component of the direction a; the fourth entries of the rows pack g, h and the component
+/// of a along t. 128 bytes, two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 struct RankOneUpdate([[f64; 4]; CORNERS]);
@@ -71,10 +72,10 @@ impl RankOneUpdate {
     }
 }
 
-/// Bytes that a buffer takes for an element, at most.
+/// Bytes of an element in a buffer, at most.
 pub(super) const ELEMENT_BYTES: usize = size_of::<ElementDerivatives>() + ROWS * size_of::<RankOneUpdate>();
 
-/// The derivatives of some elements of one term.
+/// The derivatives of a chunk of elements of one term.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ElementBuffer {
     weight: f64,
@@ -87,14 +88,14 @@ pub(super) struct ElementBuffer {
 }
 
 impl ElementBuffer {
-    /// Begins anew, for a term with this weight.
+    /// Clears it, for a term with this weight.
     pub fn clear(&mut self, weight: f64) {
         self.elements.clear();
         self.rows.clear();
         (self.weight, self.t_gradient, self.t_hessian) = (weight, 0.0, 0.0);
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub fn memory(&self) -> u64 {
         bytes(&self.elements) + bytes(&self.rows)
     }
@@ -132,7 +133,7 @@ impl Sink for ElementBuffer {
     }
 }
 
-/// For each vertex the elements that it takes part in, in their order.
+/// Vertex-to-element adjacency: for each vertex its elements, in their order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct VertexElements {
     /// For each vertex, where its entries begin.
@@ -140,7 +141,7 @@ pub(super) struct VertexElements {
     entries: Vec<Entry>,
 }
 
-/// A corner of a element.
+/// A corner of an element.
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     buffer: u32,
@@ -164,7 +165,7 @@ impl VertexElements {
             *start = sum;
         }
         self.entries.resize(sum as usize, Entry::default());
-        // From the end, so that entries come to stand in order and the counts end as the beginnings.
+        // A counting sort from the end: entries stay in order, and the counts end as start offsets.
         for buffer in (0..buffers.len()).rev() {
             for (r, element) in buffers[buffer].elements.iter().enumerate().rev() {
                 for (c, &v) in element.corners().iter().enumerate() {
@@ -181,7 +182,7 @@ impl VertexElements {
         self.start[vertex]
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub fn memory(&self) -> u64 {
         bytes(&self.start) + bytes(&self.entries)
     }
@@ -191,7 +192,7 @@ impl VertexElements {
     }
 }
 
-/// Some consecutive vertices, with their part of the system.
+/// A column block: consecutive vertices, with their part of the system.
 pub(super) struct ColumnBlock<'a> {
     /// The first vertex.
     pub first: usize,
@@ -201,28 +202,28 @@ pub(super) struct ColumnBlock<'a> {
     pub gradient: &'a mut [f64],
     /// Their part of the mixed derivatives with t.
     pub border: &'a mut [f64],
-    /// Pairs that the pattern lacks.
+    /// Pairs that are missing in the pattern.
     pub missing: PairCollector,
 }
 
-/// What a thread needs while it sums.
+/// Scratch memory of a thread while it sums.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// For each vertex of the pattern, its place among the rows of the column that it was last in.
+    /// For each vertex of the pattern, its index among the rows of the last column that has it.
     mark: Vec<u32>,
-    /// A block column by columns of blocks, each with a fourth entry that does not count: first the diagonal block, then those below.
+    /// A dense block column: the diagonal block, then those below, each by columns with a fourth, unused entry.
     blocks: Vec<[[f64; 4]; 3]>,
 }
 
 impl Scratch {
-    /// For `pattern`.
+    /// Scratch memory for `pattern`.
     pub fn new(pattern: &Pattern) -> Self {
         Self { mark: vec![0; pattern.vertex_count()], blocks: Vec::new() }
     }
 }
 
 impl ColumnBlock<'_> {
-    /// Adds what `buffers` have for its vertices.
+    /// Adds the derivatives in `buffers` to its vertices.
     pub fn add(
         &mut self,
         pattern: &Pattern,
@@ -230,10 +231,10 @@ impl ColumnBlock<'_> {
         vertex_elements: &VertexElements,
         scratch: &mut Scratch,
     ) {
-        dispatch(Sum { owner: self, pattern, buffers, vertex_elements, scratch });
+        dispatch(Sum { block: self, pattern, buffers, vertex_elements, scratch });
     }
 
-    /// Adds the sums of one vertex, the `local`-th of the owner.
+    /// Adds the sums of one vertex, the `local`-th of the block.
     fn store(
         &mut self,
         pattern: &Pattern,
@@ -263,9 +264,9 @@ impl ColumnBlock<'_> {
     }
 }
 
-/// The work of [`ColumnBlock::add`].
+/// The SIMD kernel of [`ColumnBlock::add`].
 struct Sum<'a, 'b> {
-    owner: &'a mut ColumnBlock<'b>,
+    block: &'a mut ColumnBlock<'b>,
     pattern: &'a Pattern,
     buffers: &'a [ElementBuffer],
     vertex_elements: &'a VertexElements,
@@ -276,10 +277,10 @@ impl Kernel for Sum<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Four>(self) {
-        let Self { owner, pattern, buffers, vertex_elements, scratch: Scratch { mark, blocks } } = self;
-        for local in 0..owner.gradient.len() / 3 {
-            let v = owner.first + local;
+    fn run<V: F64x4>(self) {
+        let Self { block, pattern, buffers, vertex_elements, scratch: Scratch { mark, blocks } } = self;
+        for local in 0..block.gradient.len() / 3 {
+            let v = block.first + local;
             let entries = vertex_elements.of(v);
             if entries.is_empty() {
                 continue;
@@ -311,14 +312,14 @@ impl Kernel for Sum<'_, '_> {
                         Ordering::Greater => {
                             let k = mark[w as usize] as usize;
                             if below.get(k) != Some(&w) {
-                                owner.missing.add(v as u32, w);
+                                block.missing.add(v as u32, w);
                                 continue;
                             }
                             1 + k
                         }
                     };
-                    let block = &mut blocks[place];
-                    let [mut x, mut y, mut z] = [V::load(&block[0]), V::load(&block[1]), V::load(&block[2])];
+                    let sum = &mut blocks[place];
+                    let [mut x, mut y, mut z] = [V::load(&sum[0]), V::load(&sum[1]), V::load(&sum[2])];
                     for row in rows {
                         let [a, b, c, _] = row.0[corner];
                         let component = V::load(&row.0[other]);
@@ -326,15 +327,15 @@ impl Kernel for Sum<'_, '_> {
                         y = y.add_scaled(row.h() * b, component);
                         z = z.add_scaled(row.h() * c, component);
                     }
-                    x.store(&mut block[0]);
-                    y.store(&mut block[1]);
-                    z.store(&mut block[2]);
+                    x.store(&mut sum[0]);
+                    y.store(&mut sum[1]);
+                    z.store(&mut sum[2]);
                 }
             }
             let [mut g, mut b] = [[0.0; 4]; 2];
             gradient.store(&mut g);
             border.store(&mut b);
-            owner.store(pattern, local, g, b, blocks);
+            block.store(pattern, local, g, b, blocks);
         }
     }
 }

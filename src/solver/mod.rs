@@ -1,7 +1,7 @@
 //! Minimises a weighted sum of energies: sparsity pattern, assembly, factorisation, Newton direction, line search.
 //!
-//! Knows energies only by the trait [`crate::energy::Energy`], never by name. The inflation parameter t is a
-//! border of the linear system, never part of the sparse factor: its row is dense.
+//! Depends on energies only through the trait [`crate::energy::Energy`]. The inflation parameter t is a border of the
+//! linear system (an arrowhead matrix), never part of the sparse factor: its row is dense.
 
 pub mod assembly;
 pub mod cholesky;

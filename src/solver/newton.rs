@@ -1,12 +1,20 @@
-//! Newton steps on the objective, with t as a border of the system.
+//! Damped Newton steps with line search, and continuation steps, for a bordered system: t is an unknown beside the
+//! vertices.
 //!
-//! One factorisation answers for both right-hand sides of
+//! The bordered system `[H b; b^T c] [dx; dt] = -[g; g_t]` is solved by block elimination: one factorisation of H
+//! serves both right-hand sides of
 //!
 //! ```text
 //! dx = p0 + dt p1,    H p0 = -g,    H p1 = -b
 //! ```
 //!
-//! so that a caller may choose how far t goes: from the bordered system, or along a path.
+//! and dt follows from the Schur complement on t, `c + b^T p1`. A caller may also choose dt: then `dx` is the predictor
+//! of a continuation in t, with the Newton corrector `p0` in the same step (E. L. Allgower, K. Georg: Numerical
+//! Continuation Methods, 1990).
+//!
+//! The length of each step is limited by continuous collision detection ([`Model::max_feasible_step`]). Steps that
+//! contact makes short again and again are damped as by K. Levenberg (1944) and D. W. Marquardt (1963): a multiple of
+//! the mean diagonal is added to H.
 
 use std::time::Instant;
 
@@ -33,20 +41,20 @@ pub struct State {
 }
 
 impl State {
-    /// The unknowns as energies see them.
+    /// The unknowns as the energies take them.
     pub fn configuration(&self) -> Configuration<'_> {
         Configuration { x: &self.x, t: self.t }
     }
 }
 
-/// What is minimised, and how far one may go.
+/// The objective, and the feasible length of a step.
 pub trait Model {
     /// The weighted energies.
     fn terms(&self) -> Vec<Term<'_>>;
 
-    /// Makes the energies valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at
-    /// most `longest`, along which nothing intersects. `None` where the memory for that ran out: nothing is known of the
-    /// step, and the energies are not valid.
+    /// The CCD-filtered step length: makes the energies valid along the whole step (`dx`, `dt`) from `at`, and returns
+    /// the largest fraction of it, at most `longest`, along which nothing intersects. `None` where the memory for that
+    /// ran out: then the fraction is unknown, and the energies are not valid.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -59,7 +67,7 @@ pub trait Model {
     ) -> Result<Option<f64>, Cancelled>;
 }
 
-/// What the solver has done, for reports.
+/// Counts of the solver's work, for reports.
 #[derive(Clone, Debug, Default)]
 pub struct Counters {
     /// Linear systems assembled.
@@ -68,7 +76,7 @@ pub struct Counters {
     pub factorisations: u32,
     /// Symbolic factorisations.
     pub analyses: u32,
-    /// Time of all that but for the model's part, [`Model::max_feasible_step`].
+    /// Time of that work, without the model's part, [`Model::max_feasible_step`].
     pub profile: Profile,
 }
 
@@ -79,32 +87,34 @@ pub struct Accepted {
     pub before: f64,
     /// The objective after the step.
     pub after: f64,
-    /// Squared Newton decrement `-g^T dx`: twice the decrease that the quadratic model promises.
+    /// Squared Newton decrement `-g^T dx` of the whole step: twice the decrease that the quadratic model predicts.
     pub decrement: f64,
     /// Largest displacement of a vertex.
     pub displacement: f64,
-    /// Whether the step was damped, so that the decrement promises too little.
+    /// Whether the step was damped: then the decrement underestimates the possible decrease.
     pub damped: bool,
 }
 
-/// The largest coordinate of a vertex's displacement in one step. Swept volumes, and with them the candidate pairs,
-/// grow quickly beyond it.
+/// The largest coordinate of a vertex's displacement in one step: beyond it swept volumes, and with them the candidate
+/// pairs, grow quickly.
 const MAX_DISPLACEMENT: f64 = 0.1;
-/// Multiple of the mean diagonal that is always added to the Hessian: surface and contact terms are blind to
-/// similarities of a garment that nothing holds.
+/// Smallest damping, as a multiple of the mean diagonal that is always added to the Hessian: the surface and contact
+/// terms of an unconstrained garment are invariant to similarity transformations, so that H is singular.
 const MIN_DAMPING: f64 = 1e-7;
-/// A step that keeps less than this fraction is short_steps: it slides along contact nearer than the step is long. After so
-/// many of them, one after the other, the shift grows by [`DAMPING_FACTOR`] at every further one, up to a limit, and falls
-/// again with steps that are free: then stiff directions, along which contact opens, come before soft ones.
+/// A step whose feasible fraction is below this counts as short: contact is nearer than the step is long. From the
+/// [`MAX_SHORT_STEPS`]-th consecutive short step on, each multiplies the damping by [`DAMPING_FACTOR`], up to
+/// [`MAX_DAMPING`]; each step of at least [`LONG_STEP`] divides it again. Damping shortens steps in soft directions
+/// more than in stiff ones, along which contact opens.
 const SHORT_STEP: f64 = 0.05;
 const MAX_SHORT_STEPS: u32 = 3;
 const LONG_STEP: f64 = 0.5;
 const DAMPING_FACTOR: f64 = 100.0;
 const MAX_DAMPING: f64 = 0.1;
-/// Shift at which a matrix is given up.
+/// Largest diagonal shift that is tried, as a multiple of the mean diagonal, for a Hessian that is not positive
+/// definite.
 const MAX_DIAGONAL_SHIFT: f64 = 1e4;
 
-/// A Newton solver for one pattern that grows as contacts come.
+/// A Newton solver. Its sparsity pattern grows as contacts add pairs of vertices.
 pub struct Newton {
     pattern: Pattern,
     factor: Factor,
@@ -113,21 +123,21 @@ pub struct Newton {
     response: Vec<f64>,
     dx: Vec<DVec3>,
     trial: Vec<DVec3>,
-    /// The value of each term at the present state, where it is known.
+    /// The value of each term at the current state, where it is known.
     values: Option<Vec<f64>>,
-    /// The present shift.
+    /// The current damping, a multiple of the mean diagonal.
     damping: f64,
-    /// Cramped steps one after the other.
+    /// Consecutive short steps.
     short_steps: u32,
     cancel: Cancel,
     limit: MemoryLimit,
-    /// What has been done so far.
+    /// Counts so far.
     pub counters: Counters,
 }
 
 impl Newton {
-    /// A solver whose pattern holds the stencils of `terms`, which never takes more memory than `limit` and ends at its
-    /// next checkpoint once somebody asks to stop.
+    /// A solver whose pattern holds the stencils of `terms`. It never takes more memory than `limit`, and checks
+    /// `cancel` in assembly, factorisation and line search.
     ///
     /// # Errors
     /// `Internal` where memory runs out, `MemoryLimit`, `Cancelled`.
@@ -157,7 +167,7 @@ impl Newton {
         })
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub fn memory(&self) -> u64 {
         self.pattern.memory()
             + self.factor.memory()
@@ -167,8 +177,9 @@ impl Newton {
             + bytes(&self.trial)
     }
 
-    /// Assembles and factorises the system at `at`, and solves for the response of the vertices; with `border`, for that
-    /// to a change of t, or of the parameter whose border the energies hand on, as well.
+    /// Assembles and factorises the system at `at`, and solves for the Newton direction p0 of the vertices. With
+    /// `border` also for p1, their response to a change of t, or of the barrier parameter s where the energies' border
+    /// is that of s.
     ///
     /// # Errors
     /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `MemoryLimit`, `Cancelled`.
@@ -241,7 +252,7 @@ impl Newton {
         self.system.t_gradient
     }
 
-    /// The change of t that the bordered system asks for.
+    /// The Newton step of t in the bordered system, from the Schur complement on t; 0 where that is not positive.
     pub fn newton_dt(&self) -> f64 {
         let n = self.system.gradient.len();
         let (p0, p1) = self.response.split_at(n);
@@ -251,7 +262,7 @@ impl Newton {
         if stiffness > 0.0 { force / stiffness } else { 0.0 }
     }
 
-    /// Sets the direction to `p0 + dt p1`, cut to the step limit. Returns the fraction that is left of it.
+    /// Sets the direction to `p0 + dt p1`, scaled down to [`MAX_DISPLACEMENT`]. Returns the scale, at most 1.
     pub fn set_direction(&mut self, dt: f64) -> f64 {
         let n = self.system.gradient.len();
         let (p0, p1) = self.response.split_at(n);
@@ -282,13 +293,12 @@ impl Newton {
         x + dt * self.system.t_gradient
     }
 
-    /// The value of each term at `at`, the present state, unweighted.
+    /// The value of each term at `at`, the current state, unweighted.
     pub fn values(&mut self, terms: &[Term<'_>], at: Configuration<'_>) -> &[f64] {
         self.values.get_or_insert_with(|| assembly::values(terms, at, &mut self.counters.profile))
     }
 
-    /// To be called where the state or the energies were changed by others since the last step: what is remembered of
-    /// their values is forgotten.
+    /// Discards the cached values of the terms. To be called after the state or the energies were changed from outside.
     pub fn forget_values(&mut self) {
         self.values = None;
     }
@@ -298,7 +308,7 @@ impl Newton {
         self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()
     }
 
-    /// Damps the next steps where `fraction`, what was kept of the last one, is small again and again.
+    /// Updates the Levenberg-Marquardt damping by `fraction`, the feasible fraction of the last step.
     fn update_damping(&mut self, fraction: f64) {
         if fraction < SHORT_STEP {
             self.short_steps += 1;
@@ -308,15 +318,16 @@ impl Newton {
         } else {
             self.short_steps = 0;
             if fraction >= LONG_STEP {
-                // Rounding must not leave a trace of damping.
+                // Snaps to the minimum, so that rounding leaves no residual damping.
                 let less = self.damping / DAMPING_FACTOR;
                 self.damping = if less < 2.0 * MIN_DAMPING { MIN_DAMPING } else { less };
             }
         }
     }
 
-    /// One step along the path: the response to an advance of t by `dt`, as far as the model allows it. There is no test
-    /// on the objective, which must be free to rise with t. Returns the fraction of `dt` that was taken.
+    /// One continuation step in t: predictor for an advance by `dt` and Newton corrector in one, up to the model's
+    /// feasible step length. There is no line search, since the objective may rise with t. Returns the fraction of `dt`
+    /// that was taken.
     ///
     /// # Errors
     /// As [`Self::linearise`].
@@ -326,8 +337,9 @@ impl Newton {
         Ok(taken)
     }
 
-    /// The same along another path, in a parameter s of the energies by which they hand on the border: the response to an
-    /// advance of s by `ds` at fixed t. It is the caller who then moves the energies on by the fraction returned.
+    /// One continuation step in the barrier parameter s at fixed t, where the energies' border is their mixed
+    /// derivative by s: predictor for an advance by `ds`. The caller then advances s in the energies by the returned
+    /// fraction of `ds`.
     ///
     /// # Errors
     /// As [`Self::linearise`].
@@ -335,9 +347,9 @@ impl Newton {
         self.continuation_step(model, state, ds, false)
     }
 
-    /// The fraction of the direction with `dt` that the model allows.
+    /// The feasible fraction of the direction with `dt`.
     fn feasible(&self, model: &mut dyn Model, state: &State, dt: f64) -> Result<f64, Cancelled> {
-        // Without the memory to tell there is no step. It is the model's owner who looks whether that ends the run.
+        // Where memory ran out the step is zero; the model's owner decides whether that ends the run.
         Ok(model.max_feasible_step(state.configuration(), &self.dx, dt, 1.0)?.unwrap_or(0.0))
     }
 
@@ -360,9 +372,9 @@ impl Newton {
         Ok(fraction * kept)
     }
 
-    /// One step of Newton's method, at fixed t or, with `free_t`, on the garment and t together (t never leaves [0, 1]):
-    /// linearise, bound, search. `None` where no fraction of the step decreases the objective: the state is as good as
-    /// rounding allows, or contact leaves no way.
+    /// One step of Newton's method, at fixed t or, with `free_t`, on the garment and t together (t never leaves \[0,
+    /// 1\]): linearise, limit the step length, line search. `None` where no fraction of the step decreases the
+    /// objective: the state has converged up to rounding, or contact blocks the step.
     ///
     /// # Errors
     /// As [`Self::linearise`].

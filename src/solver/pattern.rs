@@ -1,8 +1,8 @@
-//! Where the Hessian has non-zeros.
+//! Sparsity pattern of the Hessian.
 //!
 //! The matrix is symmetric and made of 3 x 3 blocks, one for each pair of vertices that share an element. The
-//! lower triangle is kept in compressed columns, and a block's entries lie at positions that follow from its
-//! place in its block column: assembly scatters straight into the array that is factorised.
+//! lower triangle is stored in compressed sparse columns (CSC), and the positions of a block's entries follow from its
+//! index in its block column: assembly scatters directly into the array that is factorised.
 
 use crate::memory::bytes;
 
@@ -13,7 +13,7 @@ pub struct Pattern {
     column_start: Vec<u32>,
     /// Block rows strictly below the diagonal, ascending in each column.
     rows: Vec<u32>,
-    /// The same as scalar compressed columns.
+    /// The same as scalar CSC.
     col_ptr: Vec<u32>,
     row_idx: Vec<u32>,
 }
@@ -92,7 +92,7 @@ impl Pattern {
         Self::new(self.vertex_count(), extra)
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub fn memory(&self) -> u64 {
         [&self.column_start, &self.rows, &self.col_ptr, &self.row_idx].into_iter().map(bytes).sum()
     }
@@ -107,8 +107,8 @@ impl Pattern {
         self.row_idx.len()
     }
 
-    /// Block rows strictly below the diagonal of block column `j`, ascending. Each of the three scalar columns holds the
-    /// entries of the diagonal block, those on and below the diagonal, and then three for each block row.
+    /// Block rows strictly below the diagonal of block column `j`, ascending. Each of the three scalar columns holds
+    /// the entries of the diagonal block, those on and below the diagonal, and then three for each block row.
     pub fn column(&self, j: usize) -> &[u32] {
         &self.rows[self.column_start[j] as usize..self.column_start[j + 1] as usize]
     }
@@ -123,7 +123,7 @@ impl Pattern {
         &self.row_idx
     }
 
-    /// Where the diagonal entry of each of the three scalar columns of block column `j` is stored; the entries below it
+    /// Offset of the diagonal entry of each of the three scalar columns of block column `j`; the entries below it
     /// within the diagonal block follow.
     #[inline]
     pub fn diagonal(&self, j: u32) -> [usize; 3] {

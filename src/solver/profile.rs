@@ -1,26 +1,26 @@
-//! Where the time of a stage goes, kernel by kernel.
+//! Timings of a stage by kernel.
 
 use std::ops::AddAssign;
 use std::time::Duration;
 
-/// Wall time by kernel, and thread time by term. It is measured only, and decides nothing.
+/// Wall time by kernel, and thread time by term. For reports only: no result depends on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Profile {
     /// Assembly of linear systems.
     pub assembly: Duration,
-    /// Symbolic factorisations, with the patterns that they are of.
+    /// Symbolic factorisations, with building their patterns.
     pub analysis: Duration,
     /// Numeric factorisations.
     pub factorisation: Duration,
     /// Solves with the factor.
     pub solve: Duration,
-    /// Searches for pairs that are near, or may come near in a step.
+    /// Broad phase: searches for pairs that are near, or may come near in a step.
     pub broad_phase: Duration,
     /// Continuous collision detection.
     pub ccd: Duration,
     /// Line searches.
     pub line_search: Duration,
-    /// The terms of the objective, in the order in which they first came up.
+    /// The terms of the objective, in order of first use.
     pub terms: Vec<TermTime>,
 }
 
@@ -29,14 +29,14 @@ pub struct Profile {
 pub struct TermTime {
     /// Name of the term.
     pub name: &'static str,
-    /// Its share of assembly.
+    /// Evaluating its derivatives and summing them, in assembly.
     pub derivatives: Duration,
-    /// Its values, most of them in line searches.
+    /// Evaluating its values, mostly in line searches.
     pub values: Duration,
 }
 
 impl Profile {
-    /// The entry of the term `name`, new where it has none.
+    /// The entry of the term `name`, added if missing.
     pub fn term(&mut self, name: &'static str) -> &mut TermTime {
         let at = self.terms.iter().position(|term| term.name == name).unwrap_or_else(|| {
             self.terms.push(TermTime { name, ..TermTime::default() });

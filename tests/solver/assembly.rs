@@ -1,4 +1,4 @@
-//! Pattern, assembly and factorisation against dense matrices.
+//! Pattern, assembly and factorisation compared with dense matrices.
 
 use std::ops::Range;
 
@@ -13,14 +13,14 @@ use glam::DVec3;
 use testing::Random;
 
 /// Vertices, their components, the component along t, g and h.
-type Piece = (Vec<u32>, Vec<DVec3>, f64, f64, f64);
+type RankOneUpdate = (Vec<u32>, Vec<DVec3>, f64, f64, f64);
 
-/// Rank-one pieces and blocks over random vertices: an energy in form only.
-pub struct Pieces {
-    pub elements: Vec<Piece>,
+/// Random rank-one updates, some of them with several rows: an energy with derivatives but no value.
+pub struct RankOneUpdates {
+    pub elements: Vec<RankOneUpdate>,
 }
 
-impl Pieces {
+impl RankOneUpdates {
     pub fn random(vertex_count: u32, count: usize, random: &mut Random) -> Self {
         let elements = (0..count)
             .map(|_| {
@@ -39,7 +39,7 @@ impl Pieces {
     }
 }
 
-/// Pieces that, without t, make up `h a a^T` and `g a`: more of them than a sink is used to, some without a Hessian.
+/// Rows whose sum without t is `h a a^T` and `g a`: up to nine, more than a stored element has, some without a Hessian.
 fn rows(k: usize, components: &[DVec3], t: f64, g: f64, h: f64) -> Vec<Row> {
     let mut all = [DVec3::ZERO; 4];
     all[..components.len()].copy_from_slice(components);
@@ -53,9 +53,9 @@ fn rows(k: usize, components: &[DVec3], t: f64, g: f64, h: f64) -> Vec<Row> {
     (0..count).map(part).collect()
 }
 
-impl Energy for Pieces {
+impl Energy for RankOneUpdates {
     fn name(&self) -> &'static str {
-        "pieces"
+        "rank-one updates"
     }
 
     fn len(&self) -> usize {
@@ -90,8 +90,8 @@ fn pattern_of(vertex_count: usize, energy: &dyn Energy) -> Pattern {
     Pattern::new(vertex_count, pairs)
 }
 
-/// Dense twin of the assembly, straight from the definition.
-fn dense(n: usize, energies: &[(&Pieces, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec<f64>, f64, f64) {
+/// Dense reference for the assembly, directly from the definition.
+fn dense(n: usize, energies: &[(&RankOneUpdates, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec<f64>, f64, f64) {
     let mut g = vec![0.0; 3 * n];
     let mut b = vec![0.0; 3 * n];
     let mut h = vec![vec![0.0; 3 * n]; 3 * n];
@@ -128,9 +128,9 @@ fn dense(n: usize, energies: &[(&Pieces, f64)]) -> (Vec<f64>, Vec<Vec<f64>>, Vec
 fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
     let mut random = Random::new(1);
     let n = 12;
-    // More than are summed at a time.
-    let first = Pieces::random(n as u32, 9000, &mut random);
-    let second = Pieces::random(n as u32, 40, &mut random);
+    // More elements than one batch.
+    let first = RankOneUpdates::random(n as u32, 9000, &mut random);
+    let second = RankOneUpdates::random(n as u32, 40, &mut random);
     let terms = [Term { energy: &first, weight: 0.7 }, Term { energy: &second, weight: 3.0 }];
     let pattern = pattern_of(n, &first);
     let x = vec![DVec3::ZERO; n];
@@ -161,7 +161,7 @@ fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
             close(system.hessian[p], h[i][j]);
         }
     }
-    // Nothing of the dense matrix lies outside of the pattern.
+    // The dense matrix has no non-zero outside of the pattern.
     let stored: f64 = system.hessian.iter().map(|v| v.abs()).sum();
     let lower: f64 = (0..3 * n).map(|i| h[i][..=i].iter().map(|v| v.abs()).sum::<f64>()).sum();
     close(stored, lower);
@@ -170,12 +170,12 @@ fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
 #[test]
 fn a_pair_outside_of_the_pattern_is_reported_and_the_pattern_grows() {
     let mut random = Random::new(2);
-    let known = Pieces::random(20, 30, &mut random);
-    let news = Pieces::random(20, 60, &mut random);
+    let known = RankOneUpdates::random(20, 30, &mut random);
+    let new = RankOneUpdates::random(20, 60, &mut random);
     let pattern = pattern_of(20, &known);
     let x = vec![DVec3::ZERO; 20];
     let at = Configuration { x: &x, t: 0.0 };
-    let terms = [Term { energy: &known, weight: 1.0 }, Term { energy: &news, weight: 1.0 }];
+    let terms = [Term { energy: &known, weight: 1.0 }, Term { energy: &new, weight: 1.0 }];
     let missing = System::default().assemble(&pattern, &terms, at).unwrap();
     assert!(!missing.is_empty());
     let grown = pattern.extended(missing);
@@ -187,11 +187,11 @@ fn a_pair_outside_of_the_pattern_is_reported_and_the_pattern_grows() {
 fn the_factor_solves_the_system() {
     let mut random = Random::new(3);
     let n = 40;
-    let pieces = Pieces::random(n as u32, 900, &mut random);
-    let pattern = pattern_of(n, &pieces);
+    let energy = RankOneUpdates::random(n as u32, 900, &mut random);
+    let pattern = pattern_of(n, &energy);
     let x = vec![DVec3::ZERO; n];
     let mut system = System::default();
-    system.assemble(&pattern, &[Term { energy: &pieces, weight: 1.0 }], Configuration { x: &x, t: 0.0 }).unwrap();
+    system.assemble(&pattern, &[Term { energy: &energy, weight: 1.0 }], Configuration { x: &x, t: 0.0 }).unwrap();
     for j in 0..n as u32 {
         for d in pattern.diagonal(j) {
             system.hessian[d] += 0.1;

@@ -1,5 +1,5 @@
-//! The sparse factorisation against a dense one, and against another library's.
-// Loops over indices, as the formulas have them.
+//! The sparse factorisation compared with a dense one and with faer's.
+// Index loops follow the formulas.
 #![allow(clippy::needless_range_loop)]
 
 use bespoke::control::{Cancel, Cancelled};
@@ -21,7 +21,7 @@ fn pattern(vertex_count: usize, pairs: impl IntoIterator<Item = (u32, u32)>) -> 
     Pattern::new(vertex_count, collected)
 }
 
-/// Random values off the diagonal, and diagonals that make the matrix positive definite by far or hardly.
+/// Random values off the diagonal, and a diagonal that makes the matrix diagonally dominant by `margin`.
 fn values(pattern: &Pattern, margin: f64, random: &mut Random) -> Vec<f64> {
     let n = 3 * pattern.vertex_count();
     let mut sums = vec![0.0_f64; n];
@@ -39,7 +39,7 @@ fn values(pattern: &Pattern, margin: f64, random: &mut Random) -> Vec<f64> {
     out
 }
 
-/// Rows of the whole matrix.
+/// The full symmetric matrix, by rows.
 fn dense(pattern: &Pattern, values: &[f64]) -> Vec<Vec<f64>> {
     let n = 3 * pattern.vertex_count();
     let mut out = vec![vec![0.0; n]; n];
@@ -53,7 +53,7 @@ fn dense(pattern: &Pattern, values: &[f64]) -> Vec<Vec<f64>> {
     out
 }
 
-/// Cholesky as in the book.
+/// Textbook dense Cholesky factorisation and solve.
 fn dense_solve(mut a: Vec<Vec<f64>>, b: &mut [f64]) {
     let n = b.len();
     for j in 0..n {
@@ -137,12 +137,12 @@ fn extreme_trees_agree_with_dense_algebra() {
     agrees_with_dense(&pattern(n as usize, (1..n).map(|a| (n - 1, a - 1))), &mut random);
     agrees_with_dense(&pattern(n as usize, (1..n).map(|a| ((a - 1) / 2, a))), &mut random);
     agrees_with_dense(&pattern(n as usize, (0..n).flat_map(all)), &mut random);
-    // Two parts that do not know of each other, one of them dense.
+    // Two disconnected parts, one of them dense.
     agrees_with_dense(&pattern(n as usize, (0..n / 2).flat_map(all).chain([(n - 1, n - 2)])), &mut random);
 }
 
-/// A sheet of `width` by `height` vertices, each joined to all within two steps along the rows and columns, as a bending
-/// term has it, and some chords like contacts.
+/// A grid of `width` by `height` vertices with a stencil like that of a bending term, and random edges like those of
+/// contacts.
 fn sheet(width: u32, height: u32, chords: usize, random: &mut Random) -> Pattern {
     let mut pairs = Vec::new();
     for y in 0..height {
@@ -161,7 +161,7 @@ fn sheet(width: u32, height: u32, chords: usize, random: &mut Random) -> Pattern
     pattern((width * height) as usize, pairs)
 }
 
-fn agrees_with_another_library(pattern: &Pattern, random: &mut Random) {
+fn agrees_with_faer(pattern: &Pattern, random: &mut Random) {
     let n = 3 * pattern.vertex_count();
     let matrix = values(pattern, 1e-3, random);
     let mut found: Vec<f64> = (0..2 * n).map(|_| random.signed()).collect();
@@ -176,8 +176,8 @@ fn agrees_with_another_library(pattern: &Pattern, random: &mut Random) {
 }
 
 #[test]
-fn garments_of_real_size_agree_with_another_library() {
-    // Trees of many shapes, cut into parts for several threads in many ways.
+fn garments_of_real_size_agree_with_faer() {
+    // Elimination trees of many shapes, with different parallel split points.
     let mut random = Random::new(13);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
     pool.install(|| {
@@ -186,22 +186,22 @@ fn garments_of_real_size_agree_with_another_library() {
             let (width, height) = (size(), size());
             let chords = (random.unit() * random.unit() * 100.0) as usize;
             let pattern = sheet(width, height, chords, &mut random);
-            agrees_with_another_library(&pattern, &mut random);
+            agrees_with_faer(&pattern, &mut random);
         }
-        // Pieces that do not know of each other.
-        let pieces = (0..12).flat_map(|k| {
+        // Disconnected parts.
+        let edges = (0..12).flat_map(|k| {
             let (first, width) = (1000 * k, 10 + k);
             (0..1000).flat_map(move |v| [1, width, width + 1].map(move |step| (first + v, first + v + step)))
         });
-        let apart = pieces.filter(|(a, b)| a / 1000 == b / 1000);
-        agrees_with_another_library(&pattern(12_000, apart), &mut random);
+        let within = edges.filter(|(a, b)| a / 1000 == b / 1000);
+        agrees_with_faer(&pattern(12_000, within), &mut random);
     });
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let mut random = Random::new(14);
-    // Large enough for parts in parallel and for fronts that several threads share.
+    // Large enough for parallel subtrees and for fronts that several threads share.
     let pattern = sheet(90, 70, 60, &mut random);
     let matrix = values(&pattern, 1e-3, &mut random);
     let rhs: Vec<f64> = (0..6 * pattern.vertex_count()).map(|_| random.signed()).collect();
@@ -210,7 +210,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         pool.install(|| {
             let mut factor = analysed(&pattern);
             let mut out = Vec::new();
-            // The second time in work space that has been used.
+            // The second time in used work space.
             for _ in 0..2 {
                 assert!(factor.factorise(&pattern, &matrix).unwrap());
                 let mut x = rhs.clone();

@@ -1,4 +1,4 @@
-//! The solver against dense algebra.
+//! The solver compared with dense algebra.
 
 mod assembly;
 mod cholesky;

@@ -1,4 +1,4 @@
-//! Newton's method on problems with known answers.
+//! Newton's method on problems with known solutions.
 
 use std::ops::Range;
 
@@ -58,9 +58,10 @@ impl Energy for Springs {
     }
 }
 
-struct Free(Springs, f64);
+/// Springs, and the largest feasible fraction of a step.
+struct Problem(Springs, f64);
 
-impl Model for Free {
+impl Model for Problem {
     fn terms(&self) -> Vec<Term<'_>> {
         vec![Term { energy: &self.0, weight: 2.0 }]
     }
@@ -83,7 +84,7 @@ fn start() -> State {
 
 #[test]
 fn descent_reaches_a_minimum_and_never_rises() {
-    let mut model = Free(Springs { count: 5 }, 1.0);
+    let mut model = Problem(Springs { count: 5 }, 1.0);
     let mut state = start();
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     let mut last = f64::INFINITY;
@@ -98,8 +99,8 @@ fn descent_reaches_a_minimum_and_never_rises() {
 }
 
 #[test]
-fn a_step_never_goes_beyond_what_the_model_admits() {
-    let mut model = Free(Springs { count: 5 }, 0.25);
+fn a_step_never_goes_beyond_the_feasible_fraction() {
+    let mut model = Problem(Springs { count: 5 }, 0.25);
     let mut state = start();
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     for _ in 0..5 {
@@ -111,28 +112,28 @@ fn a_step_never_goes_beyond_what_the_model_admits() {
 }
 
 #[test]
-fn cramped_steps_are_damped_until_steps_are_free_again() {
-    let mut model = Free(Springs { count: 5 }, 0.01);
+fn short_steps_are_damped_until_steps_are_long_again() {
+    let mut model = Problem(Springs { count: 5 }, 0.01);
     let mut state = start();
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
-    let mut damped = |admitted: f64, steps: usize| -> Vec<bool> {
-        model.1 = admitted;
+    let mut damped = |feasible: f64, steps: usize| -> Vec<bool> {
+        model.1 = feasible;
         (0..steps).map(|_| newton.newton_step(&mut model, &mut state, false).unwrap().unwrap().damped).collect()
     };
     assert_eq!(damped(0.01, 5), [false, false, false, true, true]);
-    let free = damped(1.0, 5);
-    assert!(free[0] && !free[4], "{free:?}");
+    let long = damped(1.0, 5);
+    assert!(long[0] && !long[4], "{long:?}");
 }
 
 /// The bordered system, solved as a dense one by Gaussian elimination, gives the same dt and dx.
 #[test]
 fn the_border_agrees_with_a_dense_solve() {
-    let model = Free(Springs { count: 5 }, 1.0);
+    let model = Problem(Springs { count: 5 }, 1.0);
     let state = start();
     let mut newton = Newton::new(5, &model.terms(), MemoryLimit::NONE, Cancel::new()).unwrap();
     newton.linearise(&model.terms(), state.configuration(), true).unwrap();
     let dt = newton.newton_dt();
-    // Finite differences along t of the energy minimised over x by the quadratic model: the slope must vanish at dt.
+    // The bordered system as a dense one: 15 coordinates, then t, then the right-hand side.
     let kept = newton.set_direction(dt);
     let dx: Vec<DVec3> = newton.direction().iter().map(|d| *d / kept).collect();
     let mut rows = vec![vec![0.0; 17]; 16];

@@ -1,4 +1,4 @@
-//! Scalars that begin where a cache line does.
+//! Arrays of scalars aligned to cache lines.
 
 use std::ops::{Deref, DerefMut};
 
@@ -6,10 +6,10 @@ use crate::memory::bytes;
 
 /// Bytes of a cache line, and of the widest vectors.
 const LINE: usize = 64;
-/// Scalars that may have to be skipped to get to the next one.
+/// Scalars that may have to be skipped to reach the next cache line.
 const SLACK: usize = LINE / size_of::<f64>() - 1;
 
-/// Room for some scalars; what they are is up to those who use it.
+/// An aligned array of scalars whose values are unspecified after [`Buffer::resize`].
 #[derive(Default)]
 pub(super) struct Buffer {
     memory: Vec<f64>,
@@ -17,10 +17,10 @@ pub(super) struct Buffer {
 }
 
 impl Buffer {
-    /// Makes it `len` scalars long, whatever they are. False where there is no memory: then it is empty.
+    /// Makes it `len` scalars long, with unspecified values. False where the allocation failed: then it is empty.
     pub(super) fn resize(&mut self, len: usize) -> bool {
         if self.memory.len() < len + SLACK {
-            // What is there is not needed any more, and must not be held beside the new.
+            // The old values are not needed, so they are freed first: both arrays are never held at once.
             *self = Self::default();
             if Vec::<f64>::new().try_reserve_exact(len + SLACK).is_err() {
                 return false;
@@ -32,12 +32,12 @@ impl Buffer {
         true
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub(super) fn memory(&self) -> u64 {
         bytes(&self.memory)
     }
 
-    /// Bytes that it holds once it has room for `len` scalars.
+    /// Bytes held after a resize to `len` scalars.
     pub(super) fn memory_for(&self, len: usize) -> u64 {
         self.memory().max(((len + SLACK) * size_of::<f64>()) as u64)
     }

@@ -1,46 +1,48 @@
-//! Dense kernels on one front: its columns factorised, their product subtracted from what is left.
+//! Dense kernels on one front: blocked Cholesky factorisation of its panel, and the product that is subtracted from its
+//! contribution block (a symmetric rank-k update, SYRK).
 //!
-//! A panel holds the columns of a supernode, one after the other: first the rows of the supernode itself, then those
-//! below, then zeros up to its leading dimension, a multiple of 8. Every entry is its first value minus the products of
-//! its row and its column, one after the other in the order of the columns, whatever the tiles are. So neither the
-//! number of threads nor the width of the processor's vectors changes a bit.
+//! A panel holds the columns of a supernode, column-major: first the rows of the supernode itself, then those below,
+//! then zeros up to its leading dimension `ld`, a multiple of 8. Every entry is its first value minus the products of
+//! its row and its column, in the order of the columns, whatever the tiles are. So neither the number of threads nor
+//! the width of the SIMD vectors changes a bit.
 
 use std::ops::Range;
 
 use crate::simd::lanes::{Lanes, for_this_processor};
 
-/// Rows and columns of a tile, and what leading dimensions are multiples of.
+/// Rows and columns of a register tile; leading dimensions are multiples of it.
 pub(super) const TILE: usize = 8;
-/// Columns of a panel that are finished before the rows below them are looked at.
-pub(super) const STEP: usize = 6 * TILE;
-/// Columns of an update matrix that are treated together: whole tiles and whole vertices.
-pub(super) const GROUP: usize = 3 * TILE;
+/// Block size of the blocked factorisation (LAPACK's `nb`): columns whose diagonal block is factorised before the rows
+/// below it are solved for.
+pub(super) const BLOCK_WIDTH: usize = 6 * TILE;
+/// Columns of a contribution block that are computed together: whole tiles and whole vertices.
+pub(super) const COLUMN_GROUP: usize = 3 * TILE;
 
 /// `n`, rounded up to whole tiles.
 pub(super) const fn padded(n: usize) -> usize {
     n.next_multiple_of(TILE)
 }
 
-/// Scalars of the lower triangle of an update matrix with `rows` rows. It is kept in blocks of eight columns, each from
-/// the row of its first diagonal entry down.
-pub(super) const fn update_len(rows: usize) -> usize {
-    update_start(rows, padded(rows) / TILE)
+/// Scalars of a contribution block with `rows` rows. Only its lower triangle is stored, in strips of eight columns,
+/// each from the row of its first diagonal entry down.
+pub(super) const fn contribution_len(rows: usize) -> usize {
+    contribution_start(rows, padded(rows) / TILE)
 }
 
-/// Where block `block` of eight columns begins.
-pub(super) const fn update_start(rows: usize, block: usize) -> usize {
+/// Offset of strip `block` of eight columns.
+pub(super) const fn contribution_start(rows: usize, block: usize) -> usize {
     let rows = padded(rows);
     TILE * block * rows - TILE * TILE * block * block.saturating_sub(1) / 2
 }
 
-/// Where the diagonal entry of `column` is in an update matrix with `rows` rows; those below it follow.
+/// Offset of the diagonal entry of `column` in a contribution block with `rows` rows; the entries below it follow.
 #[inline]
-pub(super) const fn update_diagonal(rows: usize, column: usize) -> usize {
+pub(super) const fn contribution_diagonal(rows: usize, column: usize) -> usize {
     let (block, k) = (column / TILE, column % TILE);
-    update_start(rows, block) + k * (padded(rows) - TILE * block) + k
+    contribution_start(rows, block) + k * (padded(rows) - TILE * block) + k
 }
 
-/// A factorised diagonal tile.
+/// A factorised diagonal tile: a lower triangular factor.
 #[derive(Clone, Copy)]
 struct Triangle {
     /// `lower[n][q]` is the entry in row `q` and column `n`.
@@ -68,14 +70,14 @@ impl Triangle {
     }
 }
 
-/// What a tile is before products are subtracted, and what becomes of it afterwards.
+/// Mode of a tile: products are subtracted from the values that it holds.
 const KEEP: u8 = 0;
-/// Its entries count as zero at first.
+/// Products are subtracted from zero.
 const ZERO: u8 = 1;
-/// It is solved with the triangle, from the right.
+/// As [`KEEP`], then a triangular solve from the right (TRSM).
 const SOLVE: u8 = 2;
 
-/// Subtracts `a b^T` from a tile of `S` vectors of rows and `N` columns, and what `MODE` says.
+/// The micro-kernel: subtracts `a b^T` from a tile of `S` SIMD vectors of rows and `N` columns, as `MODE` says.
 ///
 /// # Safety
 /// The tile can be written in columns `ldc` apart; `a` and `b` can be read in `depth` columns `ld` apart, rows as in
@@ -91,7 +93,8 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
     depth: usize,
     triangle: &Triangle,
 ) {
-    // SAFETY: the caller's promise. (Loops, not closures: these would be compiled for the plain processor.)
+    // SAFETY: the caller's promise. (Loops, not closures: a closure would be compiled without the instructions that are
+    // chosen at run time.)
     unsafe {
         let mut sums = [[V::splat(0.0); S]; N];
         if MODE != ZERO {
@@ -139,7 +142,7 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
 /// [`tile`] for as many `rows`, a multiple of 8, one strip below the other.
 ///
 /// # Safety
-/// As there.
+/// As [`tile`].
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
@@ -178,7 +181,7 @@ unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
 /// [`strips`] with `width` columns, 1 to 8.
 ///
 /// # Safety
-/// As there.
+/// As [`strips`].
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 unsafe fn columns<V: Lanes, const MODE: u8>(
@@ -207,14 +210,14 @@ unsafe fn columns<V: Lanes, const MODE: u8>(
     }
 }
 
-/// The columns of one front in memory. A copy of it names the same memory.
+/// The panel of one front: a pointer to its columns. Copies point to the same memory.
 #[derive(Clone, Copy)]
 pub(super) struct Panel {
     start: *mut f64,
     ld: usize,
 }
 
-// SAFETY: it is an address; whoever reads or writes there promises that nobody else interferes.
+// SAFETY: it is an address; the unsafe functions that read or write there state which rows other threads may not use.
 unsafe impl Send for Panel {}
 // SAFETY: as above.
 unsafe impl Sync for Panel {}
@@ -225,22 +228,23 @@ impl Panel {
         Self { start: memory.as_mut_ptr(), ld }
     }
 
-    /// Finishes columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a multiple of 8, and the
-    /// columns before it are finished in these rows. False where a pivot is not positive and finite.
+    /// Factorises the diagonal block: columns `begin..end` in the rows from `begin` to `padded(end)`. `begin` is a
+    /// multiple of 8, and the columns before it are finished in these rows. False where a pivot is not positive and
+    /// finite.
     ///
     /// # Safety
-    /// The panel has these columns and rows, and nobody else uses these rows meanwhile.
+    /// The panel has these columns and rows, and no other thread uses these rows meanwhile.
     pub(super) unsafe fn factorise_diagonal(self, begin: usize, end: usize) -> bool {
         let Self { start, ld } = self;
         // SAFETY: the caller's promise.
         unsafe { for_this_processor!(factorise_diagonal(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool) }
     }
 
-    /// Finishes columns `begin..end`, at most [`STEP`], in `rows`, whole tiles of rows below `padded(end)`, after
-    /// [`Self::factorise_diagonal`] and where the columns before are finished.
+    /// Solves for columns `begin..end`, at most [`BLOCK_WIDTH`], in `rows`, whole tiles of rows below `padded(end)`,
+    /// after [`Self::factorise_diagonal`] and where the columns before are finished.
     ///
     /// # Safety
-    /// The panel has these columns and rows, nobody else uses these rows meanwhile, and nobody writes those from
+    /// The panel has these columns and rows, no other thread uses these rows meanwhile, and none writes those from
     /// `begin` to `end`.
     pub(super) unsafe fn finish_rows(self, begin: usize, end: usize, rows: Range<usize>) {
         let Self { start, ld } = self;
@@ -280,7 +284,8 @@ unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize,
     true
 }
 
-/// The tile on the diagonal, one scalar after the other, and what is left of its rows where it has fewer columns.
+/// Scalar Cholesky factorisation of a diagonal tile of `width` columns; the rows below them, up to eight, are solved
+/// for.
 #[inline(always)]
 unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) -> bool {
     let mut tile = [[0.0; TILE]; TILE];
@@ -314,15 +319,15 @@ unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) ->
 
 #[inline(always)]
 unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: usize, top: usize, count: usize) {
-    let mut triangles = [Triangle::ZERO; STEP / TILE];
+    let mut triangles = [Triangle::ZERO; BLOCK_WIDTH / TILE];
     for (k, triangle) in triangles.iter_mut().enumerate().take((end - begin).div_ceil(TILE)) {
         let j = begin + k * TILE;
         // SAFETY: the tile is on the diagonal of the panel.
         *triangle = unsafe { Triangle::read(start.add(j * ld + j), ld, TILE.min(end - j)) };
     }
-    // A strip stays in the first cache while all the columns pass.
-    for i in (top..top + count).step_by(GROUP) {
-        let rows = GROUP.min(top + count - i);
+    // A strip of rows stays in the L1 cache while all the columns are applied to it.
+    for i in (top..top + count).step_by(COLUMN_GROUP) {
+        let rows = COLUMN_GROUP.min(top + count - i);
         for (triangle, j) in triangles.iter().zip((begin..end).step_by(TILE)) {
             // SAFETY: these rows and columns are within the panel.
             unsafe {
@@ -333,10 +338,10 @@ unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: u
     }
 }
 
-/// Sets group `group` of an update matrix to the product of a finished panel, negative: `depth` columns, of which the
-/// rows from `below` on are those of the update matrix, `rows` of them.
+/// Sets column group `group` of a contribution block to `-L L^T`, where L is the part of a finished panel with `depth`
+/// columns that begins at row `below` and has the `rows` rows of the contribution block.
 pub(super) fn negative_product(
-    update: &mut [f64],
+    contribution: &mut [f64],
     rows: usize,
     group: usize,
     panel: &[f64],
@@ -344,11 +349,14 @@ pub(super) fn negative_product(
     below: usize,
     depth: usize,
 ) {
-    let first = group * GROUP;
-    let last = (first + GROUP).min(padded(rows));
-    assert!(first < last && update.len() == update_start(rows, last / TILE) - update_start(rows, first / TILE));
+    let first = group * COLUMN_GROUP;
+    let last = (first + COLUMN_GROUP).min(padded(rows));
+    assert!(
+        first < last
+            && contribution.len() == contribution_start(rows, last / TILE) - contribution_start(rows, first / TILE)
+    );
     assert!(below + padded(rows) <= ld && depth * ld <= panel.len());
-    let (c, a) = (update.as_mut_ptr(), panel[below + first..].as_ptr());
+    let (c, a) = (contribution.as_mut_ptr(), panel[below + first..].as_ptr());
     let (left, width) = (padded(rows) - first, last - first);
     // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of
     // the panel are as many as those of the blocks.
@@ -366,8 +374,8 @@ pub(super) fn negative_product(
 
 #[inline(always)]
 unsafe fn product_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *const f64, ld: usize, depth: usize) {
-    for i in (0..rows).step_by(GROUP) {
-        let bottom = rows.min(i + GROUP);
+    for i in (0..rows).step_by(COLUMN_GROUP) {
+        let bottom = rows.min(i + COLUMN_GROUP);
         let mut block = c;
         for j in (0..width).step_by(TILE) {
             let top = i.max(j);

@@ -1,4 +1,5 @@
-//! The garment's vertices and who shares an element with whom, and an order in which to eliminate them.
+//! The adjacency graph of the garment's vertices, and a fill-reducing elimination order (AMD: Amestoy, Davis and Duff
+//! 1996).
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
@@ -6,16 +7,16 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use crate::solver::pattern::Pattern;
 
-/// A vertex that another one shares an element with.
+/// An adjacent vertex: one that shares an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Neighbour {
     /// The vertex.
     pub vertex: u32,
-    /// Which of the blocks below the diagonal theirs is, in the column of the smaller one of the two.
-    pub place: u32,
+    /// Index of the edge's block among those below the diagonal, in the block column of the smaller vertex.
+    pub index: u32,
 }
 
-/// The pattern from both sides.
+/// The pattern as an undirected graph in compressed form: each edge is stored at both of its vertices.
 pub(super) struct Graph {
     start: Vec<u32>,
     neighbours: Vec<Neighbour>,
@@ -35,15 +36,15 @@ impl Graph {
         for j in 2..n + 2 {
             start[j] += start[j - 1];
         }
-        let mut neighbours = vec![Neighbour { vertex: 0, place: 0 }; start[n + 1] as usize];
-        let mut put = |at: usize, vertex: u32, place: usize| {
-            neighbours[start[at + 1] as usize] = Neighbour { vertex, place: place as u32 };
+        let mut neighbours = vec![Neighbour { vertex: 0, index: 0 }; start[n + 1] as usize];
+        let mut put = |at: usize, vertex: u32, index: usize| {
+            neighbours[start[at + 1] as usize] = Neighbour { vertex, index: index as u32 };
             start[at + 1] += 1;
         };
         for j in 0..n {
-            for (place, &i) in pattern.column(j).iter().enumerate() {
-                put(j, i, place);
-                put(i as usize, j as u32, place);
+            for (index, &i) in pattern.column(j).iter().enumerate() {
+                put(j, i, index);
+                put(i as usize, j as u32, index);
             }
         }
         Self { start, neighbours }
@@ -62,7 +63,7 @@ impl Graph {
     }
 }
 
-/// The vertices in an order of approximately minimum degree.
+/// The vertices in an approximate minimum degree order, computed by faer.
 pub(super) fn minimum_degree(pattern: &Pattern) -> Result<Vec<u32>, FaerError> {
     let n = pattern.vertex_count();
     let mut col_ptr = vec![0u32];

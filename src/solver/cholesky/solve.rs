@@ -1,30 +1,32 @@
-//! Substitution: from the leaves of the tree to its root and back.
+//! Triangular solves: forward substitution from the leaves of the tree to its root, backward substitution from the root
+//! to the leaves.
 //!
-//! On the way up a front's vector is kept where its update matrix was, for the parent to take what is below its
-//! columns. On the way down a front reads the solution of its ancestors, which are done.
+//! In the forward pass a front's vector is kept in the place of its contribution block; its parent adds the entries
+//! below the front's columns by the same relative indices. In the backward pass a front reads the solution at its
+//! ancestors' columns, which are done.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::numeric::{divided, parts};
+use super::numeric::{dependency_regions, split_region};
 use super::substitution;
-use super::symbolic::Plan;
+use super::symbolic::Symbolic;
 
-/// One or two right-hand sides on their way.
+/// A solve for up to [`super::MAX_RHS`] right-hand sides.
 pub(super) struct Solve<'a> {
-    pub plan: &'a Plan,
+    pub symbolic: &'a Symbolic,
     /// The factor.
     pub values: &'a [f64],
-    /// Bits of the right-hand sides, then of the solutions: for each position as many as there are columns. Each is
-    /// written by the one task that eliminates it, and read by those that come after.
+    /// Bits of the right-hand sides, then of the solutions, `columns` for each position in the elimination order. Each
+    /// is written by the one task that eliminates it, and read by tasks that are ordered after it.
     pub x: &'a [AtomicU64],
     pub columns: usize,
 }
 
 impl Solve<'_> {
     pub(super) fn run(&self, work: &mut [f64]) {
-        if let Some(last) = self.plan.tasks.len().checked_sub(1) {
-            self.up(last, work);
-            self.down(last, work);
+        if let Some(last) = self.symbolic.tasks.len().checked_sub(1) {
+            self.forward_task(last, work);
+            self.backward_task(last, work);
         }
     }
 
@@ -38,36 +40,36 @@ impl Solve<'_> {
         self.x[row * self.columns + column].store(value.to_bits(), Ordering::Relaxed);
     }
 
-    fn up(&self, t: usize, work: &mut [f64]) {
-        let task = &self.plan.tasks[t];
-        if !task.before.is_empty() {
+    fn forward_task(&self, t: usize, work: &mut [f64]) {
+        let task = &self.symbolic.tasks[t];
+        if !task.dependencies.is_empty() {
             rayon::scope(|scope| {
-                for (&b, work) in task.before.iter().zip(parts(self.plan, task, work)) {
-                    scope.spawn(move |_| self.up(b, work));
+                for (&b, work) in task.dependencies.iter().zip(dependency_regions(self.symbolic, task, work)) {
+                    scope.spawn(move |_| self.forward_task(b, work));
                 }
             });
         }
         for s in task.nodes.clone() {
-            let node = &self.plan.nodes[s];
+            let node = &self.symbolic.nodes[s];
             let region = &mut work[node.region.start - task.region.start..][..node.region.len()];
-            self.forward(s, region);
+            self.forward_front(s, region);
         }
     }
 
-    fn forward(&self, s: usize, region: &mut [f64]) {
-        let node = &self.plan.nodes[s];
-        let (left, update) = divided(node, region);
+    fn forward_front(&self, s: usize, region: &mut [f64]) {
+        let node = &self.symbolic.nodes[s];
+        let (children, contribution) = split_region(node, region);
         let panel = &self.values[node.panel..][..node.panel_len()];
         for column in 0..self.columns {
-            let vector = &mut update[column * node.ld..][..node.ld];
+            let vector = &mut contribution[column * node.ld..][..node.ld];
             for (k, value) in vector[..node.columns].iter_mut().enumerate() {
                 *value = self.get(node.first + k, column);
             }
             vector[node.columns..].fill(0.0);
-            for child in self.plan.children(s) {
-                let from = &left.vector(child, column)[child.columns..][..child.rows];
-                for (place, value) in self.plan.places(child).iter().zip(from.as_chunks::<3>().0) {
-                    let to = &mut vector[3 * *place as usize..][..3];
+            for child in self.symbolic.children(s) {
+                let from = &children.vector(child, column)[child.columns..][..child.rows];
+                for (index, value) in self.symbolic.relative_indices(child).iter().zip(from.as_chunks::<3>().0) {
+                    let to = &mut vector[3 * *index as usize..][..3];
                     to[0] += value[0];
                     to[1] += value[1];
                     to[2] += value[2];
@@ -80,31 +82,31 @@ impl Solve<'_> {
         }
     }
 
-    fn down(&self, t: usize, work: &mut [f64]) {
-        let task = &self.plan.tasks[t];
+    fn backward_task(&self, t: usize, work: &mut [f64]) {
+        let task = &self.symbolic.tasks[t];
         for s in task.nodes.clone().rev() {
-            let node = &self.plan.nodes[s];
-            self.backward(s, &mut work[node.update.start - task.region.start..][..node.update.len()]);
+            let node = &self.symbolic.nodes[s];
+            self.backward_front(s, &mut work[node.contribution.start - task.region.start..][..node.contribution.len()]);
         }
-        if !task.before.is_empty() {
+        if !task.dependencies.is_empty() {
             rayon::scope(|scope| {
-                for (&b, work) in task.before.iter().zip(parts(self.plan, task, work)) {
-                    scope.spawn(move |_| self.down(b, work));
+                for (&b, work) in task.dependencies.iter().zip(dependency_regions(self.symbolic, task, work)) {
+                    scope.spawn(move |_| self.backward_task(b, work));
                 }
             });
         }
     }
 
-    fn backward(&self, s: usize, room: &mut [f64]) {
-        let node = &self.plan.nodes[s];
+    fn backward_front(&self, s: usize, contribution: &mut [f64]) {
+        let node = &self.symbolic.nodes[s];
         let panel = &self.values[node.panel..][..node.panel_len()];
         for column in 0..self.columns {
-            let vector = &mut room[column * node.ld..][..node.ld];
+            let vector = &mut contribution[column * node.ld..][..node.ld];
             let (own, below) = vector.split_at_mut(node.columns);
             for (k, value) in own.iter_mut().enumerate() {
                 *value = self.get(node.first + k, column);
             }
-            for (&row, to) in self.plan.rows(node).iter().zip(below.as_chunks_mut::<3>().0) {
+            for (&row, to) in self.symbolic.rows(node).iter().zip(below.as_chunks_mut::<3>().0) {
                 *to = std::array::from_fn(|c| self.get(3 * row as usize + c, column));
             }
             below[node.rows..].fill(0.0);

@@ -1,11 +1,13 @@
-//! Dense kernels of the substitution: one right-hand side past the panel of one front.
+//! Dense kernels of forward and backward substitution: one right-hand side, the panel of one front.
 //!
-//! A front's vector has its columns, then its rows, then anything finite up to the panel's leading dimension.
+//! A front's vector holds the entries of its columns, then of its rows, then finite padding up to the panel's leading
+//! dimension.
 
 use super::kernel::TILE;
 use crate::simd::lanes::{Lanes, for_this_processor};
 
-/// Solves with the triangle of a panel of `columns` columns, and subtracts their product from the rest of `vector`.
+/// Forward substitution: solves with the lower triangle of a panel of `columns` columns, and subtracts the product of
+/// its rows below with the solution from the rest of `vector`.
 pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
@@ -13,7 +15,8 @@ pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f6
     unsafe { for_this_processor!(forward_front(panel: *const f64, ld: usize, columns: usize, vector: *mut f64)) }
 }
 
-/// Subtracts from the columns' part of `vector` what the rest contributes, and solves with the transposed triangle.
+/// Backward substitution: subtracts from the columns' part of `vector` the product of the transposed rows below with
+/// the rest, and solves with the transposed triangle.
 pub(super) fn backward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
@@ -115,7 +118,8 @@ unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize,
     }
 }
 
-/// The products of `N` columns with `y`, negative. Each is summed in eight lanes, whatever the processor has.
+/// The negative inner products of `N` columns with `y`. Each is summed in eight lanes, whatever the SIMD width, so that
+/// the bits do not depend on it.
 ///
 /// # Safety
 /// As [`subtract_columns`].

@@ -1,79 +1,82 @@
-//! The elimination tree, gathered into supernodes: sets of columns that are eliminated together.
+//! The elimination tree (Liu 1990) and its supernodes, relaxed by amalgamation (Ashcraft and Grimes 1989).
 //!
-//! Everything is counted in vertices, which stand for three columns each.
+//! Everything is counted in vertices, which stand for three scalar columns each.
 
 use super::ordering::Graph;
 
 /// No parent, no sibling.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What a front costs, in nanoseconds of one processor. Where one front costs less than two, they become one.
-fn cost(columns: usize, rows: usize) -> f64 {
+/// Modelled time of a front, in nanoseconds on one core. Two fronts are amalgamated where one costs less than both:
+/// that weighs the explicit zeros against the overhead of a front.
+fn front_cost(columns: usize, rows: usize) -> f64 {
     const FRONT: f64 = 400.0;
     const SCALAR: f64 = 4.0;
-    const UPDATE: f64 = 1.5;
-    const PRODUCT: f64 = 0.04;
+    const CONTRIBUTION: f64 = 1.5;
+    const MULTIPLY_ADD: f64 = 0.04;
     let (k, r) = (3.0 * columns as f64, 3.0 * rows as f64);
-    FRONT + SCALAR * k * (k + r) + UPDATE * r * r / 2.0 + PRODUCT * products(columns, rows)
+    FRONT + SCALAR * k * (k + r) + CONTRIBUTION * r * r / 2.0 + MULTIPLY_ADD * multiply_adds(columns, rows)
 }
 
-/// Multiplications with an addition in the factorisation of a front.
-pub(super) fn products(columns: usize, rows: usize) -> f64 {
+/// Multiply-adds in the factorisation of a front.
+pub(super) fn multiply_adds(columns: usize, rows: usize) -> f64 {
     let (k, r) = (3.0 * columns as f64, 3.0 * rows as f64);
     k * r * r / 2.0 + k * k * r / 2.0 + k * k * k / 6.0
 }
 
-/// Supernodes, children before their parents. The last one is the root of all: it has no columns.
+/// The supernodal elimination tree in postorder. The last supernode is a virtual root without columns, the parent of
+/// all roots.
 pub(super) struct Supernodes {
     /// The vertex that is eliminated at each position.
     pub vertex_at: Vec<u32>,
     /// The position at which each vertex is eliminated.
     pub position: Vec<u32>,
-    /// For each supernode its first position; one more.
+    /// For each supernode its first position; one entry more than supernodes.
     pub first: Vec<u32>,
     /// For each supernode how many rows it has below its columns.
     pub row_count: Vec<u32>,
-    /// For each supernode where its children begin in `children`; one more.
+    /// For each supernode where its children begin in `children`; one entry more than supernodes.
     pub child_start: Vec<u32>,
     /// The children of all, ascending.
     pub children: Vec<u32>,
-    /// For each supernode the products in the fronts at and below it.
+    /// For each supernode the multiply-adds in the fronts of its subtree, its own included.
     pub work: Vec<f64>,
-    /// For each supernode whether parts of the tree below it are for several threads.
-    pub forks: Vec<bool>,
+    /// For each supernode whether it is a parallel split point: its children's subtrees become separate tasks.
+    pub split_points: Vec<bool>,
 }
 
-/// Fewest products of a part of the tree that is worth a thread, and the largest share of all the products where that
-/// is more: beyond so many parts the tree is not cut further.
-const PART: f64 = 5e5;
-const PART_SHARE: f64 = 1.0 / 128.0;
+/// Multiply-adds below which a subtree is not worth a task of its own.
+const MIN_TASK_MULTIPLY_ADDS: f64 = 5e5;
+/// The same as a share of all multiply-adds, where that is more: it bounds the number of tasks.
+const MIN_TASK_SHARE: f64 = 1.0 / 128.0;
 
-/// Columns that are eliminated together while supernodes are being merged, as a linked list of ranges.
-struct Draft {
+/// A supernode during amalgamation. Its columns are a linked list of ranges, each the columns of a maximal supernode.
+struct Supernode {
     columns: usize,
     rows: usize,
     parent: u32,
-    /// The first range; the last one is its own.
+    /// The first range of the list; the last one is its own.
     head: u32,
     first_child: u32,
     last_child: u32,
     sibling: u32,
-    /// The range after this one in the list that it is in.
+    /// The range after this one in its list.
     next: u32,
-    merged: bool,
+    amalgamated: bool,
 }
 
 impl Supernodes {
-    /// The tree of `graph` eliminated in nearly this `order`: positions change only where the fill does not.
+    /// The supernodal elimination tree of `graph` for the elimination `order`, which is postordered: an equivalent
+    /// reordering, with the same fill.
     pub(super) fn new(graph: &Graph, order: Vec<u32>) -> Self {
-        let (order, parent) = postordered(graph, order);
+        let (order, parent) = postordered_columns(graph, order);
         let position = inverse(&order);
         let counts = column_counts(graph, &order, &position, &parent);
-        let (begins, mut drafts) = maximal_supernodes(&parent, &counts);
-        for s in 0..drafts.len() {
-            merge_children(&mut drafts, s);
+        let (begins, mut supernodes) = maximal_supernodes(&parent, &counts);
+        for s in 0..supernodes.len() {
+            amalgamate_children(&mut supernodes, s);
         }
-        arranged(&order, &begins, &drafts)
+        postordered_supernodes(&order, &begins, &supernodes)
     }
 
     /// Number of supernodes.
@@ -86,14 +89,14 @@ impl Supernodes {
         &self.children[self.child_start[s] as usize..self.child_start[s + 1] as usize]
     }
 
-    /// Whether the part of the tree at and below `s` is worth a thread.
+    /// Whether the subtree of `s` is worth a task of its own.
     pub(super) fn is_large(&self, s: usize) -> bool {
-        self.work[s] >= part_work(&self.work)
+        self.work[s] >= min_task_work(&self.work)
     }
 }
 
-fn part_work(work: &[f64]) -> f64 {
-    PART.max(PART_SHARE * work.last().copied().unwrap_or(0.0))
+fn min_task_work(work: &[f64]) -> f64 {
+    MIN_TASK_MULTIPLY_ADDS.max(MIN_TASK_SHARE * work.last().copied().unwrap_or(0.0))
 }
 
 fn inverse(order: &[u32]) -> Vec<u32> {
@@ -104,12 +107,12 @@ fn inverse(order: &[u32]) -> Vec<u32> {
     position
 }
 
-/// The elimination tree, and the order changed so that each column comes right after the columns below it.
-fn postordered(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+/// The order in a postorder of its elimination tree, and the tree: the parent of each column (Liu 1990).
+fn postordered_columns(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
     let n = graph.vertex_count();
     let position = inverse(&order);
     let mut parent = vec![NONE; n];
-    // A shortcut from each column to the furthest ancestor so far.
+    // Path compression: a shortcut from each column to its furthest known ancestor.
     let mut ancestor = vec![NONE; n];
     for j in 0..n as u32 {
         for neighbour in graph.neighbours(order[j as usize]) {
@@ -134,13 +137,13 @@ fn postordered(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
     let mut renumbered = vec![NONE; n];
     let mut next_order = Vec::with_capacity(n);
     let mut at = first_child[n];
-    let mut up = Vec::new();
-    while at != NONE || !up.is_empty() {
+    let mut stack = Vec::new();
+    while at != NONE || !stack.is_empty() {
         while at != NONE {
-            up.push(at);
+            stack.push(at);
             at = first_child[at as usize];
         }
-        if let Some(j) = up.pop() {
+        if let Some(j) = stack.pop() {
             renumbered[j as usize] = next_order.len() as u32;
             next_order.push(order[j as usize]);
             at = sibling[j as usize];
@@ -155,7 +158,8 @@ fn postordered(graph: &Graph, order: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
     (next_order, next_parent)
 }
 
-/// How many vertices the factor has in each column, the diagonal included.
+/// Column counts: how many vertices the factor has in each column, the diagonal included. Walks the row subtrees of the
+/// elimination tree, one step for each entry of the factor.
 fn column_counts(graph: &Graph, order: &[u32], position: &[u32], parent: &[u32]) -> Vec<u32> {
     let n = order.len();
     let mut counts = vec![1u32; n];
@@ -164,7 +168,7 @@ fn column_counts(graph: &Graph, order: &[u32], position: &[u32], parent: &[u32])
         seen[i as usize] = i;
         for neighbour in graph.neighbours(order[i as usize]) {
             let mut k = position[neighbour.vertex as usize];
-            // All columns on the way up to i have a row i.
+            // The row subtree of i: all columns on the path up to i have an entry in row i.
             while k < i && seen[k as usize] != i {
                 seen[k as usize] = i;
                 counts[k as usize] += 1;
@@ -175,9 +179,9 @@ fn column_counts(graph: &Graph, order: &[u32], position: &[u32], parent: &[u32])
     counts
 }
 
-/// Neighbouring columns with the same rows. Returns where each supernode begins, one more, and the supernodes, the root
-/// of all among them.
-fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Draft>) {
+/// Maximal supernodes: runs of consecutive columns, each the parent of the one before, with the same structure below.
+/// Returns where each begins, with a final entry, and the supernodes with the virtual root.
+fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Supernode>) {
     let n = parent.len();
     let mut begins = Vec::new();
     let mut of = Vec::with_capacity(n);
@@ -190,7 +194,7 @@ fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Draft>) 
     }
     let root = begins.len() as u32;
     begins.extend([n as u32; 2]);
-    let mut drafts: Vec<Draft> = (0..=root)
+    let mut supernodes: Vec<Supernode> = (0..=root)
         .map(|s| {
             let (begin, end) = (begins[s as usize] as usize, begins[s as usize + 1] as usize);
             let (rows, parent) = match end.checked_sub(1).filter(|_| s < root) {
@@ -198,7 +202,7 @@ fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Draft>) 
                 Some(_) => (0, root),
                 None => (0, NONE),
             };
-            Draft {
+            Supernode {
                 columns: end - begin,
                 rows,
                 parent,
@@ -207,86 +211,88 @@ fn maximal_supernodes(parent: &[u32], counts: &[u32]) -> (Vec<u32>, Vec<Draft>) 
                 last_child: NONE,
                 sibling: NONE,
                 next: NONE,
-                merged: false,
+                amalgamated: false,
             }
         })
         .collect();
     for s in (0..root).rev() {
-        let p = drafts[s as usize].parent as usize;
-        drafts[s as usize].sibling = drafts[p].first_child;
-        drafts[p].first_child = s;
-        if drafts[p].last_child == NONE {
-            drafts[p].last_child = s;
+        let p = supernodes[s as usize].parent as usize;
+        supernodes[s as usize].sibling = supernodes[p].first_child;
+        supernodes[p].first_child = s;
+        if supernodes[p].last_child == NONE {
+            supernodes[p].last_child = s;
         }
     }
-    (begins, drafts)
+    (begins, supernodes)
 }
 
-fn children_of(drafts: &[Draft], s: usize) -> Vec<u32> {
-    let first = Some(drafts[s].first_child).filter(|&c| c != NONE);
-    std::iter::successors(first, |&c| Some(drafts[c as usize].sibling).filter(|&c| c != NONE)).collect()
+fn children_of(supernodes: &[Supernode], s: usize) -> Vec<u32> {
+    let first = Some(supernodes[s].first_child).filter(|&c| c != NONE);
+    std::iter::successors(first, |&c| Some(supernodes[c as usize].sibling).filter(|&c| c != NONE)).collect()
 }
 
-/// Merges those children into `s` with which it is cheaper, those with the most rows first.
-fn merge_children(drafts: &mut [Draft], s: usize) {
-    // The root of all has no front.
-    if drafts[s].parent == NONE || drafts[s].first_child == NONE {
+/// Relaxed amalgamation: merges into `s` each child with which one front is cheaper than two, those with the most rows
+/// first.
+fn amalgamate_children(supernodes: &mut [Supernode], s: usize) {
+    // The virtual root has no front.
+    if supernodes[s].parent == NONE || supernodes[s].first_child == NONE {
         return;
     }
-    let mut children = children_of(drafts, s);
-    children.sort_by_key(|&c| std::cmp::Reverse((drafts[c as usize].rows, c)));
+    let mut children = children_of(supernodes, s);
+    children.sort_by_key(|&c| std::cmp::Reverse((supernodes[c as usize].rows, c)));
     let (mut first, mut last) = (NONE, NONE);
     for c in children {
-        let child = &drafts[c as usize];
-        let (columns, rows) = (drafts[s].columns, drafts[s].rows);
-        let apart = cost(columns, rows) + cost(child.columns, child.rows);
+        let child = &supernodes[c as usize];
+        let (columns, rows) = (supernodes[s].columns, supernodes[s].rows);
+        let separate = front_cost(columns, rows) + front_cost(child.columns, child.rows);
         let (mut head, mut tail) = (c, c);
-        if cost(columns + child.columns, rows) < apart {
-            let (together, ranges) = (columns + child.columns, child.head);
+        if front_cost(columns + child.columns, rows) < separate {
+            let (total, ranges) = (columns + child.columns, child.head);
             (head, tail) = (child.first_child, child.last_child);
-            drafts[s].columns = together;
-            drafts[c as usize].next = drafts[s].head;
-            drafts[c as usize].merged = true;
-            drafts[s].head = ranges;
+            supernodes[s].columns = total;
+            supernodes[c as usize].next = supernodes[s].head;
+            supernodes[c as usize].amalgamated = true;
+            supernodes[s].head = ranges;
         }
         if head != NONE {
             if last == NONE {
                 first = head;
             } else {
-                drafts[last as usize].sibling = head;
+                supernodes[last as usize].sibling = head;
             }
             last = tail;
-            drafts[tail as usize].sibling = NONE;
+            supernodes[tail as usize].sibling = NONE;
         }
     }
-    drafts[s].first_child = first;
-    drafts[s].last_child = last;
+    supernodes[s].first_child = first;
+    supernodes[s].last_child = last;
 }
 
-/// The final numbering: children before parents, and the children of one parent as it suits those who share the work.
-fn arranged(order: &[u32], begins: &[u32], drafts: &[Draft]) -> Supernodes {
-    let count = drafts.len();
+/// The final postorder of the amalgamated tree, with the children of each supernode in an order that suits the tasks,
+/// and the parallel split points.
+fn postordered_supernodes(order: &[u32], begins: &[u32], supernodes: &[Supernode]) -> Supernodes {
+    let count = supernodes.len();
     let root = count - 1;
     let mut children = vec![Vec::new(); count];
     let mut work = vec![0.0; count];
     for s in 0..count {
-        if drafts[s].merged {
+        if supernodes[s].amalgamated {
             continue;
         }
-        children[s] = children_of(drafts, s);
-        work[s] =
-            products(drafts[s].columns, drafts[s].rows) + children[s].iter().map(|&c| work[c as usize]).sum::<f64>();
+        children[s] = children_of(supernodes, s);
+        work[s] = multiply_adds(supernodes[s].columns, supernodes[s].rows)
+            + children[s].iter().map(|&c| work[c as usize]).sum::<f64>();
     }
-    let large = part_work(&work);
-    let mut forks = vec![false; count];
+    let min_work = min_task_work(&work);
+    let mut split_points = vec![false; count];
     for s in 0..count {
-        let (big, small): (Vec<u32>, Vec<u32>) = children[s].iter().partition(|&&c| work[c as usize] >= large);
+        let (large, small): (Vec<u32>, Vec<u32>) = children[s].iter().partition(|&&c| work[c as usize] >= min_work);
         let rest: f64 = small.iter().map(|&c| work[c as usize]).sum();
-        forks[s] = big.len() + usize::from(rest >= large) >= 2;
-        // For several threads all the small ones come first, as one part; otherwise the large one comes first, for
-        // whoever does it goes on here.
+        split_points[s] = large.len() + usize::from(rest >= min_work) >= 2;
+        // At a split point the small subtrees come first, together as one task; otherwise the largest subtree comes
+        // first, since its task continues here.
         children[s].sort_by(|&a, &b| work[a as usize].total_cmp(&work[b as usize]).then(a.cmp(&b)));
-        if !forks[s] {
+        if !split_points[s] {
             children[s].reverse();
         }
     }
@@ -299,7 +305,7 @@ fn arranged(order: &[u32], begins: &[u32], drafts: &[Draft]) -> Supernodes {
         child_start: vec![0],
         children: Vec::new(),
         work: Vec::new(),
-        forks: Vec::new(),
+        split_points: Vec::new(),
     };
     let mut number = vec![NONE; count];
     let mut path = vec![(root, 0)];
@@ -312,18 +318,18 @@ fn arranged(order: &[u32], begins: &[u32], drafts: &[Draft]) -> Supernodes {
         let s = *s;
         path.pop();
         number[s] = out.row_count.len() as u32;
-        let mut range = if s == root { NONE } else { drafts[s].head };
+        let mut range = if s == root { NONE } else { supernodes[s].head };
         while range != NONE {
             let r = range as usize;
             out.vertex_at.extend_from_slice(&order[begins[r] as usize..begins[r + 1] as usize]);
-            range = if r == s { NONE } else { drafts[r].next };
+            range = if r == s { NONE } else { supernodes[r].next };
         }
         out.first.push(out.vertex_at.len() as u32);
-        out.row_count.push(drafts[s].rows as u32);
+        out.row_count.push(supernodes[s].rows as u32);
         out.children.extend(children[s].iter().map(|&c| number[c as usize]));
         out.child_start.push(out.children.len() as u32);
         out.work.push(work[s]);
-        out.forks.push(forks[s]);
+        out.split_points.push(split_points[s]);
     }
     out.position = inverse(&out.vertex_at);
     out

@@ -1,34 +1,35 @@
-//! Where everything of the factorisation lies in memory, and who does what after whom.
+//! Symbolic factorisation: the structure of the fronts, their layout in memory, and the tasks with their dependencies.
 //!
-//! All of it follows from the pattern. Each supernode has a panel in the factor and a region in the work space: the
-//! regions of its children within it from one end, its own update matrix at the other end, over what its children no
-//! longer need. Children that are done by several threads have regions of their own; the others follow one another.
+//! All of it follows from the pattern. Each supernode has a panel in the factor and a region in the work space, nested
+//! as the tree is: the regions of its children from one end, its own contribution block at the other end, over memory
+//! that its children no longer need. Children in separate tasks have disjoint regions; those of one task reuse memory
+//! like a stack.
 
 use std::ops::Range;
 
-use super::kernel::{padded, update_len};
+use super::kernel::{contribution_len, padded};
 use super::ordering::Graph;
 use super::supernodes::Supernodes;
 use crate::memory::bytes;
 
-/// One supernode. Counts are of scalars.
+/// A node of the assembly tree: one supernode and its front. Counts and offsets are of scalars.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// The first of its columns.
+    /// Its first column.
     pub first: usize,
-    /// Its columns.
+    /// Number of columns.
     pub columns: usize,
-    /// Its rows below them.
+    /// Number of rows below the columns.
     pub rows: usize,
-    /// Scalars from one column of its panel to the next.
+    /// Leading dimension of its panel.
     pub ld: usize,
-    /// Where its panel begins.
+    /// Where its panel begins in the factor.
     pub panel: usize,
     /// Its region of the work space.
     pub region: Range<usize>,
-    /// Its update matrix, or whatever it leaves to its parent, at one end of the region.
-    pub update: Range<usize>,
-    /// Where its rows are in the list of all rows.
+    /// Its contribution block in the factorisation, its vectors in the solve, at one end of the region.
+    pub contribution: Range<usize>,
+    /// Where its rows begin in the list of all rows.
     pub row_start: usize,
     /// Where its blocks begin in the list of all blocks.
     pub block_start: usize,
@@ -46,47 +47,47 @@ impl Node {
     }
 }
 
-/// Where a block of the matrix, off its diagonal, goes.
+/// Where an off-diagonal block of the matrix is scattered to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Block {
-    /// Its column in the matrix.
+    /// Its block column in the matrix.
     pub column: u32,
-    /// Which of the blocks below the diagonal it is there.
-    pub place: u32,
-    /// Its first scalar in the panel.
+    /// Its index among the blocks below the diagonal of that column.
+    pub index: u32,
+    /// Offset of its first scalar in the panel.
     pub target: u32,
-    /// Whether rows become columns.
+    /// Whether it is scattered transposed.
     pub transposed: bool,
 }
 
-/// A part of the tree for one thread: nodes with neighbouring numbers, after other parts.
+/// Part of the tree that one thread does: consecutive nodes, after the tasks that it depends on.
 #[derive(Clone, Debug)]
 pub(super) struct Task {
     /// The nodes, children first.
     pub nodes: Range<usize>,
-    /// The first node of all that come before.
+    /// The first node of all the tasks that it depends on, or its own first node.
     pub first_node: usize,
-    /// What has to be done before, by whoever has time. Their nodes and their regions follow one another.
-    pub before: Vec<usize>,
-    /// The part of the work space that it takes, with those before.
+    /// Tasks that must complete first; any worker may run them. Their nodes and their regions are consecutive.
+    pub dependencies: Vec<usize>,
+    /// The part of the work space that it and its dependencies use.
     pub region: Range<usize>,
 }
 
-/// The plan of a factorisation; the default is none.
+/// A symbolic factorisation; the default is an empty one.
 #[derive(Default)]
-pub(super) struct Plan {
+pub(super) struct Symbolic {
     pub nodes: Vec<Node>,
     /// For each node its children.
     pub child_start: Vec<u32>,
     pub children: Vec<u32>,
-    /// The vertices' positions in the rows of each node, ascending.
+    /// The row structure of each node: vertices by position, ascending.
     pub rows: Vec<u32>,
-    /// The same as places in the front of the parent: its columns, then its rows.
-    pub places: Vec<u32>,
+    /// The same as indices into the front of the parent, in vertices: its columns, then its rows.
+    pub relative_indices: Vec<u32>,
     pub blocks: Vec<Block>,
-    /// Those that others wait for first; the last one is done last.
+    /// Dependencies come before the tasks that wait for them; the last task is the root's.
     pub tasks: Vec<Task>,
-    /// The vertex at each position.
+    /// The vertex eliminated at each position.
     pub vertex_at: Vec<u32>,
     /// Scalars of the factor.
     pub values: usize,
@@ -94,8 +95,8 @@ pub(super) struct Plan {
     pub work: usize,
 }
 
-impl Plan {
-    /// The plan for `tree`. `None` where a panel is too large for its indices.
+impl Symbolic {
+    /// The symbolic factorisation for `tree`. `None` where a panel is too large for its indices.
     pub(super) fn new(graph: &Graph, tree: Supernodes) -> Option<Self> {
         let count = tree.len();
         let mut nodes = Vec::with_capacity(count);
@@ -114,7 +115,7 @@ impl Plan {
                 ld,
                 panel,
                 region: empty.clone(),
-                update: empty,
+                contribution: empty,
                 row_start,
                 block_start: 0,
             };
@@ -122,11 +123,22 @@ impl Plan {
             row_start += rows / 3;
             nodes.push(node);
         }
-        let (rows, places, blocks) = incidence(graph, &tree, &mut nodes);
-        let (work, groups) = regions(&tree, &mut nodes);
-        let tasks = tasks(&tree, &nodes, &groups);
+        let (rows, relative_indices, blocks) = structure(graph, &tree, &mut nodes);
+        let (work, small_regions) = regions(&tree, &mut nodes);
+        let tasks = tasks(&tree, &nodes, &small_regions);
         let Supernodes { vertex_at, child_start, children, .. } = tree;
-        Some(Self { nodes, child_start, children, rows, places, blocks, tasks, vertex_at, values: panel, work })
+        Some(Self {
+            nodes,
+            child_start,
+            children,
+            rows,
+            relative_indices,
+            blocks,
+            tasks,
+            vertex_at,
+            values: panel,
+            work,
+        })
     }
 
     /// The children of node `s`.
@@ -136,48 +148,48 @@ impl Plan {
         self.children[range].iter().map(|&c| &self.nodes[c as usize])
     }
 
-    /// The vertices' positions in the rows of `node`.
+    /// The row structure of `node`: vertices by position.
     #[inline]
     pub(super) fn rows(&self, node: &Node) -> &[u32] {
         &self.rows[node.row_start..][..node.row_vertices()]
     }
 
-    /// Where the rows of `node` are in the front of its parent.
+    /// The relative indices of `node`: its rows in the front of its parent, for extend-add.
     #[inline]
-    pub(super) fn places(&self, node: &Node) -> &[u32] {
-        &self.places[node.row_start..][..node.row_vertices()]
+    pub(super) fn relative_indices(&self, node: &Node) -> &[u32] {
+        &self.relative_indices[node.row_start..][..node.row_vertices()]
     }
 
-    /// The matrix's blocks in the panel of node `s`.
+    /// The matrix's off-diagonal blocks in the panel of node `s`.
     #[inline]
     pub(super) fn blocks(&self, s: usize) -> &[Block] {
         let end = self.nodes.get(s + 1).map_or(self.blocks.len(), |next| next.block_start);
         &self.blocks[self.nodes[s].block_start..end]
     }
 
-    /// Bytes that it holds.
+    /// Bytes held.
     pub(super) fn memory(&self) -> u64 {
-        let indices = [&self.child_start, &self.children, &self.rows, &self.places, &self.vertex_at];
+        let indices = [&self.child_start, &self.children, &self.rows, &self.relative_indices, &self.vertex_at];
         bytes(&self.nodes) + bytes(&self.blocks) + bytes(&self.tasks) + indices.into_iter().map(bytes).sum::<u64>()
     }
 
-    /// The part of the factor that a task and those before it fill.
+    /// The part of the factor that a task and its dependencies fill.
     pub(super) fn panels(&self, task: &Task) -> Range<usize> {
         let last = &self.nodes[task.nodes.end - 1];
         self.nodes[task.first_node].panel..last.panel + last.panel_len()
     }
 }
 
-/// The rows of each node, where they are in its parent's front, and where the matrix's blocks go.
-fn incidence(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>, Vec<u32>, Vec<Block>) {
+/// The row structure of each node, its relative indices, and where the matrix's blocks are scattered to.
+fn structure(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>, Vec<u32>, Vec<Block>) {
     let n = tree.vertex_at.len();
     let total = nodes.last().map_or(0, |last| last.row_start);
     let mut rows: Vec<u32> = Vec::with_capacity(total);
-    let mut places = vec![0; total];
+    let mut relative_indices = vec![0; total];
     let mut blocks = Vec::new();
-    // By position: the supernode that has it as a row, and where.
+    // By position: the last supernode with it as a row, and its index in that front.
     let mut seen = vec![u32::MAX; n];
-    let mut place_of = vec![0u32; n];
+    let mut front_index = vec![0u32; n];
     for s in 0..nodes.len() {
         let (first, end) = (tree.first[s], tree.first[s + 1]);
         let start = rows.len();
@@ -201,15 +213,15 @@ fn incidence(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>,
         }
         rows[start..].sort_unstable();
         for (k, &position) in rows[start..].iter().enumerate() {
-            place_of[position as usize] = end - first + k as u32;
+            front_index[position as usize] = end - first + k as u32;
         }
         for position in first..end {
-            place_of[position as usize] = position - first;
+            front_index[position as usize] = position - first;
         }
         for &c in tree.children(s) {
             let child = &nodes[c as usize];
             for k in child.row_start..child.row_start + child.row_vertices() {
-                places[k] = place_of[rows[k] as usize];
+                relative_indices[k] = front_index[rows[k] as usize];
             }
         }
         nodes[s].block_start = blocks.len();
@@ -218,10 +230,10 @@ fn incidence(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>,
             for neighbour in graph.neighbours(v) {
                 let other = tree.position[neighbour.vertex as usize];
                 if other > position {
-                    let (row, column) = (3 * place_of[other as usize] as usize, 3 * (position - first) as usize);
+                    let (row, column) = (3 * front_index[other as usize] as usize, 3 * (position - first) as usize);
                     blocks.push(Block {
                         column: v.min(neighbour.vertex),
-                        place: neighbour.place,
+                        index: neighbour.index,
                         target: (row + column * nodes[s].ld) as u32,
                         transposed: v > neighbour.vertex,
                     });
@@ -229,81 +241,91 @@ fn incidence(graph: &Graph, tree: &Supernodes, nodes: &mut [Node]) -> (Vec<u32>,
             }
         }
     }
-    (rows, places, blocks)
+    (rows, relative_indices, blocks)
 }
 
-/// Gives each node its region and its update matrix. Returns the size of all and, for each node that forks, the region
-/// of its small children together.
+/// Allocates the region and the contribution block of each node. Returns the size of the work space and, for each split
+/// point, the region that its small children share.
 fn regions(tree: &Supernodes, nodes: &mut [Node]) -> (usize, Vec<Range<usize>>) {
     let count = nodes.len();
-    // The update matrix also holds what the substitution leaves: two columns with the rows of the front.
-    let update: Vec<usize> = nodes.iter().map(|node| update_len(node.rows).max(2 * node.ld)).collect();
+    // The space of the contribution block also holds the vectors of the solve: two columns with the rows of the front.
+    let contribution: Vec<usize> = nodes.iter().map(|node| contribution_len(node.rows).max(2 * node.ld)).collect();
     let mut size = vec![0usize; count];
     let mut offset = vec![0usize; count];
-    let mut group = vec![0usize; count];
+    let mut small_span = vec![0usize; count];
     for s in 0..count {
         let (mut held, mut span) = (0, 0);
         for &c in tree.children(s) {
             let c = c as usize;
-            let alone = tree.forks[s] && tree.is_large(c);
-            if alone {
-                // It may not lie over what those before still need.
+            let own_task = tree.split_points[s] && tree.is_large(c);
+            if own_task {
+                // It runs in parallel to the children before, so their regions may not overlap.
                 held = span;
             }
             offset[c] = held;
             span = span.max(held + size[c]);
-            held += update[c];
-            if tree.forks[s] && !alone {
-                group[s] = span;
+            held += contribution[c];
+            if tree.split_points[s] && !own_task {
+                small_span[s] = span;
             }
         }
-        size[s] = span.max(held + update[s]);
+        size[s] = span.max(held + contribution[s]);
     }
     let mut flipped = vec![false; count];
-    let mut groups = vec![0..0; count];
+    let mut small_regions = vec![0..0; count];
     let total = size.last().copied().unwrap_or(0);
     if let Some(root) = nodes.last_mut() {
         root.region = 0..total;
     }
     for s in (0..count).rev() {
         let (region, flip) = (nodes[s].region.clone(), flipped[s]);
-        nodes[s].update =
-            if flip { region.start..region.start + update[s] } else { region.end - update[s]..region.end };
-        let place = |offset: usize, size: usize| {
+        nodes[s].contribution =
+            if flip { region.start..region.start + contribution[s] } else { region.end - contribution[s]..region.end };
+        let absolute = |offset: usize, size: usize| {
             let start = if flip { region.end - offset - size } else { region.start + offset };
             start..start + size
         };
-        groups[s] = place(0, group[s]);
+        small_regions[s] = absolute(0, small_span[s]);
         for &c in tree.children(s) {
-            nodes[c as usize].region = place(offset[c as usize], size[c as usize]);
+            nodes[c as usize].region = absolute(offset[c as usize], size[c as usize]);
             flipped[c as usize] = !flip;
         }
     }
-    (total, groups)
+    (total, small_regions)
 }
 
-/// Cuts the tree into parts.
-fn tasks(tree: &Supernodes, nodes: &[Node], groups: &[Range<usize>]) -> Vec<Task> {
-    const NOBODY: usize = usize::MAX;
+/// Cuts the tree into tasks at its split points.
+fn tasks(tree: &Supernodes, nodes: &[Node], small_regions: &[Range<usize>]) -> Vec<Task> {
+    const NO_TASK: usize = usize::MAX;
     let count = nodes.len();
     let mut tasks: Vec<Task> = Vec::new();
-    let mut task_of = vec![NOBODY; count];
+    let mut task_of = vec![NO_TASK; count];
     let mut first_node: Vec<usize> = Vec::with_capacity(count);
     for s in 0..count {
         let children = tree.children(s);
         first_node.push(children.first().map_or(s, |&c| first_node[c as usize]));
-        if tree.forks[s] {
+        if tree.split_points[s] {
             let small = children.iter().position(|&c| tree.is_large(c as usize)).unwrap_or(children.len());
-            let mut before = Vec::new();
+            let mut dependencies = Vec::new();
             if small > 0 {
-                before.push(tasks.len());
+                dependencies.push(tasks.len());
                 let nodes = first_node[s]..children[small - 1] as usize + 1;
-                tasks.push(Task { first_node: nodes.start, nodes, before: Vec::new(), region: groups[s].clone() });
+                tasks.push(Task {
+                    first_node: nodes.start,
+                    nodes,
+                    dependencies: Vec::new(),
+                    region: small_regions[s].clone(),
+                });
             }
-            before.extend(children[small..].iter().map(|&c| task_of[c as usize]));
+            dependencies.extend(children[small..].iter().map(|&c| task_of[c as usize]));
             task_of[s] = tasks.len();
-            tasks.push(Task { nodes: s..s + 1, first_node: first_node[s], before, region: nodes[s].region.clone() });
-        } else if let Some(&c) = children.first().filter(|&&c| task_of[c as usize] != NOBODY) {
+            tasks.push(Task {
+                nodes: s..s + 1,
+                first_node: first_node[s],
+                dependencies,
+                region: nodes[s].region.clone(),
+            });
+        } else if let Some(&c) = children.first().filter(|&&c| task_of[c as usize] != NO_TASK) {
             let task = task_of[c as usize];
             task_of[s] = task;
             tasks[task].nodes.end = s + 1;
@@ -314,7 +336,7 @@ fn tasks(tree: &Supernodes, nodes: &[Node], groups: &[Range<usize>]) -> Vec<Task
             tasks.push(Task {
                 first_node: first_node[s],
                 nodes: nodes_below,
-                before: Vec::new(),
+                dependencies: Vec::new(),
                 region: nodes[s].region.clone(),
             });
         }

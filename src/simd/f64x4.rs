@@ -1,34 +1,34 @@
-//! Vectors of four doubles, and the choice, while running, between code for them and code for any processor.
+//! SIMD vectors of four doubles, and run-time dispatch between AVX2 and portable code.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
-/// Four doubles.
-pub(crate) trait Four: Copy {
-    /// All four the same.
+/// A SIMD vector of four doubles.
+pub(crate) trait F64x4: Copy {
+    /// All lanes equal to `value`.
     fn splat(value: f64) -> Self;
 
-    /// From an array.
+    /// Loads from an array.
     fn load(values: &[f64; 4]) -> Self;
 
-    /// To an array.
+    /// Stores to an array.
     fn store(self, to: &mut [f64; 4]);
 
-    /// From single precision.
+    /// Converts from single precision.
     fn widen(values: [f32; 4]) -> Self;
 
-    /// `self + factor * other`.
+    /// `self + factor * other`, fused where the processor has it.
     fn add_scaled(self, factor: f64, other: Self) -> Self;
 
-    /// The sum of the products with `other`.
+    /// The inner product with `other`.
     fn dot(self, other: [f64; 4]) -> f64;
 }
 
-/// Four doubles on any processor.
+/// Four doubles without intrinsics, for any processor.
 #[derive(Clone, Copy)]
-struct Plain([f64; 4]);
+struct Portable([f64; 4]);
 
-impl Four for Plain {
+impl F64x4 for Portable {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; 4])
@@ -51,7 +51,7 @@ impl Four for Plain {
 
     #[inline(always)]
     fn add_scaled(self, factor: f64, other: Self) -> Self {
-        // On 64-bit ARM fused operations are among the base instructions.
+        // On 64-bit Arm fused multiply-add is a base instruction.
         let one = |k| {
             let (s, o): (f64, f64) = (self.0[k], other.0[k]);
             if cfg!(target_arch = "aarch64") { factor.mul_add(o, s) } else { s + factor * o }
@@ -66,14 +66,14 @@ impl Four for Plain {
     }
 }
 
-/// Four doubles in one register. Only code that [`dispatch`] runs for it may use it.
+/// Four doubles in one AVX register. Only code that [`dispatch`] instantiates with it may use it.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy)]
-struct Wide(__m256d);
+struct Avx2(__m256d);
 
-// SAFETY, of all its functions: `dispatch` alone names the type, after it has seen that the processor has the instructions.
+// SAFETY, of all its functions: `dispatch` alone names the type, after it has checked that the processor has AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
-impl Four for Wide {
+impl F64x4 for Avx2 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         // SAFETY: above.
@@ -115,29 +115,30 @@ impl Four for Wide {
     }
 }
 
-/// Work that is compiled twice. `run` has to be `#[inline(always)]`, and all that it calls with `V`.
+/// Code that is compiled once for each vector type. `run`, and all generic functions that it calls with `V`, have to be
+/// `#[inline(always)]`.
 pub(crate) trait Kernel {
-    /// What it computes.
+    /// The result.
     type Output;
 
-    /// Does the work.
-    fn run<V: Four>(self) -> Self::Output;
+    /// Runs the code.
+    fn run<V: F64x4>(self) -> Self::Output;
 }
 
-/// Runs `kernel` with the best instructions that this processor has: the same ones at every call, so that results have
-/// the same bits. Between processors with and without fused multiply-add they differ by rounding.
+/// Runs `kernel` with the best vector type for this processor: the same one at every call, so that results have the
+/// same bits. Between processors with and without fused multiply-add they differ by rounding.
 #[inline]
 pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2,fma")]
-        fn wide<K: Kernel>(kernel: K) -> K::Output {
-            kernel.run::<Wide>()
+        fn avx2<K: Kernel>(kernel: K) -> K::Output {
+            kernel.run::<Avx2>()
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             // SAFETY: the processor has what the function is compiled for.
-            return unsafe { wide(kernel) };
+            return unsafe { avx2(kernel) };
         }
     }
-    kernel.run::<Plain>()
+    kernel.run::<Portable>()
 }
