@@ -262,7 +262,7 @@ impl Newton {
         if stiffness > 0.0 { force / stiffness } else { 0.0 }
     }
 
-    /// Sets the direction to `p0 + dt p1`, scaled down to [`MAX_DISPLACEMENT`]. Returns the scale, at most 1.
+    /// Sets the direction to `p0 + dt p1`, scaled down to `MAX_DISPLACEMENT`. Returns the scale, at most 1.
     pub fn set_direction(&mut self, dt: f64) -> f64 {
         let n = self.system.gradient.len();
         let (p0, p1) = self.response.split_at(n);
