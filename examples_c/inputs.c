@@ -129,52 +129,10 @@ static bool add_rigid_groups(Session *session, const char *path) {
     return good;
 }
 
-/* A weight as the library takes it: what was not given is the default, and 0 switches the term off. */
-static double weight(double given) {
-    return given < 0.0 ? 0.0 : given == 0.0 ? BESPOKE_WEIGHT_OFF : given;
-}
-
-/* A length or stiffness, which is never 0: what was not given is the default. */
-static double magnitude(double given) {
-    return given < 0.0 ? 0.0 : given;
-}
-
-/* The more special of two options, where it was given. */
-static double either(double special, double general) {
-    return special < 0.0 ? general : special;
-}
-
-static bool set_options(Session *session, const Options *given) {
-    const BespokeOptions options = {
-        .struct_size = sizeof options,
-        .threads = (uint32_t)magnitude(given->threads),
-        .fit_weight = weight(given->fit_weight),
-        .designed_clearance = weight(given->designed_clearance),
-        .offset = magnitude(given->offset),
-        .fit_distance = weight(given->fit_distance),
-        .pin_weight = magnitude(given->pin_weight),
-        .memory_limit = (uint64_t)(1e6 * magnitude(given->memory_limit)),
-        .strict = given->strict ? 1 : 0,
-        .surface_weight = weight(given->surface_weight),
-        .curvature_weight = weight(either(given->curvature_weight, given->curve_weight)),
-        .torsion_weight = weight(either(given->torsion_weight, given->curve_weight)),
-        .position_weight = weight(given->position_weight),
-        .barrier_weight = magnitude(given->barrier_weight),
-        .dhat = magnitude(given->dhat),
-        .inflation_dhat = magnitude(given->inflation_dhat),
-        .inflation_barrier_weight = magnitude(given->inflation_barrier_weight),
-        .voxel_size = magnitude(given->voxel_size),
-        .min_separation = magnitude(given->min_separation),
-        .tolerance = magnitude(given->tolerance),
-        .max_iterations = (uint32_t)magnitude(given->max_iterations),
-        .surface_form = given->printed_surface ? BESPOKE_SURFACE_FORM_PRINTED : BESPOKE_SURFACE_FORM_SIMILARITY,
-    };
-    return session_good(session, bespoke_session_set_options(session->handle, &options), NULL);
-}
-
 bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
     memset(inputs, 0, sizeof *inputs);
-        return set_options(session, options) && obj_read(&inputs->garment, options->garment, &session->message) &&
+    return session_good(session, bespoke_session_set_options(session->handle, &options->library), NULL) &&
+           obj_read(&inputs->garment, options->garment, &session->message) &&
            set_mesh(session, &inputs->garment, options->garment, bespoke_session_set_garment) &&
            set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton) &&
            obj_read(&inputs->avatar, options->avatar, &session->message) &&

@@ -1,117 +1,189 @@
 #include "options.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What an option takes, and so the type of its field. */
+/* What a row of the table is, and so the type of its field. */
 typedef enum Kind {
-    FLAG,     /* nothing: bool */
-    PATH,     /* const char * */
-    NEEDED,   /* the same, and it has to be there */
-    LAYER,    /* a path, each time one more */
-    NUMBER,   /* double, from 0 */
-    POSITIVE, /* double, above 0 */
-    COUNT,    /* double that is a whole number up to `most` */
+    TEXT,      /* no option: what stands between them in --help */
+    PATH,      /* const char * */
+    NEEDED,    /* the same, and it has to be there */
+    LAYER,     /* a path, each time one more */
+    FLAG,      /* no value: bool */
+    CHOICE,    /* no value: uint32_t that becomes `number` */
+    WEIGHT,    /* double from 0, where 0 switches something off */
+    FROM_ZERO, /* double from 0, where 0 is the default */
+    POSITIVE,  /* double above 0 */
+    COUNT,     /* uint32_t up to `number` */
+    MEGABYTES, /* a number above 0: uint64_t, in bytes */
 } Kind;
 
 typedef struct Entry {
     const char *name;
+    const char *value; /* how --help names what the option takes */
     Kind kind;
-    size_t field;
-    double most;
+    size_t field; /* where it goes, in Options */
+    uint32_t number;
+    const char *help; /* ",": the next option shares its line; null: it is not listed */
 } Entry;
 
 #define FIELD(name) offsetof(Options, name)
 
+/* In the order of --help. */
 static const Entry entries[] = {
-    {"--garment", NEEDED, FIELD(garment), 0.0},
-    {"--source-skeleton", NEEDED, FIELD(source_skeleton), 0.0},
-    {"--avatar", NEEDED, FIELD(avatar), 0.0},
-    {"--target-skeleton", NEEDED, FIELD(target_skeleton), 0.0},
-    {"--output", NEEDED, FIELD(output), 0.0},
-    {"-o", PATH, FIELD(output), 0.0},
-    {"--source-avatar", PATH, FIELD(source_avatar), 0.0},
-    {"--skin-weights", PATH, FIELD(skin_weights), 0.0},
-    {"--layer", LAYER, FIELD(layers), 0.0},
-    {"--no-fit", PATH, FIELD(no_fit), 0.0},
-    {"--pins", PATH, FIELD(pins), 0.0},
-    {"--rigid", PATH, FIELD(rigid), 0.0},
-    {"--output-avatar", PATH, FIELD(output_avatar), 0.0},
-    {"--distortion", PATH, FIELD(distortion), 0.0},
-    {"--report", PATH, FIELD(report), 0.0},
-    {"--keep-partial", PATH, FIELD(keep_partial), 0.0},
-    {"--fit-weight", NUMBER, FIELD(fit_weight), 0.0},
-    {"--designed-clearance", NUMBER, FIELD(designed_clearance), 0.0},
-    {"--offset", NUMBER, FIELD(offset), 0.0},
-    {"--fit-distance", NUMBER, FIELD(fit_distance), 0.0},
-    {"--pin-weight", POSITIVE, FIELD(pin_weight), 0.0},
-    {"--threads", COUNT, FIELD(threads), 1024.0},
-    {"--memory-limit", POSITIVE, FIELD(memory_limit), 0.0},
-    {"--strict", FLAG, FIELD(strict), 0.0},
-    {"--surface-weight", NUMBER, FIELD(surface_weight), 0.0},
-    {"--curve-weight", NUMBER, FIELD(curve_weight), 0.0},
-    {"--curvature-weight", NUMBER, FIELD(curvature_weight), 0.0},
-    {"--torsion-weight", NUMBER, FIELD(torsion_weight), 0.0},
-    {"--position-weight", NUMBER, FIELD(position_weight), 0.0},
-    {"--barrier-weight", POSITIVE, FIELD(barrier_weight), 0.0},
-    {"--dhat", POSITIVE, FIELD(dhat), 0.0},
-    {"--inflation-dhat", POSITIVE, FIELD(inflation_dhat), 0.0},
-    {"--inflation-barrier-weight", POSITIVE, FIELD(inflation_barrier_weight), 0.0},
-    {"--voxel-size", POSITIVE, FIELD(voxel_size), 0.0},
-    {"--voxel", POSITIVE, FIELD(voxel_size), 0.0}, /* its name until 0.1 */
-    {"--min-separation", POSITIVE, FIELD(min_separation), 0.0},
-    {"--tolerance", POSITIVE, FIELD(tolerance), 0.0},
-    {"--max-iterations", COUNT, FIELD(max_iterations), 4294967295.0},
-    {"--printed-surface", FLAG, FIELD(printed_surface), 0.0},
-    {"--quiet", FLAG, FIELD(quiet), 0.0},
-    {"--help", FLAG, FIELD(help), 0.0},
-    {"-h", FLAG, FIELD(help), 0.0},
-    {"--version", FLAG, FIELD(version), 0.0},
+    {"--garment", "FILE", NEEDED, FIELD(garment), 0, "the garment, around the source skeleton"},
+    {"--source-skeleton", "FILE", NEEDED, FIELD(source_skeleton), 0,
+     "skeleton of the body it was modelled on: joints as v, bones as l lines"},
+    {"--avatar", "FILE", NEEDED, FIELD(avatar), 0, "the body to dress"},
+    {"--target-skeleton", "FILE", NEEDED, FIELD(target_skeleton), 0,
+     "its skeleton: the same joints in the same order, the same bones in any order"},
+    {"-o", "", PATH, FIELD(output), 0, ","},
+    {"--output", "FILE", NEEDED, FIELD(output), 0,
+     "the garment on the avatar, in the avatar's coordinate system and unit"},
+    {"", "", TEXT, 0, 0, "\nWhat else there is to know:\n"},
+    {"--source-avatar", "FILE", PATH, FIELD(source_avatar), 0,
+     "the body the garment was modelled on; the fit then aims at the looseness it had there"},
+    {"--skin-weights", "FILE", PATH, FIELD(skin_weights), 0,
+     "skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex"},
+    {"--layer", "FILE", LAYER, FIELD(layers), 0,
+     "a garment that the avatar wears already, placed like it; may be given several times"},
+    {"--no-fit", "FILE", PATH, FIELD(no_fit), 0,
+     "garment vertices (from 0); faces with all corners listed are not drawn to the body"},
+    {"--pins", "FILE", PATH, FIELD(pins), 0,
+     "garment vertices to hold, a line each: the vertex (from 0) alone goes with its bone, or\n"
+     "the vertex and the x y z where it is to be; the same in all lines"},
+    {"--rigid", "FILE", PATH, FIELD(rigid), 0,
+     "groups of garment vertices (from 0) that stay rigid, such as buttons: a line for each"},
+    {"", "", TEXT, 0, 0, "\nHow it fits:\n"},
+    {"--fit-weight", "W", WEIGHT, FIELD(library.fit_weight), 0, "how tight (2); 0 switches the term off"},
+    {"--designed-clearance", "X", WEIGHT, FIELD(library.designed_clearance), 0,
+     "with --source-avatar: how much of the looseness it had there to aim at (1); 0 is tight"},
+    {"--offset", "D", FROM_ZERO, FIELD(library.offset), 0,
+     "clearance to aim at everywhere beside that, in the unit of the avatar (0)"},
+    {"--fit-distance", "D", WEIGHT, FIELD(library.fit_distance), 0,
+     "with --source-avatar, without --no-fit: what was designed up to D away from it fits, what\n"
+     "was twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits"},
+    {"--pin-weight", "W", POSITIVE, FIELD(library.pin_weight), 0, "stiffness of the pins (1000)"},
+    {"--threads", "N", COUNT, FIELD(library.threads), 1024, "0: all cores (0)"},
+    {"--memory-limit", "MB", MEGABYTES, FIELD(library.memory_limit), 0,
+     "give up where more memory would be needed (no limit)"},
+    {"--strict", "", CHOICE, FIELD(library.strict), 1,
+     "refuse a garment that intersects itself, instead of exempting those triangles from contact\n"
+     "until they separate"},
+    {"", "", TEXT, 0, 0, "\nFor experts; the skeleton is 2 long in all lengths:\n"},
+    {"--surface-weight", "W", WEIGHT, FIELD(library.surface_weight), 0, "how strongly the design keeps its shape (1)"},
+    {"--curve-weight", "W", WEIGHT, FIELD(curve_weight), 0,
+     "the same for its boundary curves: curvature and torsion (1)"},
+    {"--curvature-weight", "W", WEIGHT, FIELD(library.curvature_weight), 0, ","},
+    {"--torsion-weight", "W", WEIGHT, FIELD(library.torsion_weight), 0, "one of the two alone"},
+    {"--position-weight", "W", WEIGHT, FIELD(library.position_weight), 0,
+     "how strongly cuffs, hems and collars keep their place along their bones (10)"},
+    {"--barrier-weight", "W", POSITIVE, FIELD(library.barrier_weight), 0, "stiffness of contacts (1e8)"},
+    {"--dhat", "D", POSITIVE, FIELD(library.dhat), 0, "distance at which contacts begin (0.002)"},
+    {"--inflation-dhat", "D", POSITIVE, FIELD(library.inflation_dhat), 0,
+     "the same while the avatar grows inside the garment (0.01)"},
+    {"--inflation-barrier-weight", "W", POSITIVE, FIELD(library.inflation_barrier_weight), 0,
+     "stiffness of contacts while the avatar grows (1e4)"},
+    {"--voxel-size", "D", POSITIVE, FIELD(library.voxel_size), 0,
+     "resolution of the distance field (0.01); also --voxel"},
+    {"--min-separation", "D", POSITIVE, FIELD(library.min_separation), 0, "distance that nothing falls below (1e-5)"},
+    {"--tolerance", "X", POSITIVE, FIELD(library.tolerance), 0,
+     "the fit ends where what a step still promises is below this part of the objective (1e-3)"},
+    {"--max-iterations", "N", COUNT, FIELD(library.max_iterations), UINT32_MAX,
+     "iterations of each stage at most (500)"},
+    {"--printed-surface", "", CHOICE, FIELD(library.surface_form), BESPOKE_SURFACE_FORM_PRINTED,
+     "the surface term as printed in the paper, which makes scaling cost something"},
+    {"", "", TEXT, 0, 0,
+     "\n"
+     "A message may name an option of the library: inflation_dhat is set by --inflation-dhat, and so on, surface_form by\n"
+     "--printed-surface.\n"
+     "\n"
+     "What is written besides:\n"},
+    {"--output-avatar", "FILE", PATH, FIELD(output_avatar), 0, "the avatar that was dressed, written as it was read"},
+    {"--distortion", "FILE", PATH, FIELD(distortion), 0,
+     "how much each triangle is distorted: a number a line, in the order of the faces and of the\n"
+     "triangles of their fans; 0 where the garment is similar to its design"},
+    {"--report", "FILE", PATH, FIELD(report), 0,
+     "a JSON file with status, message, times, iterations, energies, distances, counts and\n"
+     "diagnostics; also where there is no result"},
+    {"--keep-partial", "FILE", PATH, FIELD(keep_partial), 0,
+     "only where there is no result: the garment as it was last, and beside it the avatar as far\n"
+     "as it had grown (x.obj: x.avatar.obj), to see where it is stuck; not verified"},
+    {"--quiet", "", FLAG, FIELD(quiet), 0, "no progress on standard output, no warnings and notes on standard error"},
+    {"--help", "", FLAG, FIELD(help), 0, ","},
+    {"--version", "", FLAG, FIELD(version), 0, ""},
+    /* Other names; --voxel was the name until 0.1. */
+    {"-h", "", FLAG, FIELD(help), 0, NULL},
+    {"--voxel", "D", POSITIVE, FIELD(library.voxel_size), 0, NULL},
 };
 
 #define ENTRY_COUNT (sizeof entries / sizeof *entries)
 
-static void *field_of(Options *options, const Entry *entry) {
-    return (char *)options + entry->field;
-}
-
-static bool is_number(const Entry *entry) {
-    return entry->kind == NUMBER || entry->kind == POSITIVE || entry->kind == COUNT;
+static bool has_value(const Entry *entry) {
+    return entry->kind != FLAG && entry->kind != CHOICE;
 }
 
 static const Entry *find(const char *name, size_t length) {
     for (size_t k = 0; k < ENTRY_COUNT; k++) {
-        if (strlen(entries[k].name) == length && strncmp(name, entries[k].name, length) == 0) {
+        if (entries[k].kind != TEXT && strlen(entries[k].name) == length &&
+            strncmp(name, entries[k].name, length) == 0) {
             return &entries[k];
         }
     }
     return NULL;
 }
 
-static bool set_number(double *number, const Entry *entry, const char *value, Message *message) {
+static bool read_number(double *number, const Entry *entry, const char *value, Message *message) {
     const Word word = {value, value + strlen(value)};
-    const bool is_positive = entry->kind == POSITIVE;
+    const bool is_positive = entry->kind == POSITIVE || entry->kind == MEGABYTES;
     if (!word_number(word, number) || *number < 0.0 || (is_positive && *number == 0.0)) {
         return fail(message, "option %s has '%s', which is not a number %s", entry->name, value,
                     is_positive ? "above 0" : "from 0");
     }
-    if (entry->kind == COUNT && (*number > entry->most || *number != (double)(uint32_t)*number)) {
-        return fail(message, "option %s must be a whole number up to %.0f", entry->name, entry->most);
+    if (entry->kind == COUNT && (*number > (double)entry->number || *number != (double)(uint32_t)*number)) {
+        return fail(message, "option %s must be a whole number up to %" PRIu32, entry->name, entry->number);
     }
     return true;
 }
 
-static bool set_value(Options *options, const Entry *entry, const char *value, Message *message) {
-    void *field = field_of(options, entry);
-    if (is_number(entry)) {
-        return set_number(field, entry, value, message);
+static bool set_number(void *field, const Entry *entry, const char *value, Message *message) {
+    double number;
+    if (!read_number(&number, entry, value, message)) {
+        return false;
     }
-    if (entry->kind == LAYER) {
-        options->layers[options->layer_count++] = value;
+    if (entry->kind == COUNT) {
+        *(uint32_t *)field = (uint32_t)number;
+    } else if (entry->kind == MEGABYTES) {
+        *(uint64_t *)field = number < 1e13 ? (uint64_t)(1e6 * number) : UINT64_MAX;
     } else {
-        *(const char **)field = value;
+        *(double *)field = entry->kind == WEIGHT && number == 0.0 ? BESPOKE_WEIGHT_OFF : number;
     }
     return true;
+}
+
+/* The value is null where there is none. */
+static bool set_field(Options *options, const Entry *entry, const char *value, Message *message) {
+    void *field = (char *)options + entry->field;
+    switch (entry->kind) {
+    case TEXT:
+        return true;
+    case PATH:
+    case NEEDED:
+        *(const char **)field = value;
+        return true;
+    case LAYER:
+        options->layers[options->layer_count++] = value;
+        return true;
+    case FLAG:
+        *(bool *)field = true;
+        return true;
+    case CHOICE:
+        *(uint32_t *)field = entry->number;
+        return true;
+    default:
+        return set_number(field, entry, value, message);
+    }
 }
 
 /* --name, --name value or --name=value, word by word. */
@@ -120,22 +192,32 @@ static bool read_words(Options *options, int count, char **words, Message *messa
         const char *equals = strchr(words[i], '=');
         const size_t length = equals != NULL ? (size_t)(equals - words[i]) : strlen(words[i]);
         const Entry *entry = find(words[i], length);
-        if (entry == NULL || (entry->kind == FLAG && equals != NULL)) {
+        if (entry == NULL || (equals != NULL && !has_value(entry))) {
             return fail(message, "there is no option '%s'; see retarget --help", words[i]);
         }
-        if (entry->kind == FLAG) {
-            *(bool *)field_of(options, entry) = true;
-            continue;
+        const char *value = NULL;
+        if (has_value(entry)) {
+            value = equals != NULL ? equals + 1 : i + 1 < count ? words[++i] : NULL;
+            if (value == NULL || *value == '\0') {
+                return fail(message, "option %s needs a value", entry->name);
+            }
         }
-        const char *value = equals != NULL ? equals + 1 : i + 1 < count ? words[++i] : NULL;
-        if (value == NULL || *value == '\0') {
-            return fail(message, "option %s needs a value", entry->name);
-        }
-        if (!set_value(options, entry, value, message)) {
+        if (!set_field(options, entry, value, message)) {
             return false;
         }
     }
     return true;
+}
+
+/* Curvature and torsion follow --curve-weight, wherever it stands; their own weights come first. */
+static void share_curve_weight(Options *options) {
+    BespokeOptions *library = &options->library;
+    if (library->curvature_weight == 0.0) {
+        library->curvature_weight = options->curve_weight;
+    }
+    if (library->torsion_weight == 0.0) {
+        library->torsion_weight = options->curve_weight;
+    }
 }
 
 /* partial.obj: partial.avatar.obj; a name that does not end with .obj gets .avatar.obj at its end. */
@@ -172,11 +254,7 @@ static bool check(const Options *options, Message *message) {
 
 bool options_parse(Options *options, int count, char **words, Message *message) {
     memset(options, 0, sizeof *options);
-    for (size_t k = 0; k < ENTRY_COUNT; k++) {
-        if (is_number(&entries[k])) {
-            *(double *)field_of(options, &entries[k]) = -1.0;
-        }
-    }
+    options->library.struct_size = sizeof options->library;
     options->layers = array_new((size_t)count, sizeof *options->layers);
     if (options->layers == NULL) {
         return fail(message, "the command line does not fit into memory");
@@ -184,6 +262,7 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
     if (!read_words(options, count, words, message)) {
         return false;
     }
+    share_curve_weight(options);
     if (options->help || options->version) {
         return true;
     }
@@ -198,4 +277,39 @@ void options_free(Options *options) {
     free(options->layers);
     free(options->partial_avatar);
     memset(options, 0, sizeof *options);
+}
+
+/* Puts the text of an option into its column, where the line has `width` characters already; after a long name it
+   begins a new line. */
+static void print_help(const char *help, int width, FILE *file) {
+    const int column = 26;
+    if (*help == '\0' || width > column - 2) {
+        fputc('\n', file);
+        width = 0;
+    }
+    while (*help != '\0') {
+        const size_t length = strcspn(help, "\n");
+        fprintf(file, "%*s%.*s\n", column - width, "", (int)length, help);
+        help += help[length] == '\n' ? length + 1 : length;
+        width = 0;
+    }
+}
+
+void options_print_usage(FILE *file) {
+    fputs(usage_begin, file);
+    int width = 0;
+    for (size_t k = 0; k < ENTRY_COUNT; k++) {
+        const Entry *entry = &entries[k];
+        if (entry->kind == TEXT) {
+            fputs(entry->help, file);
+        } else if (entry->help != NULL) {
+            width += fprintf(file, "%s%s%s%s", width == 0 ? "  " : ", ", entry->name,
+                             *entry->value != '\0' ? " " : "", entry->value);
+            if (strcmp(entry->help, ",") != 0) {
+                print_help(entry->help, width, file);
+                width = 0;
+            }
+        }
+    }
+    fputs(usage_end, file);
 }

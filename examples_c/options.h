@@ -2,8 +2,9 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-#include <stdint.h>
+#include <stdio.h>
 
+#include "bespoke.h"
 #include "text.h"
 
 typedef struct Options {
@@ -27,29 +28,10 @@ typedef struct Options {
     /* Garments that the avatar wears already. */
     const char **layers;
     size_t layer_count;
-    /* Negative: not given. */
-    double fit_weight;
-    double designed_clearance;
-    double offset;
-    double fit_distance;
-    double pin_weight;
-    double surface_weight;
+    /* What the library is told: 0 is the default of each. */
+    BespokeOptions library;
+    /* Curvature and torsion, where they have no weight of their own. */
     double curve_weight;
-    double curvature_weight;
-    double torsion_weight;
-    double position_weight;
-    double barrier_weight;
-    double dhat;
-    double inflation_dhat;
-    double inflation_barrier_weight;
-    double voxel_size;
-    double min_separation;
-    double tolerance;
-    double max_iterations;
-    double threads;
-    double memory_limit;
-    bool printed_surface;
-    bool strict;
     bool quiet;
     bool help;
     bool version;
@@ -60,7 +42,11 @@ bool options_parse(Options *options, int count, char **words, Message *message);
 
 void options_free(Options *options);
 
-/* What --help prints, part after part, up to a null. */
-extern const char *const options_usage[];
+/* What --help prints. */
+void options_print_usage(FILE *file);
+
+/* Its text before and after the options. */
+extern const char usage_begin[];
+extern const char usage_end[];
 
 #endif

@@ -142,16 +142,6 @@ static bool begin(Run *run) {
     return true;
 }
 
-static int print_help(const Options *options) {
-    for (size_t k = 0; options->help && options_usage[k] != NULL; k++) {
-        fputs(options_usage[k], stdout);
-    }
-    if (!options->help) {
-        printf("retarget %s\n", bespoke_version_text());
-    }
-    return 0;
-}
-
 int main(int count, char **words) {
     Run run;
     memset(&run, 0, sizeof run);
@@ -163,8 +153,12 @@ int main(int count, char **words) {
         return 2;
     }
     int code = 1;
-    if (run.options.help || run.options.version) {
-        code = print_help(&run.options);
+    if (run.options.help) {
+        options_print_usage(stdout);
+        code = 0;
+    } else if (run.options.version) {
+        printf("retarget %s\n", bespoke_version_text());
+        code = 0;
     } else {
         watch_signal(SIGINT);
         watch_signal(SIGTERM);

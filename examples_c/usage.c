@@ -1,77 +1,19 @@
 #include "options.h"
 
-/* In parts, for a compiler need not take a longer text at once. */
-const char *const options_usage[] = {
+const char usage_begin[] =
     "usage: retarget --garment g.obj --source-skeleton s.obj --avatar a.obj --target-skeleton t.obj [options] -o out.obj\n"
     "\n"
     "Fits a garment that was modelled on one body to another body, with no triangle through another.\n"
-    "\n"
-    "  --garment FILE          the garment, around the source skeleton\n"
-    "  --source-skeleton FILE  skeleton of the body it was modelled on: joints as v, bones as l lines\n"
-    "  --avatar FILE           the body to dress\n"
-    "  --target-skeleton FILE  its skeleton: the same joints in the same order, the same bones in any order\n"
-    "  -o, --output FILE       the garment on the avatar, in the avatar's coordinate system and unit\n"
-    "\n",
-    "What else there is to know:\n"
-    "  --source-avatar FILE    the body the garment was modelled on; the fit then aims at the looseness it had there\n"
-    "  --skin-weights FILE     skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex\n"
-    "  --layer FILE            a garment that the avatar wears already, placed like it; may be given several times\n"
-    "  --no-fit FILE           garment vertices (from 0); faces with all corners listed are not drawn to the body\n"
-    "  --pins FILE             garment vertices to hold, a line each: the vertex (from 0) alone goes with its bone, or\n"
-    "                          the vertex and the x y z where it is to be; the same in all lines\n"
-    "  --rigid FILE            groups of garment vertices (from 0) that stay rigid, such as buttons: a line for each\n"
-    "\n",
-    "How it fits:\n"
-    "  --fit-weight W          how tight (2); 0 switches the term off\n"
-    "  --designed-clearance X  with --source-avatar: how much of the looseness it had there to aim at (1); 0 is tight\n"
-    "  --offset D              clearance to aim at everywhere beside that, in the unit of the avatar (0)\n"
-    "  --fit-distance D        with --source-avatar, without --no-fit: what was designed up to D away from it fits, what\n"
-    "                          was twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits\n"
-    "  --pin-weight W          stiffness of the pins (1000)\n"
-    "  --threads N             0: all cores (0)\n"
-    "  --memory-limit MB       give up where more memory would be needed (no limit)\n"
-    "  --strict                refuse a garment that intersects itself, instead of exempting those triangles from contact\n"
-    "                          until they separate\n"
-    "\n",
-    "For experts; the skeleton is 2 long in all lengths:\n"
-    "  --surface-weight W      how strongly the design keeps its shape (1)\n"
-    "  --curve-weight W        the same for its boundary curves: curvature and torsion (1)\n"
-    "  --curvature-weight W, --torsion-weight W\n"
-    "                          one of the two alone\n"
-    "  --position-weight W     how strongly cuffs, hems and collars keep their place along their bones (10)\n"
-    "  --barrier-weight W      stiffness of contacts (1e8)\n"
-    "  --dhat D                distance at which contacts begin (0.002)\n"
-    "  --inflation-dhat D      the same while the avatar grows inside the garment (0.01)\n"
-    "  --inflation-barrier-weight W\n"
-    "                          stiffness of contacts while the avatar grows (1e4)\n"
-    "  --voxel-size D          resolution of the distance field (0.01); also --voxel\n"
-    "  --min-separation D      distance that nothing falls below (1e-5)\n"
-    "  --tolerance X           the fit ends where what a step still promises is below this part of the objective (1e-3)\n"
-    "  --max-iterations N      iterations of each stage at most (500)\n"
-    "  --printed-surface       the surface term as printed in the paper, which makes scaling cost something\n"
-    "\n",
-    "A message may name an option of the library: inflation_dhat is set by --inflation-dhat, and so on, surface_form by\n"
-    "--printed-surface.\n"
-    "\n",
-    "What is written besides:\n"
-    "  --output-avatar FILE    the avatar that was dressed, written as it was read\n"
-    "  --distortion FILE       how much each triangle is distorted: a number a line, in the order of the faces and of the\n"
-    "                          triangles of their fans; 0 where the garment is similar to its design\n"
-    "  --report FILE           a JSON file with status, message, times, iterations, energies, distances, counts and\n"
-    "                          diagnostics; also where there is no result\n"
-    "  --keep-partial FILE     only where there is no result: the garment as it was last, and beside it the avatar as far\n"
-    "                          as it had grown (x.obj: x.avatar.obj), to see where it is stuck; not verified\n"
-    "  --quiet                 no progress on standard output, no warnings and notes on standard error\n"
-    "  --help, --version\n"
+    "\n";
+
+const char usage_end[] =
     "\n"
     "What the library has to say about garment and avatar goes to standard error: warnings, and where there is no result\n"
     "errors and notes as well; at most eight lines, three of a kind. --report lists all, with vertices and triangles.\n"
-    "\n",
+    "\n"
     "OBJ files are read with 32-bit coordinates. The output is the garment's file with moved vertices: order, faces,\n"
     "UVs, groups and materials stay. Vertex normals are computed afresh; corners that shared one still share one, and\n"
     "the faces count them in the order of their first use. Polygons are fans when it comes to contacts.\n"
     "\n"
     "Exit: 0 with a verified result, 1 without one, 2 for a wrong command line, 128 + n when stopped by signal n\n"
-    "(130 for Ctrl-C). Files appear whole or not at all.\n",
-    NULL,
-};
+    "(130 for Ctrl-C). Files appear whole or not at all.\n";
