@@ -149,7 +149,7 @@ test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
 	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
-	wait $$shipped && exit $$built
+	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
