@@ -4,6 +4,7 @@ use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
 use bespoke::capi::control::*;
+use bespoke::capi::coordinate_system::*;
 use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;
@@ -88,8 +89,8 @@ fn null_views_and_null_data_are_named() {
         refused(bespoke_session_set_target_skin_influences(caller.session, null(), &p, 1, 1), "skin weights");
         refused(bespoke_session_set_vertex_fit_weights(caller.session, null()), "fit weights");
         refused(bespoke_session_set_no_fit_vertices(caller.session, null()), "no-fit vertices");
-        refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source space");
-        refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target space");
+        refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source coordinate system");
+        refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target coordinate system");
         refused(bespoke_session_set_options(caller.session, null()), "options");
         refused(bespoke_session_read_report(caller.session, null_mut()), "report");
         refused(bespoke_session_read_energy(caller.session, 0, null_mut()), "energy");
@@ -234,7 +235,7 @@ fn spaces_are_checked() {
         winding: 0,
         reserved: 0,
     };
-    // SAFETY: the space is as large as it says.
+    // SAFETY: the struct is as large as it says.
     let set = |space: BespokeCoordinateSystem| unsafe {
         bespoke_session_set_target_coordinate_system(caller.session, &space)
     };
@@ -250,7 +251,7 @@ fn spaces_are_checked() {
         (BespokeCoordinateSystem { metres_per_unit: -1.0, ..default }, "-1"),
         (BespokeCoordinateSystem { metres_per_unit: f64::NAN, ..default }, "NaN"),
     ] {
-        caller.refused(set(space), InvalidArgument, &["target space", word]);
+        caller.refused(set(space), InvalidArgument, &["target coordinate system", word]);
     }
 }
 

@@ -325,7 +325,7 @@ internal static class Dressing
             session.Reset();
             CoordinateSystem bad = CoordinateSystem.Unity;
             bad.Up = Axis.NegativeX;
-            Check.Refused(Status.InvalidArgument, () => session.SetTargetCoordinateSystem(bad), "target space");
+            Check.Refused(Status.InvalidArgument, () => session.SetTargetCoordinateSystem(bad), "target coordinate system");
         }
     }
 }

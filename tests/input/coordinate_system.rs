@@ -30,7 +30,7 @@ fn every_choice_of_axes() {
             for (forward, f) in AXES {
                 let space = CoordinateSystem { right, up, forward, ..CoordinateSystem::default() };
                 let perpendicular = r.dot(u) == 0.0 && r.dot(f) == 0.0 && u.dot(f) == 0.0;
-                assert_eq!(space.check("target space").is_ok(), perpendicular);
+                assert_eq!(space.check("target coordinate system").is_ok(), perpendicular);
                 if !perpendicular {
                     continue;
                 }
@@ -68,14 +68,19 @@ fn units() {
         assert!((back - p).abs().max_element() <= 2e-16 * 100.0);
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12] {
-        let error =
-            CoordinateSystem { metres_per_unit: bad, ..CoordinateSystem::default() }.check("target space").unwrap_err();
+        let error = CoordinateSystem { metres_per_unit: bad, ..CoordinateSystem::default() }
+            .check("target coordinate system")
+            .unwrap_err();
         assert_eq!(error.kind, ErrorKind::InvalidArgument);
-        assert!(error.message.starts_with("target space: the unit is"), "{error}");
+        assert!(error.message.starts_with("target coordinate system: the unit is"), "{error}");
     }
-    let flat =
-        CoordinateSystem { up: Axis::NegativeX, ..CoordinateSystem::default() }.check("target space").unwrap_err();
-    assert_eq!(flat.message, "target space: right is +x and up is -x, the axes must be perpendicular to each other");
+    let flat = CoordinateSystem { up: Axis::NegativeX, ..CoordinateSystem::default() }
+        .check("target coordinate system")
+        .unwrap_err();
+    assert_eq!(
+        flat.message,
+        "target coordinate system: right is +x and up is -x, the axes must be perpendicular to each other"
+    );
 }
 
 #[test]
