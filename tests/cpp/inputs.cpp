@@ -58,7 +58,7 @@ void wrong_shapes() {
     REFUSED(session.set_source_avatar(scene.body.points, seven), Status::invalid_argument, "source avatar triangles");
     REFUSED(session.set_source_skeleton(ten, seven), Status::invalid_argument, "source skeleton joints");
     REFUSED(session.set_target_skeleton(scene.joints, seven), Status::invalid_argument, "elements of 2 each: 1 would");
-    REFUSED(session.set_pinned_vertices(seven, ten), Status::invalid_argument, "places of pins");
+    REFUSED(session.set_pinned_vertices(seven, ten), Status::invalid_argument, "targets of pins");
     REFUSED(session.add_layer(scene.body.points, seven), Status::invalid_argument, "layer triangles");
     REFUSED(session.set_target_skin_weights({ten, 4}), Status::invalid_argument, "elements of 4 each: 2 would");
     REFUSED(session.set_target_skin_weights({ten, 0}), Status::invalid_argument, "target skin weights");
@@ -92,7 +92,7 @@ void refusals() {
     REFUSED(session.step(), Status::invalid_state, "prepare");
     REFUSED(session.read_garment_vertices(), Status::invalid_state, "prepare");
     REFUSED(session.verify(Component::u16), Status::invalid_argument, "component");
-    Space space;
+    CoordinateSystem space;
     space.up = Axis::negative_x;
     REFUSED(session.set_source_coordinate_system(space), Status::invalid_argument, "x");
     Options options;
@@ -140,14 +140,14 @@ double distance(const Triple<float> &a, const Triple<float> &b) {
 void pins_groups_and_layers() {
     const Scene scene;
     Session session = session_with(scene);
-    const std::array<Triple<float>, 2> places{{{0.55f, -0.45f, 0.1f}, {0, 0.05f, 0}}};
+    const std::array<Triple<float>, 2> targets{{{0.55f, -0.45f, 0.1f}, {0, 0.05f, 0}}};
     const std::array group{100u, 101u, 116u};
-    ACCEPTED(session.set_pinned_vertices(std::array{0u, 70u}, places));
+    ACCEPTED(session.set_pinned_vertices(std::array{0u, 70u}, targets));
     ACCEPTED(session.add_rigid_group(group));
     const auto inner = dressed(session);
-    CHECK(distance(inner[0], places[0]) < 0.01);
-    // The other place is inside the body.
-    CHECK(distance(inner[70], places[1]) > 0.2);
+    CHECK(distance(inner[0], targets[0]) < 0.01);
+    // The other target is inside the body.
+    CHECK(distance(inner[70], targets[1]) > 0.2);
     bool is_told = false;
     for (const Diagnostic &diagnostic : session.read_diagnostics().value()) {
         if (diagnostic.kind != DiagnosticKind::pin_not_reached) continue;
@@ -218,7 +218,7 @@ void fields_of_options() {
 
 /// A new space is the default; centimetres, z up and a mirrored winding give the same garment.
 void spaces() {
-    const BespokeCoordinateSystem plain = Space().get();
+    const BespokeCoordinateSystem plain = CoordinateSystem().get();
     CHECK(plain.struct_size == sizeof plain && plain.right == BESPOKE_AXIS_POSITIVE_X);
     CHECK(plain.up == BESPOKE_AXIS_POSITIVE_Y && plain.forward == BESPOKE_AXIS_NEGATIVE_Z && plain.reserved == 0);
     CHECK(plain.metres_per_unit == 1.0 && plain.winding == BESPOKE_WINDING_COUNTER_CLOCKWISE);
@@ -227,11 +227,11 @@ void spaces() {
     Session metres = session_with(scene);
     const auto expected = dressed(metres);
     ACCEPTED(metres.reset());
-    ACCEPTED(metres.set_source_coordinate_system(Space()));
-    ACCEPTED(metres.set_target_coordinate_system(Space()));
+    ACCEPTED(metres.set_source_coordinate_system(CoordinateSystem()));
+    ACCEPTED(metres.set_target_coordinate_system(CoordinateSystem()));
     CHECK(same_bits(dressed(metres), expected));
 
-    Space space;
+    CoordinateSystem space;
     space.up = Axis::positive_z;
     space.forward = Axis::positive_y;
     space.metres_per_unit = 0.01;

@@ -34,8 +34,8 @@ void empty(Session &session) {
     refused(session.set_target_skin_weights({std::vector<float>(4), 2}));
     refused(session.set_target_skin_influences(triangles, points, 3));
     refused(session.set_target_skin_influences(scene.bones, points, 3));
-    refused(session.set_source_coordinate_system(Space()));
-    refused(session.set_target_coordinate_system(Space()));
+    refused(session.set_source_coordinate_system(CoordinateSystem()));
+    refused(session.set_target_coordinate_system(CoordinateSystem()));
     refused(session.set_vertex_fit_weights(std::vector<float>(4)));
     refused(session.set_no_fit_vertices(std::vector<std::uint32_t>(4)));
     refused(session.set_pinned_vertices(std::vector<std::uint32_t>(4)));
