@@ -84,7 +84,7 @@ enum class Component : std::uint32_t {
     u32 = BESPOKE_COMPONENT_U32,
 };
 
-/// Where a session is on its way: BespokeStage.
+/// The stage of a session: BespokeStage.
 enum class Stage : std::uint32_t {
     setup = BESPOKE_STAGE_SETUP,
     prepared = BESPOKE_STAGE_PREPARED,
@@ -106,7 +106,7 @@ enum class Axis : std::uint32_t {
     negative_z = BESPOKE_AXIS_NEGATIVE_Z,
 };
 
-/// How the corners of a front face follow each other for somebody who looks at its front: BespokeWinding.
+/// The order of a front face's corners, seen from the front: BespokeWinding.
 enum class Winding : std::uint32_t {
     counter_clockwise = BESPOKE_WINDING_COUNTER_CLOCKWISE,
     clockwise = BESPOKE_WINDING_CLOCKWISE,
@@ -701,8 +701,8 @@ struct Options {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. weight_off: tight, as without a source avatar.
     double designed_clearance = 0.0;
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
-    /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+    /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
+    /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
     double offset = 0.0;
     /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less,
     /// and not at all from twice this distance on. Default 0.1. weight_off: the garment fits as a whole.
@@ -710,10 +710,10 @@ struct Options {
     /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
     double pin_weight = 0.0;
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
-    /// its meshes before it begins, and looked at again as it goes on.
+    /// its meshes before it begins, and checked again during the run.
     std::uint64_t memory_limit = 0;
     /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
-    /// exempted from contact until they separate and named by Session::read_diagnostics; no others ever join them.
+    /// exempted from contact until they separate and named by Session::read_diagnostics; none are added later.
     bool strict = false;
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
@@ -721,7 +721,7 @@ struct Options {
     double curvature_weight = 0.0;
     /// Expert. Weight of the torsion of boundary curves. Default 1. weight_off possible.
     double torsion_weight = 0.0;
-    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. weight_off possible.
+    /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. weight_off possible.
     double position_weight = 0.0;
     /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     double barrier_weight = 0.0;
@@ -733,8 +733,8 @@ struct Options {
     double inflation_barrier_weight = 0.0;
     /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     double voxel_size = 0.0;
-    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
-    /// Default 1e-5.
+    /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
+    /// `dhat` and of `inflation_dhat`. Default 1e-5.
     double min_separation = 0.0;
     /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     double tolerance = 0.0;
