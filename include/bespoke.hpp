@@ -184,7 +184,7 @@ inline const char *version_text() noexcept { return bespoke_version_text(); }
 
 // ---- Results --------------------------------------------------------------------------------------------------------
 
-/// Why a call failed: a status to decide by, and a sentence for people. What or_throw() throws.
+/// Why a call failed: a status for programs, and a message for people. What or_throw() throws.
 class Error : public std::exception {
 public:
     /// An error of the caller's own is made in the same way, so that it goes where those of the library go.
@@ -206,7 +206,7 @@ private:
 
 namespace detail {
 
-/// The end of a program that uses what is not there: a sentence on the standard error output, then abort.
+/// Ends a program that uses a value or an error that is not there: a message on the standard error output, then abort.
 [[noreturn]] inline void refuse(const char *mistake, const std::string &message) noexcept {
     std::fprintf(stderr, "bespoke: %s%s%s\n", mistake, message.empty() ? "" : ": ", message.c_str());
     std::abort();
@@ -217,7 +217,7 @@ namespace detail {
 /// What a call gave: a value, or an Error. To be looked at: the compiler warns where one is dropped.
 ///
 /// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the
-/// program with a sentence (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
+/// program with a message (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
 /// the value itself and no reference, so that `for (const auto &entry : session.read_diagnostics().value())` is sound.
 template <class T> class [[nodiscard]] Result {
 public:
@@ -287,7 +287,7 @@ public:
 
     explicit operator bool() const noexcept { return error_.status() == Status::ok; }
 
-    /// Ends the program with a sentence where the call failed.
+    /// Ends the program with a message where the call failed.
     void value() const {
         if (!*this) detail::refuse("value of a result without a value", error_.message());
     }
@@ -894,10 +894,10 @@ inline Error empty_handle(const char *what) {
 }
 
 /// Success, or the failure of a call without a session's message.
-inline Result<void> outcome(BespokeStatus status, const char *sentence) {
+inline Result<void> outcome(BespokeStatus status, const char *message) {
     if (status == BESPOKE_STATUS_OK) return {};
     const auto typed = static_cast<Status>(status);
-    return Error(typed, std::string(status_name(typed)) + ": " + sentence);
+    return Error(typed, std::string(status_name(typed)) + ": " + message);
 }
 
 /// Progress of a session or a control. It fails only where the library does not know the struct.
@@ -1471,7 +1471,7 @@ private:
         bespoke_session_last_message(handle, nullptr, 0, &needed);
         std::string message(needed, '\0');
         bespoke_session_last_message(handle, &message[0], message.size(), nullptr);
-        // Its zero byte; and another failure may have put a shorter sentence there in between.
+        // Its zero byte; and another failure may have put a shorter message there in between.
         message.resize(std::char_traits<char>::length(message.c_str()));
         if (message.empty()) message = status_name(typed);
         return Error(typed, std::move(message));

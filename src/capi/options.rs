@@ -193,8 +193,8 @@ macro_rules! cross {
                 let default = Options::default();
                 let options = Options {
                     $($name: {
-                        let off = None::<$kind>$(.or(Some($off)))?;
-                        Crossing::read(self.$name, default.$name, off, stringify!($name))?
+                        let switched_off = None::<$kind>$(.or(Some($off)))?;
+                        Crossing::read(self.$name, default.$name, switched_off, stringify!($name))?
                     },)*
                 };
                 Ok(options)

@@ -254,15 +254,15 @@ impl BoneGraph {
     }
 
     /// The bone on which all locations lie, if there is one; the lowest where there are several.
-    pub fn common_bone(&self, places: &[Location]) -> Option<u32> {
-        let lies_on = |place: &Location, bone: u32| match self.resolve(*place) {
+    pub fn common_bone(&self, locations: &[Location]) -> Option<u32> {
+        let lies_on = |location: &Location, bone: u32| match self.resolve(*location) {
             Location::Bone { bone: own, .. } => own == bone,
             Location::Joint(joint) => self.bones[bone as usize].contains(&joint),
         };
-        match self.resolve(*places.first()?) {
-            Location::Bone { bone, .. } => places.iter().all(|p| lies_on(p, bone)).then_some(bone),
+        match self.resolve(*locations.first()?) {
+            Location::Bone { bone, .. } => locations.iter().all(|p| lies_on(p, bone)).then_some(bone),
             Location::Joint(joint) => {
-                self.bones_at(joint).iter().copied().find(|&bone| places.iter().all(|p| lies_on(p, bone)))
+                self.bones_at(joint).iter().copied().find(|&bone| locations.iter().all(|p| lies_on(p, bone)))
             }
         }
     }
@@ -293,8 +293,8 @@ impl BoneGraph {
     }
 
     /// A location at the end of a bone is the joint there.
-    fn resolve(&self, place: Location) -> Location {
-        match place {
+    fn resolve(&self, location: Location) -> Location {
+        match location {
             Location::Bone { bone, parameter: 0.0 } => Location::Joint(self.bones[bone as usize][0]),
             Location::Bone { bone, parameter: 1.0 } => Location::Joint(self.bones[bone as usize][1]),
             other => other,
@@ -308,7 +308,7 @@ impl BoneGraph {
             return None;
         }
         // A location inside a bone leaves it by one of its joints; a joint is itself and is not put in again.
-        let exits = |place| match place {
+        let exits = |location| match location {
             Location::Bone { bone, .. } => (self.bones[bone as usize], 0),
             Location::Joint(joint) => ([joint, joint], 1),
         };

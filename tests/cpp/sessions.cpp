@@ -145,7 +145,7 @@ void the_whole_way() {
         CHECK(++steps < 10000);
     }
     CHECK(steps > 5 && same_bits(session.read_garment_vertices().value(), expected));
-    // With somebody who watches.
+    // With a token or a callable.
     ACCEPTED(session.reset());
     std::vector<Stage> stages;
     double t = 0.0;
@@ -227,7 +227,7 @@ void what_is_read() {
     REFUSED(session.read_energy(100), Status::invalid_argument, "100");
 }
 
-/// Whatever is wrong with a garment is told with its elements.
+/// Whatever is wrong with a garment is reported with its elements.
 void diagnostics() {
     Scene scene;
     scene.garment.triangles.push_back(scene.garment.triangles[7]);

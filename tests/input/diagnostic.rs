@@ -1,4 +1,4 @@
-//! Every sort of diagnostic, with its sentence to the letter.
+//! Every sort of diagnostic, with its message to the letter.
 
 use bespoke::input::diagnostic::{AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Severity, Subject};
 

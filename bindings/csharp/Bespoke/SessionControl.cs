@@ -37,7 +37,7 @@ namespace Bespoke
             return new SessionProgress(&native);
         }
 
-        /// <summary>Frees the control; a second time does nothing. The session goes on.</summary>
+        /// <summary>Frees the control; a second time does nothing. The session runs on.</summary>
         public void Dispose()
         {
             handle.Dispose();
