@@ -153,7 +153,7 @@ enum BespokeStage
  {
   /// Takes inputs; nothing is computed yet.
   BESPOKE_STAGE_SETUP = 0,
-  /// Prepared: the inputs are checked, and the avatar is shrunk onto the source skeleton.
+  /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
   BESPOKE_STAGE_PREPARED = 1,
   /// The avatar grows to its full size inside the garment, which gives way.
   BESPOKE_STAGE_INFLATE = 2,
@@ -538,11 +538,11 @@ typedef struct BespokeReport {
   uint32_t struct_size;
   /// Threads that the session works with.
   uint32_t threads;
-  /// In prepare.
+  /// Cost of prepare.
   struct BespokeStageReport prepare;
-  /// In inflate.
+  /// Cost of inflate.
   struct BespokeStageReport inflate;
-  /// In fit.
+  /// Cost of fit.
   struct BespokeStageReport fit;
   /// Wall-clock seconds of the exact verifier.
   double verify_seconds;

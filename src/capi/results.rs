@@ -149,11 +149,11 @@ pub struct BespokeReport {
     pub struct_size: u32,
     /// Threads that the session works with.
     pub threads: u32,
-    /// In prepare.
+    /// Cost of prepare.
     pub prepare: BespokeStageReport,
-    /// In inflate.
+    /// Cost of inflate.
     pub inflate: BespokeStageReport,
-    /// In fit.
+    /// Cost of fit.
     pub fit: BespokeStageReport,
     /// Wall-clock seconds of the exact verifier.
     pub verify_seconds: f64,

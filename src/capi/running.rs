@@ -12,7 +12,7 @@ use crate::session::{Budget, Stage};
 pub enum BespokeStage {
     /// Takes inputs; nothing is computed yet.
     Setup = 0,
-    /// Prepared: the inputs are checked, and the avatar is shrunk onto the source skeleton.
+    /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
     Prepared = 1,
     /// The avatar grows to its full size inside the garment, which gives way.
     Inflate = 2,

@@ -90,7 +90,9 @@ namespace Bespoke
         /// <summary>Takes inputs; nothing is computed yet.</summary>
         Setup = 0,
 
-        /// <summary>Prepared: the inputs are checked, and the avatar is shrunk onto the source skeleton.</summary>
+        /// <summary>
+        /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
+        /// </summary>
         Prepared = 1,
 
         /// <summary>The avatar grows to its full size inside the garment, which gives way.</summary>

@@ -63,13 +63,13 @@ namespace Bespoke
         /// <summary>Threads that the session works with.</summary>
         public int Threads { get; }
 
-        /// <summary>In prepare.</summary>
+        /// <summary>Cost of prepare.</summary>
         public StageReport Prepare { get; }
 
-        /// <summary>In inflate.</summary>
+        /// <summary>Cost of inflate.</summary>
         public StageReport Inflate { get; }
 
-        /// <summary>In fit.</summary>
+        /// <summary>Cost of fit.</summary>
         public StageReport Fit { get; }
 
         /// <summary>Wall-clock seconds of the exact verifier.</summary>
