@@ -24,7 +24,7 @@ use crate::stage::setup::problem::{Inputs as Posed, Problem};
 pub struct Pin {
     /// The vertex.
     pub vertex: u32,
-    /// Its target in the target's coordinate system; none: its designed position relative to the nearest bone.
+    /// Its target, in the target's coordinate system; none: where it was designed, carried along with the nearest bone.
     pub target: Option<DVec3>,
 }
 
