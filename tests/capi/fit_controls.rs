@@ -79,7 +79,7 @@ fn pins_and_groups_do_what_they_say() {
 fn bad_pins_and_groups_are_refused() {
     let (caller, sample) = Caller::with_sample();
     let count = sample.garment.0.len() as u16;
-    caller.refused(pin(&caller, &[1, 2], &[[0.0; 3]]), InvalidArgument, &["2 vertices", "1 places"]);
+    caller.refused(pin(&caller, &[1, 2], &[[0.0; 3]]), InvalidArgument, &["2 vertices", "1 targets"]);
     caller.refused(pin(&caller, &[1, 1], &[[0.0; 3]; 2]), InvalidArgument, &["vertex 1", "twice"]);
     caller.refused(pin(&caller, &[1], &[[f32::NAN; 3]]), InvalidArgument, &["pinned"]);
     caller.accepted(pin(&caller, &[count], &[[0.0; 3]]));
