@@ -1,4 +1,4 @@
-/* What the library says about inputs and result, element by element. */
+/* The library's diagnostics about inputs and result, element by element. */
 #ifndef DIAGNOSTICS_H
 #define DIAGNOSTICS_H
 

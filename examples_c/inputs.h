@@ -12,7 +12,7 @@ typedef struct Inputs {
     Obj avatar;
 } Inputs;
 
-/* False, with a sentence in the session, where a file cannot be read or the library refuses what it holds. Whatever it
+/* False, with a message in the session, where a file cannot be read or the library refuses what it holds. Whatever it
    says, inputs_free is to be called afterwards. */
 bool inputs_set(Inputs *inputs, Session *session, const Options *options);
 

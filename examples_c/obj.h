@@ -35,7 +35,7 @@ typedef struct Obj {
     size_t normal_count;
 } Obj;
 
-/* False, with a sentence that has the path and the line, where the file cannot be used; nothing is to free then. */
+/* False, with a message that has the path and the line, where the file cannot be used; nothing is to free then. */
 bool obj_read(Obj *obj, const char *path, Message *message);
 
 /* Writes the file with other positions (three floats a vertex, in the order of the v lines); `comment`, unless null, is a

@@ -12,7 +12,7 @@ typedef struct Output {
     char *temporary; /* its name until then; null for a pipe or a device, which is written in place */
 } Output;
 
-/* False, with a sentence, where nothing could be written at `path` later: a directory, no such folder, no right. */
+/* False, with a message, where nothing could be written at `path` later: a directory, no such folder, no right. */
 bool output_check(const char *path, Message *message);
 
 bool output_open(Output *output, const char *path, Message *message);

@@ -6,7 +6,7 @@
 
 #include "session.h"
 
-/* Writes how the run ended, `status` as a name and `said` as a sentence, and what the session did until then. What cannot
+/* Writes how the run ended, `status` as a name and `said` as a message, and what the session did until then. What cannot
    be known yet, as the distortion of a garment that has not moved, is left out. */
 bool report_write(const Session *session, const char *status, const char *said, FILE *file, Message *message);
 

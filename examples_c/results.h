@@ -14,10 +14,10 @@ typedef struct Results {
     Output outputs[RESULTS];
 } Results;
 
-/* False, with a sentence, where one of the files that may have to be written could not be. */
+/* False, with a message, where one of the files that may have to be written could not be. */
 bool results_check(const Options *options, Message *message);
 
-/* Writes all files whole, but under other names; results_commit puts them in their places. False with a sentence in the
+/* Writes all files whole, but under other names; results_commit puts them in their places. False with a message in the
    session. results_discard is to be called in the end, whatever came before. */
 bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options);
 bool results_commit(Results *results, Message *message);

@@ -14,11 +14,11 @@ typedef struct Session {
     double start;
 } Session;
 
-/* False, with a sentence, where the library cannot be used. session_close is to be called in either case. */
+/* False, with a message, where the library cannot be used. session_close is to be called in either case. */
 bool session_open(Session *session);
 void session_close(Session *session);
 
-/* Whether the call went well; if not, keeps its status and sentence, with the file that it is about where there is one. */
+/* Whether the call went well; if not, keeps its status and message, with the file that it is about where there is one. */
 bool session_good(Session *session, BespokeStatus status, const char *path);
 
 /* Seconds since session_open. */

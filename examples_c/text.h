@@ -1,4 +1,4 @@
-/* Text files in memory, read word by word, and the sentence that says what is wrong with them. */
+/* Text files in memory, read word by word, and messages that say what is wrong with them. */
 #ifndef TEXT_H
 #define TEXT_H
 
@@ -6,12 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One sentence for a person. */
+/* One message for a person. */
 typedef struct Message {
     char text[1024];
 } Message;
 
-/* Writes the sentence; always false, so that `return fail(...)` reads well. */
+/* Writes the message; always false, so that `return fail(...)` reads well. */
 bool fail(Message *message, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))

@@ -1,52 +1,56 @@
 // Bespoke: fits a garment that was modelled on one body to another body, with no triangle through another.
 //
-// This file is generated from the library's sources, and it is the manual of the C API. include/bespoke.hpp is its face for
-// C++, bindings/csharp the one for C#. The whole way of a caller:
+// This file is generated from the library's sources, and it is the manual of the C API. include/bespoke.hpp wraps it for
+// C++, bindings/csharp for C#. A typical session:
 //
 //   BespokeSession *session = NULL;
 //   bespoke_session_create(&session);
-//   bespoke_session_set_garment(session, &positions, &triangles);          // as it was modelled
-//   bespoke_session_set_source_skeleton(session, &joints, &bones);         // around this skeleton
+//   bespoke_session_set_garment(session, &positions, &triangles);          // as modelled
+//   bespoke_session_set_source_skeleton(session, &joints, &bones);         // the one it encloses
 //   bespoke_session_set_target_avatar(session, &positions, &triangles);    // the body to dress
 //   bespoke_session_set_target_skeleton(session, &joints, &bones);         // and its skeleton
 //   BespokeStatus status = bespoke_session_run(session);                   // or prepare, then step, step, step ...
 //   if (status == BESPOKE_STATUS_OK) bespoke_session_read_garment_vertices(session, &result, NULL);
-//   else bespoke_session_last_message(session, sentence, sizeof sentence, NULL);
+//   else bespoke_session_last_message(session, message, sizeof message, NULL);
 //   bespoke_session_destroy(session);
 //
-// Optional before it runs: the spaces of both sides, the source avatar, skin weights, fit weights, pins, rigid groups, layers,
-// options.
+// Optional before it runs: the coordinate systems of both sides, the source avatar, skin weights, fit weights, pins,
+// rigid groups, layers, options. The stages are prepare (the avatar is shrunk onto the source skeleton, inside the
+// garment), inflate (it grows to its full size, and the garment gives way), fit (the garment is drawn to the avatar)
+// and verify. "The paper" is Huang et al.: Intersection-Free Garment Retargeting, SIGGRAPH 2025; docs/glossary.md
+// explains the terms.
 //
 // What holds for all functions:
 //
-// Status.  A call that can fail returns a status. Unless it is BESPOKE_STATUS_BUSY, a failed call with a session leaves a
-//   sentence for bespoke_session_last_message that says what, where and which element. A call that failed because of its
-//   arguments or of the state changed nothing. Each function lists its errors without their prefix.
-// State.  Where a session is on its way, one of BespokeStage. A function lists the states in which it may be called; in any
+// Status.  A call that can fail returns a status. Unless it is BESPOKE_STATUS_BUSY, a failed call with a session leaves
+//   a message for bespoke_session_last_message that says what, where and which element. A call that failed because of
+//   its arguments or of the state has changed nothing. Each function lists its errors without their prefix.
+// State.  The stage of a session, one of BespokeStage. A function lists the states in which it may be called; in any
 //   other it returns BESPOKE_STATUS_INVALID_STATE.
-// Pointers.  They are null, which is refused where not said otherwise, or point to what is said; structs with a struct_size to
-//   as many bytes as that says. A handle is what the library gave out and has not destroyed.
-// Ownership.  Apart from handles, which their destroy functions free, nothing of the library's is to be freed by the caller,
-//   and no pointer of the caller's is kept after a call.
-// Structs.  Those with a struct_size, which the caller sets, may grow at their end: a program and a library of different age
-//   understand each other. A struct that is all zeros, but for its struct_size, means the defaults. Fields called reserved
-//   are 0.
-// Enums.  They cross as uint32_t and are checked. A later library may answer with numbers that this header does not name.
-// Lengths.  They are in the caller's unit, or, where that is said, in the normalised space, in which the longest side of each
+// Pointers.  Null is refused unless noted otherwise; any other pointer points to what is documented, structs with a
+//   struct_size to that many bytes. Handles come from the library and are not destroyed yet.
+// Ownership.  Apart from handles, which their destroy functions free, nothing of the library's is to be freed by the
+//   caller, and no pointer of the caller's is kept after a call.
+// Structs.  Those with a struct_size, which the caller sets, may grow at their end: programs and libraries of different
+//   versions stay compatible. A struct that is all zeros, but for its struct_size, means the defaults. Fields called
+//   reserved are 0.
+// Enums.  They are passed as uint32_t and checked. A later library may return numbers that this header does not name.
+// Lengths.  They are in the caller's unit, or, where noted, in the normalised space, in which the longest side of each
 //   skeleton's bounding box is 2.
 // Threads.  "any, one at a time": from any thread, but a second call with the same session while the first runs returns
-//   BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent, and nothing is bound
-//   to the thread that made it: a host's thread pool may step a session in another thread each time. A session works in
-//   threads of its own, as many as BespokeOptions.threads says, from prepare until it is reset or destroyed; a host that runs
-//   many sessions at once gives each of them one. The calling thread waits meanwhile, and needs little stack (64 KiB).
-// Process.  Nothing is shared but code: several plugins may use the library in one process, or bring a copy each. Signals,
-//   locale, environment, standard streams and allocator of the host are left alone; the floating-point mode of the calling
-//   thread (rounding, flushing of subnormal numbers, traps) is the default during a call, and as it was after it. Once
-//   loaded, the library stays until the process ends, and with it some sleeping threads of oneTBB: dlclose is safe after all
-//   sessions are destroyed, and dlopen finds it again.
+//   BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent, and nothing is
+//   bound to the thread that made it: a host's thread pool may step a session in another thread each time. A session
+//   has threads of its own, as many as BespokeOptions.threads says, from prepare until it is reset or destroyed; a host
+//   that runs many sessions at once gives each of them one. The calling thread waits meanwhile, and needs 64 KiB of
+//   stack.
+// Process.  Sessions share nothing but code: several plugins may use the library in one process, or bring a copy each.
+//   Signals, locale, environment, standard streams and allocator of the host are not touched; the floating-point mode
+//   of the calling thread (rounding, flushing of subnormal numbers, traps) is the default during a call and is restored
+//   after it. Once loaded, the library stays until the process ends, and with it some sleeping threads of oneTBB:
+//   dlclose is safe after all sessions are destroyed, and the library can be opened again.
 // Fork.  Not supported: a process that was forked cannot use the sessions of its parent (INVALID_STATE, and they stay
-//   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls are
-//   harmless there.
+//   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls
+//   are harmless there.
 
 
 #ifndef BESPOKE_H
@@ -80,7 +84,7 @@ enum BespokeStatus
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// It did what it says.
+  /// The call succeeded.
   BESPOKE_STATUS_OK = 0,
   /// An argument is null, out of range or of the wrong size.
   BESPOKE_STATUS_INVALID_ARGUMENT = 1,
@@ -92,19 +96,20 @@ enum BespokeStatus
   BESPOKE_STATUS_INVALID_SKELETON = 4,
   /// Skin or fit weights have the wrong shape or hold bad values.
   BESPOKE_STATUS_INVALID_WEIGHTS = 5,
-  /// The garment intersects itself at the start, and the options are strict.
+  /// The garment intersects itself at the start, and the option `strict` is set.
   BESPOKE_STATUS_SELF_INTERSECTION = 6,
-  /// The garment does not enclose its skeleton, and no way inside it was found.
+  /// The garment does not enclose its skeleton, and no path for it inside the garment was found.
   BESPOKE_STATUS_NOT_ENCLOSED = 7,
   /// The avatar could not be inflated to its full size without an intersection.
   BESPOKE_STATUS_INFLATION_STALLED = 8,
   /// The exact verifier found an intersection in the result.
   BESPOKE_STATUS_NOT_VERIFIED = 9,
-  /// Somebody asked to stop.
+  /// Cancelled by the caller.
   BESPOKE_STATUS_CANCELLED = 10,
   /// Another thread is inside a call with the same session. Nothing was done, and the message did not change.
   BESPOKE_STATUS_BUSY = 11,
-  /// A defect of this library. The session refuses all further work and can only be destroyed; others go on.
+  /// A defect of this library. The session refuses all further calls and can only be destroyed; other sessions are
+  /// not affected.
   BESPOKE_STATUS_INTERNAL = 12,
   /// The session would take more memory than the option `memory_limit` allows.
   BESPOKE_STATUS_MEMORY_LIMIT = 13,
@@ -140,7 +145,7 @@ typedef uint32_t BespokeComponent;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Where a session is on its way.
+/// The stage of a session.
 enum BespokeStage
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -148,19 +153,19 @@ enum BespokeStage
  {
   /// Takes inputs; nothing is computed yet.
   BESPOKE_STAGE_SETUP = 0,
-  /// Step 1 is done: the avatar is shrunk onto the source skeleton.
+  /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
   BESPOKE_STAGE_PREPARED = 1,
-  /// Step 2: the avatar grows to its full size inside the garment.
+  /// The avatar grows to its full size inside the garment, which gives way.
   BESPOKE_STAGE_INFLATE = 2,
-  /// Step 3: the garment settles onto the avatar.
+  /// The garment is fitted to the avatar at its full size.
   BESPOKE_STAGE_FIT = 3,
-  /// The exact verifier looks at the result.
+  /// The exact verifier checks the result.
   BESPOKE_STAGE_VERIFY = 4,
   /// The result is final and verified.
   BESPOKE_STAGE_DONE = 5,
-  /// A call failed for good. What the garment looked like last can be read.
+  /// A call failed for good. The last garment can be read.
   BESPOKE_STAGE_FAILED = 6,
-  /// Somebody asked to stop. What the garment looked like last can be read.
+  /// Cancelled by the caller. The last garment can be read.
   BESPOKE_STAGE_CANCELLED = 7,
 };
 #ifndef __cplusplus
@@ -198,15 +203,15 @@ typedef uint32_t BespokeAxis;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How the corners of a front face follow each other for somebody who looks at its front.
+/// The order of a front face's corners, seen from the front.
 enum BespokeWinding
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Against the hands of a clock.
+  /// Counter-clockwise.
   BESPOKE_WINDING_COUNTER_CLOCKWISE = 0,
-  /// With the hands of a clock.
+  /// Clockwise.
   BESPOKE_WINDING_CLOCKWISE = 1,
 };
 #ifndef __cplusplus
@@ -242,7 +247,7 @@ enum BespokeDiagnosticKind
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
+  /// Garment vertices at equal positions, as along UV seams, that are welded. The first of them are named.
   BESPOKE_DIAGNOSTIC_KIND_SPLIT_VERTICES = 1,
   /// A garment triangle with the corners of another, which counts once. Both are named.
   BESPOKE_DIAGNOSTIC_KIND_DUPLICATE_TRIANGLE = 2,
@@ -252,27 +257,27 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_NON_MANIFOLD_EDGE = 4,
   /// A garment vertex that no triangle uses.
   BESPOKE_DIAGNOSTIC_KIND_UNUSED_VERTEX = 5,
-  /// A small piece of the garment, such as a button, that is held to the piece beside it.
+  /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
   BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE = 6,
-  /// Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
-  /// they have come apart.
+  /// Two garment triangles that pass through each other, or touch, before anything has moved. They are exempted from
+  /// contact until they separate.
   BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION = 7,
   /// Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
   /// named.
   BESPOKE_DIAGNOSTIC_KIND_NEAR_CONTACT = 8,
   /// The avatar, shrunk onto the source skeleton, passes through the garment.
   BESPOKE_DIAGNOSTIC_KIND_AVATAR_PENETRATES = 9,
-  /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
+  /// The coordinates in which the result is read are coarse, so the minimum separation is larger than the option's.
   BESPOKE_DIAGNOSTIC_KIND_COARSE_COORDINATES = 10,
   /// Two triangles that intersect in the result and did not at the start.
   BESPOKE_DIAGNOSTIC_KIND_RESULT_INTERSECTION = 11,
-  /// A pinned garment vertex ended away from its place.
+  /// A pinned garment vertex ended away from its target.
   BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED = 12,
-  /// A rigid group of garment vertices ended bent, for something stands in its way.
+  /// A rigid group of garment vertices ended bent, because something is in its way.
   BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT = 13,
-  /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A garment
-  /// triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between
-  /// the garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
+  /// The inflation stalled, and this part of the avatar, or these two, push against the garment. A garment triangle
+  /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
+  /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
   BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED = 14,
 };
 #ifndef __cplusplus
@@ -289,7 +294,7 @@ enum BespokeSeverity
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Good to know.
+  /// For information.
   BESPOKE_SEVERITY_NOTE = 1,
   /// The result may be worse for it.
   BESPOKE_SEVERITY_WARNING = 2,
@@ -352,10 +357,10 @@ typedef uint32_t BespokeElementKind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
+/// Cancellation and progress of one session; a handle of its own that may outlive the session. Opaque.
 typedef struct BespokeControl BespokeControl;
 
-/// One garment on its way to one avatar. Opaque.
+/// The fitting of one garment to one avatar. Opaque.
 typedef struct BespokeSession BespokeSession;
 
 /// An array of the caller that is read during a call and never kept. Alignment does not matter.
@@ -376,16 +381,16 @@ typedef struct BespokeView {
 /// A coordinate system. Zero in a field means its default; handedness follows from the axes, which must be along three
 /// different coordinates.
 ///
-/// Right, up, forward and unit of some: Unreal +y, +z, +x, 0.01; Unity +x, +y, +z, 1; Godot and glTF as by default; Maya as by
-/// default but 0.01; Blender +x, +z, +y, 1.
+/// Right, up, forward and unit of some: Unreal +y, +z, +x, 0.01; Unity +x, +y, +z, 1; Godot and glTF as by default;
+/// Maya as by default but 0.01; Blender +x, +z, +y, 1.
 typedef struct BespokeCoordinateSystem {
   /// sizeof(BespokeCoordinateSystem).
   uint32_t struct_size;
-  /// The axis to the right, one of BespokeAxis. Default: +x.
+  /// The axis that points to the right, one of BespokeAxis. Default: +x.
   uint32_t right;
-  /// The axis upwards, one of BespokeAxis. Default: +y.
+  /// The axis that points up, one of BespokeAxis. Default: +y.
   uint32_t up;
-  /// The axis forwards, into the picture, one of BespokeAxis. Default: -z.
+  /// The axis that points forward, away from the viewer, one of BespokeAxis. Default: -z.
   uint32_t forward;
   /// Length of the unit in metres [1e-9, 1e9]. Default: 1.
   double metres_per_unit;
@@ -395,10 +400,10 @@ typedef struct BespokeCoordinateSystem {
   uint32_t reserved;
 } BespokeCoordinateSystem;
 
-/// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
-/// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. What an artist or a pipeline may want comes
-/// first; from surface_weight on ("Expert."), the fields tune the solver.
+/// The options of a session. Zero in a field means its default. Unless noted otherwise, lengths are in the normalised
+/// space, in which the longest side of the skeleton's bounding box is 2. Weights are finite and not negative, or
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Artists' options come first; from
+/// surface_weight on ("Expert."), the fields tune the solver.
 typedef struct BespokeOptions {
   /// sizeof(BespokeOptions).
   uint32_t struct_size;
@@ -409,19 +414,19 @@ typedef struct BespokeOptions {
   /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
   /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
   double designed_clearance;
-  /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
-  /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+  /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
+  /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
   double offset;
   /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
   /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
   double fit_distance;
   /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
   double pin_weight;
-  /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
-  /// meshes before it begins, and looked at again as it goes on.
+  /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
+  /// its meshes before it begins, and checked again during the run.
   uint64_t memory_limit;
-  /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are
-  /// exempted from contact until they separate and named by bespoke_session_read_diagnostics; no others ever join them.
+  /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are exempted
+  /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later.
   uint32_t strict;
   /// 0.
   uint32_t reserved;
@@ -431,7 +436,7 @@ typedef struct BespokeOptions {
   double curvature_weight;
   /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
   double torsion_weight;
-  /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
+  /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
   /// possible.
   double position_weight;
   /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
@@ -444,8 +449,8 @@ typedef struct BespokeOptions {
   double inflation_barrier_weight;
   /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
   double voxel_size;
-  /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
-  /// Default 1e-5.
+  /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
+  /// `dhat` and of `inflation_dhat`. Default 1e-5.
   double min_separation;
   /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
   double tolerance;
@@ -459,15 +464,15 @@ typedef struct BespokeOptions {
 typedef struct BespokeIntersections {
   /// Of the garment with itself.
   uint64_t garment_garment;
-  /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
+  /// Those of them that intersected or touched at the start, too: a garment with initial self-intersections may keep
   /// some of them.
   uint64_t initial;
-  /// Of the garment with the avatar or the layers that it wears.
+  /// Of the garment with the avatar or its layers.
   uint64_t garment_avatar;
 } BespokeIntersections;
 
-/// A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's bounding
-/// box is 2.
+/// Progress of a session, a snapshot. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// bounding box is 2.
 typedef struct BespokeProgress {
   /// sizeof(BespokeProgress).
   uint32_t struct_size;
@@ -487,11 +492,11 @@ typedef struct BespokeProgress {
   double min_distance;
   /// Contact pairs closer than dhat.
   uint64_t active_contacts;
-  /// Seconds in step 1 so far.
+  /// Seconds in prepare so far.
   double prepare_seconds;
-  /// Seconds in step 2 so far.
+  /// Seconds in inflate so far.
   double inflate_seconds;
-  /// Seconds in step 3 so far.
+  /// Seconds in fit so far.
   double fit_seconds;
   /// Seconds in the verifier so far.
   double verify_seconds;
@@ -512,7 +517,7 @@ typedef struct BespokeBuffer {
   uint32_t component;
 } BespokeBuffer;
 
-/// The work of one stage.
+/// The cost of one stage.
 typedef struct BespokeStageReport {
   /// Wall-clock seconds.
   double seconds;
@@ -526,22 +531,22 @@ typedef struct BespokeStageReport {
   uint32_t reserved;
 } BespokeStageReport;
 
-/// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// Measurements of a session so far. Lengths are in the normalised space, in which the longest side of the skeleton's
 /// bounding box is 2.
 typedef struct BespokeReport {
   /// sizeof(BespokeReport).
   uint32_t struct_size;
   /// Threads that the session works with.
   uint32_t threads;
-  /// Step 1.
+  /// Cost of prepare.
   struct BespokeStageReport prepare;
-  /// Step 2.
+  /// Cost of inflate.
   struct BespokeStageReport inflate;
-  /// Step 3.
+  /// Cost of fit.
   struct BespokeStageReport fit;
   /// Wall-clock seconds of the exact verifier.
   double verify_seconds;
-  /// Seconds until the distance field was built, beside step 2.
+  /// Seconds until the distance field was built, in parallel with inflate.
   double field_seconds;
   /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
   double t;
@@ -569,12 +574,12 @@ typedef struct BespokeReport {
   uint64_t subdivided_avatar_vertices;
   /// Triangles of the target avatar once those over several bones are split.
   uint64_t subdivided_avatar_triangles;
-  /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
+  /// The minimum separation in force: the option's; less while something is nearer than that, more where the
   /// coordinates of the result are coarse.
   double min_separation;
-  /// 1 where the verifier has looked at the result, else 0.
+  /// 1 where the verifier has checked the result, else 0.
   uint32_t is_verified;
-  /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
+  /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations or not at all.
   uint32_t is_converged;
   /// Number of energy terms; see bespoke_session_read_energy.
   uint32_t energy_count;
@@ -582,7 +587,8 @@ typedef struct BespokeReport {
   uint32_t reserved;
   /// Bytes that the session's arrays take, without what the threads and the allocator add.
   uint64_t memory_bytes;
-  /// Intersecting or touching pairs within the garment at the start, which are let off.
+  /// Intersecting or touching pairs within the garment at the start, which are exempted from contact until they
+  /// separate.
   uint64_t initial_self_intersections;
 } BespokeReport;
 
@@ -606,7 +612,7 @@ typedef struct BespokeElement {
   uint32_t index;
 } BespokeElement;
 
-/// One thing worth knowing about the inputs or the result.
+/// A diagnostic about the inputs or the result.
 typedef struct BespokeDiagnostic {
   /// One of BespokeDiagnosticKind.
   uint32_t kind;
@@ -650,32 +656,32 @@ const char *bespoke_version_text(void);
 /// caller destroys it with bespoke_session_destroy. Errors: INVALID_ARGUMENT (null), INTERNAL. Threads: any, at any time.
 BespokeStatus bespoke_session_create(struct BespokeSession **session);
 
-/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
-/// thread of the session is left; where a request to stop has just ended a call, that may take a moment.
+/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns,
+/// no thread of the session is left; after a call that was cancelled, that may take a moment.
 ///
 /// State: any. Errors: BUSY where another thread is inside a call with it, INVALID_STATE in a forked process; it is not
 /// destroyed then. INTERNAL where it ended by a panic. Threads: any, and no other call with this session may begin from here
 /// on.
 BespokeStatus bespoke_session_destroy(struct BespokeSession *session);
 
-/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
-/// bespoke_session_destroy, it waits for work that a request to stop has left.
+/// Takes a session back to SETUP: inputs, coordinate systems and options stay, results and a request to cancel are
+/// dropped. Like bespoke_session_destroy, it waits for work that a cancelled call has left.
 ///
 /// State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_reset(struct BespokeSession *session);
 
-/// Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
+/// Copies the message of the last call with this session that failed (UTF-8, empty where none did).
 ///
-/// `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
-/// null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
-/// State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
-/// Threads: any, at any time, also while another call runs.
+/// `buffer`: room for `capacity` bytes. A longer message is cut at a character; a zero byte always ends it. May be null
+/// where `capacity` is 0. `*needed`, unless null: the size of the whole message with its zero byte. State: any, a
+/// failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity). Threads: any, at
+/// any time, also while another call runs.
 BespokeStatus bespoke_session_last_message(const struct BespokeSession *session,
                                            char *buffer,
                                            size_t capacity,
                                            size_t *needed);
 
-/// The garment as it was modelled, around the source skeleton.
+/// The garment as it was modelled, enclosing the source skeleton.
 ///
 /// `positions`: points, F32 or F64; the result is verified in this precision. `triangles`: three vertices each, U16
 /// or U32. It may be open and in pieces. Ownership: copied during the call. State: SETUP; a second call replaces the
@@ -685,7 +691,7 @@ BespokeStatus bespoke_session_set_garment(struct BespokeSession *session,
                                           const struct BespokeView *positions,
                                           const struct BespokeView *triangles);
 
-/// The skeleton around which the garment was modelled, in the space of the garment.
+/// The skeleton that the garment was modelled around, in the coordinate system of the garment.
 ///
 /// `joints`: points, F32 or F64. `bones`: two joints each, U16 or U32; order and direction are free. Ownership: copied
 /// during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_SKELETON, INVALID_STATE, BUSY, INTERNAL. Threads:
@@ -702,8 +708,8 @@ BespokeStatus bespoke_session_set_target_avatar(struct BespokeSession *session,
                                                 const struct BespokeView *positions,
                                                 const struct BespokeView *triangles);
 
-/// The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds to
-/// joint i of the source skeleton, and the same pairs of joints are bones.
+/// The skeleton of the body to dress, in its coordinate system and in the pose of the source skeleton. Joint i
+/// corresponds to joint i of the source skeleton, and the same pairs of joints are bones.
 ///
 /// `joints`, `bones`: as for the source skeleton. Ownership: copied during the call. State: SETUP. Errors:
 /// INVALID_ARGUMENT, INVALID_SKELETON (another topology may be found only by bespoke_session_prepare), INVALID_STATE,
@@ -712,8 +718,8 @@ BespokeStatus bespoke_session_set_target_skeleton(struct BespokeSession *session
                                                   const struct BespokeView *joints,
                                                   const struct BespokeView *bones);
 
-/// Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at the
-/// looseness of the design.
+/// Optional: the body on which the garment was designed, in the coordinate system of the garment. With it, the fit aims
+/// at the clearance of the design.
 ///
 /// `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
 /// INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
@@ -721,8 +727,9 @@ BespokeStatus bespoke_session_set_source_avatar(struct BespokeSession *session,
                                                 const struct BespokeView *positions,
                                                 const struct BespokeView *triangles);
 
-/// Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest bone
-/// decides to which part of the body a vertex belongs.
+/// Optional: skin weights of the target avatar as a full matrix, one row a joint. They only assign each vertex to one
+/// joint: the one with its largest weight, the lowest of several. Without them, and for a vertex whose weights are all
+/// 0, the nearest bone decides.
 ///
 /// `rows`: one element for each joint, F32 or F64, each of them `vertices` numbers; its stride leads from row to row.
 /// Weights are finite and not negative; those of a vertex need not sum to 1. Ownership: copied during the call. State:
@@ -733,28 +740,31 @@ BespokeStatus bespoke_session_set_target_skin_weights(struct BespokeSession *ses
                                                       size_t vertices);
 
 /// Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each vertex.
+/// Only the joint with the largest weight of a vertex is used, so one influence with weight 1 for each vertex is
+/// enough.
 ///
 /// `joints`: one element for each vertex, U16 or U32, each of them `influences` joints (from 0). `weights`: the same
-/// with F32 or F64. A joint with weight 0 is not looked at. `joint_count`: joints of the target skeleton. All else as
-/// for bespoke_session_set_target_skin_weights, which this replaces.
+/// with F32 or F64. The weights of a joint that is listed twice are added; one with weight 0 is ignored. `joint_count`:
+/// joints of the target skeleton. All else as for bespoke_session_set_target_skin_weights, which this replaces.
 BespokeStatus bespoke_session_set_target_skin_influences(struct BespokeSession *session,
                                                          const struct BespokeView *joints,
                                                          const struct BespokeView *weights,
                                                          size_t influences,
                                                          size_t joint_count);
 
-/// Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+/// Optional: the coordinate system of garment, source skeleton and source avatar; by default right-handed, in metres, y
+/// up.
 ///
-/// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, an absurd unit),
-/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+/// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, two axes along one coordinate, a unit outside [1e-9, 1e9]
+/// metres), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_set_source_coordinate_system(struct BespokeSession *session,
-                                                           const struct BespokeCoordinateSystem *space);
+                                                           const struct BespokeCoordinateSystem *coordinate_system);
 
-/// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+/// Optional: the coordinate system of target avatar and target skeleton, and so of the vertices that are read.
 ///
 /// State, errors, threads: as for bespoke_session_set_source_coordinate_system.
 BespokeStatus bespoke_session_set_target_coordinate_system(struct BespokeSession *session,
-                                                           const struct BespokeCoordinateSystem *space);
+                                                           const struct BespokeCoordinateSystem *coordinate_system);
 
 /// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
 /// 0: not at all.
@@ -773,29 +783,29 @@ BespokeStatus bespoke_session_set_vertex_fit_weights(struct BespokeSession *sess
 BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session,
                                                   const struct BespokeView *vertices);
 
-/// Optional: garment vertices that are held in their places. Replaces those before.
+/// Optional: garment vertices that are held at targets. Replaces earlier pins.
 ///
-/// `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `places`: null, or one point for each of them
-/// in the target's space, F32 or F64. Without places, a vertex is held where it was designed, carried along with the bone
-/// beside it: its coordinate along the bone and its distance from it stay, so on the same skeleton it stays where it is. A pin
-/// is a stiff spring (see BespokeOptions.pin_weight): what the body stands in the way of is not reached, and told as a
-/// diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not
-/// have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+/// `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `targets`: null, or one point for each
+/// of them in the target's coordinate system, F32 or F64. Without targets, a vertex keeps its position relative to the
+/// nearest bone: its coordinate along the bone and its distance from it, so with equal skeletons it stays where it is.
+/// A pin is a stiff spring (see BespokeOptions.pin_weight): one that cannot reach its target, because the body is in
+/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a
+/// vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads:
+/// any, one at a time.
 BespokeStatus bespoke_session_set_pinned_vertices(struct BespokeSession *session,
                                                   const struct BespokeView *vertices,
-                                                  const struct BespokeView *places);
+                                                  const struct BespokeView *targets);
 
-/// Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate: it turns and
-/// moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each call, counted from 0.
+/// Optional: garment vertices that stay one rigid body, such as a button, a buckle or an armour plate: it moves, turns
+/// and keeps its shape. Its size scales with the skeletons. Each call adds a group; they are numbered from 0.
 ///
-/// `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. Where contact does not
-/// let a group become rigid to rounding, that is told as a diagnostic. Ownership: copied during the call. State: SETUP.
-/// Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE,
-/// BUSY, INTERNAL. Threads: any, one at a time.
-BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session,
-                                              const struct BespokeView *vertices);
+/// `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. A group that
+/// contact keeps from becoming rigid up to rounding is reported as a diagnostic. Ownership: copied during the call.
+/// State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by
+/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session, const struct BespokeView *vertices);
 
-/// Forgets all rigid groups.
+/// Removes all rigid groups.
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session);
@@ -805,11 +815,11 @@ BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session)
 /// Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
 /// is set and after bespoke_session_reset.
 ///
-/// `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
-/// each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
-/// is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
-/// (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
-/// Threads: any, one at a time.
+/// `positions`: points, F32 or F64, in the coordinate system of the target avatar; used exactly as they are.
+/// `triangles`: three vertices each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What
+/// is read or counted as the avatar does not include its layers. Ownership: copied during the call. State: SETUP.
+/// Errors: INVALID_ARGUMENT, INVALID_MESH (no vertices, no triangles, an index out of range, a coordinate that is not
+/// finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
                                         const struct BespokeView *positions,
                                         const struct BespokeView *triangles);
@@ -830,9 +840,9 @@ BespokeStatus bespoke_session_set_options(struct BespokeSession *session, const 
 /// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 
-/// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
-/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
-/// be read with bespoke_session_read_diagnostics, also where it fails.
+/// Checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes PREPARED; where
+/// it fails or is cancelled, the session stays in SETUP and keeps its inputs. Diagnostics about the inputs can be read
+/// with bespoke_session_read_diagnostics, also where it fails.
 ///
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
 /// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
@@ -840,46 +850,45 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 /// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
-/// Goes on for a while: to the end of the budget or of the whole way, whichever is first.
+/// Continues the run until it ends or the budget is spent, whichever is first.
 ///
-/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
-/// at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
-/// afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
-/// verified; until then what can be read is a preview.
-/// State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
-/// INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is checked after each iteration, so a step does
+/// at least one and may take somewhat longer. `*stage`, unless null: the stage afterwards, one of BespokeStage, also
+/// where the step failed (but not with BUSY or a null session). With OK and DONE the result is verified; until then
+/// what can be read is a preview. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
+/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY,
+/// INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,
                                    uint32_t max_milliseconds,
                                    uint32_t *stage);
 
-/// All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
+/// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.
 ///
 /// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
 BespokeStatus bespoke_session_run(struct BespokeSession *session);
 
 /// Counts the intersections of the vertices as they would be read now, with exact predicates.
 ///
-/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
-/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
-/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
-/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has,
+/// in the precision of its garment, no others than initial self-intersections. State: PREPARED or later. Errors:
+/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage does not change),
+/// BUSY, INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
 BespokeStatus bespoke_session_verify(const struct BespokeSession *session,
                                      uint32_t component,
                                      struct BespokeIntersections *intersections);
 
-/// Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+/// Cancels a session. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
 /// whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
 ///
-/// What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
-/// in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
+/// What can be read afterwards is the last complete iteration. Work that cannot be interrupted ends later in a thread
+/// of the library; bespoke_session_reset and bespoke_session_destroy wait for it.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may
 /// call it.
 BespokeStatus bespoke_session_cancel(const struct BespokeSession *session);
 
-/// Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
-/// first.
+/// Fills a struct with the progress of a session as of its last iteration. The caller sets `struct_size` first.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any
 /// time, also while another call runs.
@@ -897,39 +906,39 @@ BespokeStatus bespoke_session_create_control(const struct BespokeSession *sessio
 /// Errors: INVALID_ARGUMENT (null). Threads: any, at any time; a signal handler may call it.
 BespokeStatus bespoke_control_cancel(const struct BespokeControl *control);
 
-/// The same as bespoke_session_read_progress. The last moment stays once the session is destroyed.
+/// The same as bespoke_session_read_progress. Once the session is destroyed, the last progress stays.
 ///
 /// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 BespokeStatus bespoke_control_read_progress(const struct BespokeControl *control, struct BespokeProgress *progress);
 
-/// Frees a control. The session goes on, and a request to stop stays. A null control is fine.
+/// Frees a control. The session runs on, and a request to cancel stays. A null control is fine.
 ///
 /// Threads: any; no other call with this control may run or begin.
 void bespoke_control_destroy(struct BespokeControl *control);
 
-/// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
+/// Writes the garment's current vertices, in the order in which they were set, in the target's coordinate system.
 ///
-/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
-/// garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision; otherwise it
-/// is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
-/// NOT_VERIFIED (DONE, but good in the precision only in which the garment was set; nothing is written), BUSY, INTERNAL.
-/// Threads: any, one at a time.
+/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of
+/// the garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision;
+/// otherwise it is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+/// INVALID_STATE, NOT_VERIFIED (DONE, but clean only in the precision in which the garment was set; nothing is
+/// written), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_garment_vertices(const struct BespokeSession *session,
                                                     const struct BespokeBuffer *points,
                                                     size_t *count);
 
-/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
-/// set at the end.
+/// Writes the target avatar's current vertices, without its layers: shrunk onto the source skeleton at first, as they
+/// were set at the end.
 ///
 /// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 BespokeStatus bespoke_session_read_avatar_vertices(const struct BespokeSession *session,
                                                    const struct BespokeBuffer *points,
                                                    size_t *count);
 
-/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
-/// and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
-/// a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
-/// similarity of the garment as a whole, and for triangles without area or neighbours.
+/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how
+/// differently it and its neighbours deform (Eq. 2 of the paper, in the similarity-invariant form, the mean over its
+/// edges with a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or
+/// above; 0 for any similarity of the garment as a whole, and for triangles without area or neighbours.
 ///
 /// `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
 /// written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
@@ -939,7 +948,7 @@ BespokeStatus bespoke_session_read_distortion(const struct BespokeSession *sessi
                                               const struct BespokeBuffer *values,
                                               size_t *count);
 
-/// Fills a struct with what the session has done so far. The caller sets `struct_size` first.
+/// Fills a struct with the session's measurements so far. The caller sets `struct_size` first.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, struct BespokeReport *report);
@@ -951,9 +960,9 @@ BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
 
-/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, what holds the
-/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
-/// are.
+/// Writes the diagnostics about the inputs and the result: what prepare found, also where it failed, what holds the
+/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so
+/// are listed, and the last one says how many more there are.
 ///
 /// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
 /// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null

@@ -84,7 +84,7 @@ enum class Component : std::uint32_t {
     u32 = BESPOKE_COMPONENT_U32,
 };
 
-/// Where a session is on its way: BespokeStage.
+/// The stage of a session: BespokeStage.
 enum class Stage : std::uint32_t {
     setup = BESPOKE_STAGE_SETUP,
     prepared = BESPOKE_STAGE_PREPARED,
@@ -106,7 +106,7 @@ enum class Axis : std::uint32_t {
     negative_z = BESPOKE_AXIS_NEGATIVE_Z,
 };
 
-/// How the corners of a front face follow each other for somebody who looks at its front: BespokeWinding.
+/// The order of a front face's corners, seen from the front: BespokeWinding.
 enum class Winding : std::uint32_t {
     counter_clockwise = BESPOKE_WINDING_COUNTER_CLOCKWISE,
     clockwise = BESPOKE_WINDING_CLOCKWISE,
@@ -184,7 +184,7 @@ inline const char *version_text() noexcept { return bespoke_version_text(); }
 
 // ---- Results --------------------------------------------------------------------------------------------------------
 
-/// Why a call failed: a status to decide by, and a sentence for people. What or_throw() throws.
+/// Why a call failed: a status for programs, and a message for people. What or_throw() throws.
 class Error : public std::exception {
 public:
     /// An error of the caller's own is made in the same way, so that it goes where those of the library go.
@@ -206,7 +206,7 @@ private:
 
 namespace detail {
 
-/// The end of a program that uses what is not there: a sentence on the standard error output, then abort.
+/// Ends a program that uses a value or an error that is not there: a message on the standard error output, then abort.
 [[noreturn]] inline void refuse(const char *mistake, const std::string &message) noexcept {
     std::fprintf(stderr, "bespoke: %s%s%s\n", mistake, message.empty() ? "" : ": ", message.c_str());
     std::abort();
@@ -217,7 +217,7 @@ namespace detail {
 /// What a call gave: a value, or an Error. To be looked at: the compiler warns where one is dropped.
 ///
 /// `if (result)` asks whether there is a value. value(), * and -> of a failure, and error() of a success, end the
-/// program with a sentence (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
+/// program with a message (std::abort), in release builds too. Of a temporary result, value(), * and or_throw() give
 /// the value itself and no reference, so that `for (const auto &entry : session.read_diagnostics().value())` is sound.
 template <class T> class [[nodiscard]] Result {
 public:
@@ -287,7 +287,7 @@ public:
 
     explicit operator bool() const noexcept { return error_.status() == Status::ok; }
 
-    /// Ends the program with a sentence where the call failed.
+    /// Ends the program with a message where the call failed.
     void value() const {
         if (!*this) detail::refuse("value of a result without a value", error_.message());
     }
@@ -382,9 +382,9 @@ template <class T> struct LayoutOf<T, true> : std::conditional_t<Lower<T>::width
 
 } // namespace detail
 
-/// How an element of a caller's array is made up. Known are numbers, T[n], std::array<T, n> and std::pair<T, T> of them,
-/// and structs of standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a row.
-/// Others are told of like this:
+/// How an element of a caller's array is made up. Known are numbers, T[n], std::array<T, n> and std::pair<T, T> of
+/// them, and structs of standard layout that have members x and y (and z, and w), or X, Y, Z, W, of one type and in a
+/// row. Others are declared like this:
 ///
 ///     template <> struct bespoke::Layout<Eigen::Vector3f> : bespoke::Packed<float, 3> {};
 template <class T> struct Layout
@@ -535,7 +535,7 @@ public:
     }
 
     /// `count` elements, `stride` bytes apart (0: one after the other). `first` may also point to the first number of
-    /// the first element. It takes the stride, since somebody who leaves it out might mean a count of numbers.
+    /// the first element. The stride is required: without it, `count` could be meant as a count of numbers.
     template <class T, class = std::enable_if_t<is_element<T> || is_number<T>>>
     Elements(T *first, std::size_t count, std::size_t stride) {
         constexpr std::size_t packed = LayoutFor<T>::width == Width ? sizeof(T) : 0;
@@ -663,28 +663,28 @@ using NumberBuffer = detail::Elements<detail::Real, 1, void>;
 // ---- Structs --------------------------------------------------------------------------------------------------------
 
 /// A coordinate system: BespokeCoordinateSystem. Handedness follows from the axes.
-struct Space {
-    /// The axis to the right.
+struct CoordinateSystem {
+    /// The axis that points to the right.
     Axis right = Axis::positive_x;
-    /// The axis upwards.
+    /// The axis that points up.
     Axis up = Axis::positive_y;
-    /// The axis forwards, into the picture.
+    /// The axis that points forward, away from the viewer.
     Axis forward = Axis::negative_z;
     /// Length of the unit in metres.
     double metres_per_unit = 1.0;
-    /// How the corners of a front face follow each other.
+    /// The order of a front face's corners, seen from the front.
     Winding winding = Winding::counter_clockwise;
 
     /// As the C API takes it.
     BespokeCoordinateSystem get() const noexcept {
-        BespokeCoordinateSystem space{};
-        space.struct_size = sizeof space;
-        space.right = static_cast<std::uint32_t>(right);
-        space.up = static_cast<std::uint32_t>(up);
-        space.forward = static_cast<std::uint32_t>(forward);
-        space.metres_per_unit = metres_per_unit;
-        space.winding = static_cast<std::uint32_t>(winding);
-        return space;
+        BespokeCoordinateSystem made{};
+        made.struct_size = sizeof made;
+        made.right = static_cast<std::uint32_t>(right);
+        made.up = static_cast<std::uint32_t>(up);
+        made.forward = static_cast<std::uint32_t>(forward);
+        made.metres_per_unit = metres_per_unit;
+        made.winding = static_cast<std::uint32_t>(winding);
+        return made;
     }
 };
 
@@ -701,8 +701,8 @@ struct Options {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. weight_off: tight, as without a source avatar.
     double designed_clearance = 0.0;
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
-    /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+    /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
+    /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
     double offset = 0.0;
     /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less,
     /// and not at all from twice this distance on. Default 0.1. weight_off: the garment fits as a whole.
@@ -710,10 +710,10 @@ struct Options {
     /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
     double pin_weight = 0.0;
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
-    /// its meshes before it begins, and looked at again as it goes on.
+    /// its meshes before it begins, and checked again during the run.
     std::uint64_t memory_limit = 0;
     /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
-    /// exempted from contact until they separate and named by Session::read_diagnostics; no others ever join them.
+    /// exempted from contact until they separate and named by Session::read_diagnostics; none are added later.
     bool strict = false;
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
@@ -721,7 +721,7 @@ struct Options {
     double curvature_weight = 0.0;
     /// Expert. Weight of the torsion of boundary curves. Default 1. weight_off possible.
     double torsion_weight = 0.0;
-    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. weight_off possible.
+    /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. weight_off possible.
     double position_weight = 0.0;
     /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
     double barrier_weight = 0.0;
@@ -733,8 +733,8 @@ struct Options {
     double inflation_barrier_weight = 0.0;
     /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     double voxel_size = 0.0;
-    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
-    /// Default 1e-5.
+    /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
+    /// `dhat` and of `inflation_dhat`. Default 1e-5.
     double min_separation = 0.0;
     /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     double tolerance = 0.0;
@@ -812,11 +812,11 @@ struct Options {
 struct Budget {
     /// Newton iterations.
     std::uint32_t iterations = 0;
-    /// Looked at after each iteration, so that a step may take somewhat longer.
+    /// Checked after each iteration, so that a step may take somewhat longer.
     std::uint32_t milliseconds = 0;
 };
 
-/// A session at one moment: BespokeProgress. Lengths are in the normalised space.
+/// Progress of a session, a snapshot: BespokeProgress. Lengths are in the normalised space.
 struct Progress {
     Stage stage = Stage::setup;
     /// Iterations of this stage so far.
@@ -833,7 +833,7 @@ struct Progress {
     double min_distance = 0.0;
     /// Contact pairs closer than dhat.
     std::uint64_t active_contacts = 0;
-    /// Seconds in each part so far.
+    /// Seconds in each stage so far.
     double prepare_seconds = 0.0;
     double inflate_seconds = 0.0;
     double fit_seconds = 0.0;
@@ -845,10 +845,10 @@ struct Progress {
 /// Pairs of triangles that touch or cross each other.
 using Intersections = BespokeIntersections;
 
-/// The work of one stage.
-using Work = BespokeStageReport;
+/// The cost of one stage.
+using StageReport = BespokeStageReport;
 
-/// What a session has done so far.
+/// Measurements of a session so far.
 using Report = BespokeReport;
 
 /// One term of the objective, to which it adds weight * value.
@@ -874,7 +874,7 @@ struct Element {
     }
 };
 
-/// One thing worth knowing about the inputs or the result: BespokeDiagnostic.
+/// A diagnostic about the inputs or the result: BespokeDiagnostic.
 struct Diagnostic {
     DiagnosticKind kind;
     Severity severity;
@@ -894,13 +894,13 @@ inline Error empty_handle(const char *what) {
 }
 
 /// Success, or the failure of a call without a session's message.
-inline Result<void> outcome(BespokeStatus status, const char *sentence) {
+inline Result<void> outcome(BespokeStatus status, const char *message) {
     if (status == BESPOKE_STATUS_OK) return {};
     const auto typed = static_cast<Status>(status);
-    return Error(typed, std::string(status_name(typed)) + ": " + sentence);
+    return Error(typed, std::string(status_name(typed)) + ": " + message);
 }
 
-/// A moment, from whatever can be asked for one. It fails only where the library does not know the struct.
+/// Progress of a session or a control. It fails only where the library does not know the struct.
 template <class Handle>
 Result<Progress> read_progress(BespokeStatus (*read)(const Handle *, BespokeProgress *), const Handle *handle) {
     BespokeProgress from{};
@@ -936,7 +936,7 @@ template <std::size_t Size> std::string text_of(const char (&text)[Size]) {
 
 // ---- Cancel ---------------------------------------------------------------------------------------------------------
 
-/// Cancel and progress of one session, apart from it: it may outlive the session. Move-only.
+/// Cancellation and progress of one session; an object of its own that may outlive the session. Move-only.
 class Control {
 public:
     /// Empty.
@@ -948,14 +948,14 @@ public:
     /// Whether there is a control in it.
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
-    /// Asks the session to stop: bespoke_control_cancel. Errors: INVALID_ARGUMENT (empty). Threads: any, at any time; a
+    /// Cancels the session: bespoke_control_cancel. Errors: INVALID_ARGUMENT (empty). Threads: any, at any time; a
     /// signal handler may call it where the control is not empty.
     Result<void> cancel() const {
         if (!handle_) return detail::empty_handle("control");
         return detail::outcome(bespoke_control_cancel(handle_.get()), "the request to stop was refused");
     }
 
-    /// The session at this moment, or its last one: bespoke_control_read_progress. Errors: INVALID_ARGUMENT (empty).
+    /// The session's current progress, or its last: bespoke_control_read_progress. Errors: INVALID_ARGUMENT (empty).
     /// Threads: any, at any time.
     Result<Progress> read_progress() const {
         if (!handle_) return detail::empty_handle("control");
@@ -978,12 +978,12 @@ private:
 
 namespace detail {
 
-/// What sources and tokens of one request to stop share: the request, and the sessions that run with it now.
+/// The state that sources and tokens of one request to stop share: the request, and the sessions that run with it.
 class StopState {
 public:
     bool is_requested() const noexcept { return is_requested_.load(std::memory_order_acquire); }
 
-    /// Whether this was the first request. Every session that runs with it is asked to stop.
+    /// Cancels every session that runs with it. Returns whether this was the first request.
     bool request() {
         const std::lock_guard<std::mutex> lock(mutex_);
         if (is_requested_.exchange(true, std::memory_order_acq_rel)) return false;
@@ -991,7 +991,7 @@ public:
         return true;
     }
 
-    /// Who enters looks at the token afterwards, for a request that came before.
+    /// The caller checks the token afterwards, for a request that came before.
     void enter(const BespokeSession *session) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sessions_.push_back(session);
@@ -1021,14 +1021,14 @@ public:
 
 } // namespace detail
 
-/// Tells whether somebody asked to stop. Comes from a StopSource, and copies are cheap; one that was made without a
-/// source is never asked to stop. Threads: any, at any time.
+/// Whether a stop was requested. Comes from a StopSource, and copies are cheap; for one that was made without a source
+/// it never is. Threads: any, at any time.
 class StopToken {
 public:
     /// Of no source.
     StopToken() = default;
 
-    /// Whether somebody asked to stop.
+    /// Whether a stop was requested.
     bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
 
 private:
@@ -1039,21 +1039,21 @@ private:
     std::shared_ptr<detail::StopState> state_;
 };
 
-/// Asks all to stop that run with its tokens: session.run(source.get_token()). Copies ask the same ones. The request is
-/// for good. Threads: any, at any time; not from a signal handler, which a Control is for.
+/// Cancels the sessions that run with its tokens: session.run(source.get_token()). Copies share the request, which
+/// cannot be withdrawn. Threads: any, at any time; not from a signal handler, which a Control is for.
 class StopSource {
 public:
-    /// A request of its own, which nobody has made yet.
+    /// A source without a request yet.
     StopSource() : state_(std::make_shared<detail::StopState>()) {}
 
-    /// What hears of the request.
+    /// A token of this source.
     StopToken get_token() const noexcept { return StopToken(state_); }
 
-    /// Whether somebody asked to stop.
+    /// Whether a stop was requested.
     bool stop_requested() const noexcept { return state_ && state_->is_requested(); }
 
-    /// Asks to stop: the sessions that run with a token of this source return CANCELLED within 100 ms, whatever they
-    /// are doing. Returns whether it was the first to ask.
+    /// Requests a stop: the sessions that run with a token of this source return CANCELLED within 100 ms, whatever they
+    /// are doing. Returns whether it was the first request.
     bool request_stop() const { return state_ && state_->request(); }
 
 private:
@@ -1100,8 +1100,8 @@ inline constexpr bool
 
 template <class T> inline constexpr bool is_progress_callable = std::is_invocable_v<T &, const Progress &>;
 
-/// Tells of a moment, and whether to go on: what the callable returns, or yes where it returns nothing.
-template <class OnProgress> bool tell(OnProgress &on_progress, const Progress &progress) {
+/// Calls `on_progress`. Returns whether to go on: what the callable returns, or true where it returns nothing.
+template <class OnProgress> bool report_progress(OnProgress &on_progress, const Progress &progress) {
     if constexpr (std::is_void_v<std::invoke_result_t<OnProgress &, const Progress &>>) {
         on_progress(progress);
         return true;
@@ -1110,14 +1110,14 @@ template <class OnProgress> bool tell(OnProgress &on_progress, const Progress &p
     }
 }
 
-/// Milliseconds of a step between two looks at token and progress.
-inline constexpr std::uint32_t look_after = 20;
+/// Milliseconds of a step between two checks of token and progress.
+inline constexpr std::uint32_t check_interval = 20;
 
 } // namespace detail
 
 // ---- Session --------------------------------------------------------------------------------------------------------
 
-/// One garment on its way to one avatar. Move-only; it frees all it holds when it goes.
+/// The fitting of one garment to one avatar. Move-only; the destructor frees all it holds.
 ///
 /// What a method does, which state it needs, its errors and threads are those of the function of its name in bespoke.h,
 /// with bespoke_session_ before it. In addition, each of them fails with INVALID_ARGUMENT where the session is empty,
@@ -1157,9 +1157,8 @@ public:
     [[nodiscard]] BespokeSession *release() noexcept { return handle_.release(); }
 
     /// Frees the session now; then it is empty. With BUSY another thread is inside a call with it, and it stays as it
-    /// is. The destructor cannot tell of that: it asks the other call to stop and gives the handle up, so that the
-    /// memory is lost, but not taken from under that call. Threads: any, and no other call with this session may begin
-    /// from here on.
+    /// is. The destructor cannot report that: it cancels the other call and gives the handle up, so that the memory is
+    /// leaked, but stays valid for that call. Threads: any, and no other call with this session may begin from here on.
     Result<void> destroy() {
         if (!handle_) return detail::empty_handle("session");
         const BespokeStatus status = bespoke_session_destroy(handle_.get());
@@ -1168,17 +1167,17 @@ public:
         return detail::outcome(status, "the session was not freed as a whole");
     }
 
-    /// Back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten.
+    /// Back to SETUP: inputs, coordinate systems and options stay, results and a request to cancel are dropped.
     Result<void> reset() { return call(bespoke_session_reset); }
 
-    // ---- What goes in
+    // ---- Inputs
 
-    /// The garment as it was modelled, around the source skeleton.
+    /// The garment as it was modelled, enclosing the source skeleton.
     Result<void> set_garment(Points positions, Triangles triangles) {
         return set(bespoke_session_set_garment, "garment positions", positions, "garment triangles", triangles);
     }
 
-    /// The skeleton around which the garment was modelled, in the space of the garment.
+    /// The skeleton that the garment was modelled around, in the coordinate system of the garment.
     Result<void> set_source_skeleton(Points joints, Bones bones) {
         return set(bespoke_session_set_source_skeleton, "source skeleton joints", joints, "source skeleton bones",
                    bones);
@@ -1196,20 +1195,20 @@ public:
                    bones);
     }
 
-    /// Optional: the body on which the garment was designed, in the space of the garment.
+    /// Optional: the body on which the garment was designed, in the coordinate system of the garment.
     Result<void> set_source_avatar(Points positions, Triangles triangles) {
         return set(bespoke_session_set_source_avatar, "source avatar positions", positions, "source avatar triangles",
                    triangles);
     }
 
     /// Optional: skin weights of the target avatar as a full matrix: a row for each joint, in it a number for each
-    /// vertex.
+    /// vertex. Only the joint with the largest weight of a vertex is used.
     Result<void> set_target_skin_weights(NumberRows rows) {
         return set(bespoke_session_set_target_skin_weights, "target skin weights", rows, rows.columns());
     }
 
     /// Optional: skin weights of the target avatar as engines keep them: a row for each vertex, in it a few joints, and
-    /// in `weights` the weights of these.
+    /// in `weights` the weights of these. Only the joint with the largest weight of a vertex is used.
     Result<void> set_target_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
         if (handle_ && joints.columns() != weights.columns()) {
             return Error(Status::invalid_argument, "target skin influences: a vertex has " +
@@ -1220,15 +1219,15 @@ public:
                    weights, joints.columns(), joint_count);
     }
 
-    /// Optional: the space of garment, source skeleton and source avatar.
-    Result<void> set_source_coordinate_system(const Space &space) {
-        const BespokeCoordinateSystem given = space.get();
+    /// Optional: the coordinate system of garment, source skeleton and source avatar.
+    Result<void> set_source_coordinate_system(const CoordinateSystem &coordinate_system) {
+        const BespokeCoordinateSystem given = coordinate_system.get();
         return call(bespoke_session_set_source_coordinate_system, &given);
     }
 
-    /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
-    Result<void> set_target_coordinate_system(const Space &space) {
-        const BespokeCoordinateSystem given = space.get();
+    /// Optional: the coordinate system of target avatar and target skeleton, and so of the vertices that are read.
+    Result<void> set_target_coordinate_system(const CoordinateSystem &coordinate_system) {
+        const BespokeCoordinateSystem given = coordinate_system.get();
         return call(bespoke_session_set_target_coordinate_system, &given);
     }
 
@@ -1242,25 +1241,25 @@ public:
         return set(bespoke_session_set_no_fit_vertices, "vertices that do not fit", vertices);
     }
 
-    /// Optional: garment vertices that are held where they were designed, carried along with the bone beside them.
+    /// Optional: garment vertices that keep their designed positions relative to the nearest bone.
     Result<void> set_pinned_vertices(Indices vertices) {
         return set(bespoke_session_set_pinned_vertices, "pinned vertices", vertices, nullptr);
     }
 
-    /// Optional: garment vertices that are held in these places, one for each.
-    Result<void> set_pinned_vertices(Indices vertices, Points places) {
-        return set(bespoke_session_set_pinned_vertices, "pinned vertices", vertices, "places of pins", places);
+    /// Optional: garment vertices that are held at these targets, one for each.
+    Result<void> set_pinned_vertices(Indices vertices, Points targets) {
+        return set(bespoke_session_set_pinned_vertices, "pinned vertices", vertices, "targets of pins", targets);
     }
 
-    /// Optional: garment vertices that are to stay one rigid body. One more group with each call.
+    /// Optional: garment vertices that stay one rigid body. Each call adds a group.
     Result<void> add_rigid_group(Indices vertices) {
         return set(bespoke_session_add_rigid_group, "rigid group", vertices);
     }
 
-    /// Forgets all rigid groups.
+    /// Removes all rigid groups.
     Result<void> clear_rigid_groups() { return call(bespoke_session_clear_rigid_groups); }
 
-    /// Optional: a garment that the avatar wears already. One more layer with each call.
+    /// Optional: a garment that the avatar wears already. Each call adds a layer.
     Result<void> add_layer(Points positions, Triangles triangles) {
         return set(bespoke_session_add_layer, "layer positions", positions, "layer triangles", triangles);
     }
@@ -1274,13 +1273,13 @@ public:
         return call(bespoke_session_set_options, &given);
     }
 
-    // ---- The way
+    // ---- Running
 
-    /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton.
+    /// Checks the inputs against each other and shrinks the avatar onto the source skeleton.
     Result<void> prepare() { return call(bespoke_session_prepare); }
 
-    /// Goes on for a while: to the end of the budget or of the whole way. Gives where the session is then; where it
-    /// failed, read_progress() tells.
+    /// Continues the run until it ends or the budget is spent. Returns the stage afterwards; where it failed,
+    /// read_progress() has it.
     Result<Stage> step(Budget budget = {}) {
         std::uint32_t stage = BESPOKE_STAGE_SETUP;
         const auto done = call(bespoke_session_step, budget.iterations, budget.milliseconds, &stage);
@@ -1288,10 +1287,10 @@ public:
         return static_cast<Stage>(stage);
     }
 
-    /// All that is left of the way. A success is DONE: the result is verified.
+    /// Runs the session to its end. A success is DONE: the result is verified.
     Result<void> run() { return call(bespoke_session_run); }
 
-    /// The same with somebody who watches, a token or a callable; see below.
+    /// The same with a token or a callable; see below.
     template <class Watcher, class = std::enable_if_t<detail::is_stop_token<std::decay_t<Watcher>> ||
                                                       detail::is_progress_callable<Watcher>>>
     Result<void> run(Watcher &&watcher) {
@@ -1302,11 +1301,11 @@ public:
         }
     }
 
-    /// The same with a token that stops it and a callable that is told of its progress.
+    /// The same with a token that stops it and a callable that receives its progress.
     ///
     /// `token`: a StopToken or std::stop_token, which stop whatever the session is doing within 100 ms; or anything
-    /// else with a `bool stop_requested() const`, which is looked at before prepare and after every 20 ms or so from
-    /// then on.
+    /// else with a `bool stop_requested() const`, which is checked before prepare and after every 20 ms or so from then
+    /// on.
     /// `on_progress`: called with a `const Progress &` as often, on this thread, and once more with DONE. It may return
     /// nothing, or false to stop. It may throw, which leaves the session where it is; it must not destroy or move it.
     /// Whoever stops it, the run fails with CANCELLED as after cancel(): the request stays until reset().
@@ -1318,20 +1317,20 @@ public:
         auto now = read_progress();
         if (!now) return now.error();
         for (Stage stage = now->stage, begun = stage; stage != Stage::done || begun == Stage::done;) {
-            const bool goes_on = detail::tell(on_progress, *now);
+            const bool goes_on = detail::report_progress(on_progress, *now);
             if (!goes_on || token.stop_requested()) bespoke_session_cancel(handle_.get());
             if (stage == Stage::setup) {
                 if (auto prepared = prepare(); !prepared) return prepared;
                 stage = Stage::prepared;
             } else {
-                const auto stepped = step({0, detail::look_after});
+                const auto stepped = step({0, detail::check_interval});
                 if (!stepped) return stepped.error();
                 stage = *stepped;
             }
             now = read_progress();
             if (!now) return now.error();
         }
-        detail::tell(on_progress, *now);
+        detail::report_progress(on_progress, *now);
         return {};
     }
 
@@ -1343,19 +1342,19 @@ public:
         return found;
     }
 
-    /// Asks the session to stop. Threads: any, at any time, also while another call runs.
+    /// Cancels the session. Threads: any, at any time, also while another call runs.
     Result<void> cancel() const {
         if (!handle_) return detail::empty_handle("session");
         return detail::outcome(bespoke_session_cancel(handle_.get()), "the request to stop was refused");
     }
 
-    /// The session at this moment. Threads: any, at any time, also while another call runs.
+    /// The session's current progress. Threads: any, at any time, also while another call runs.
     Result<Progress> read_progress() const {
         if (!handle_) return detail::empty_handle("session");
         return detail::read_progress<BespokeSession>(bespoke_session_read_progress, handle_.get());
     }
 
-    /// Cancel and progress for another thread, apart from the session. Threads: any, at any time.
+    /// Cancellation and progress for another thread, outliving the session. Threads: any, at any time.
     Result<Control> create_control() const {
         if (!handle_) return detail::empty_handle("session");
         BespokeControl *control = nullptr;
@@ -1365,9 +1364,9 @@ public:
         return Control(control);
     }
 
-    // ---- What comes out
+    // ---- Results
 
-    /// Where the garment's vertices are now, into the caller's memory; gives how many. There may be room for more.
+    /// The garment's current vertices, into the caller's memory; returns how many. The buffer may be larger.
     Result<std::size_t> read_garment_vertices(PointBuffer points) const {
         return read(bespoke_session_read_garment_vertices, "room for garment vertices", points);
     }
@@ -1377,8 +1376,7 @@ public:
         return read_all<Point, PointBuffer>(bespoke_session_read_garment_vertices);
     }
 
-    /// Where the target avatar's vertices are now, into the caller's memory; gives how many. There may be room for
-    /// more.
+    /// The target avatar's current vertices, into the caller's memory; returns how many. The buffer may be larger.
     Result<std::size_t> read_avatar_vertices(PointBuffer points) const {
         return read(bespoke_session_read_avatar_vertices, "room for avatar vertices", points);
     }
@@ -1388,8 +1386,8 @@ public:
         return read_all<Point, PointBuffer>(bespoke_session_read_avatar_vertices);
     }
 
-    /// How much each garment triangle is distorted now, into the caller's memory; gives how many. There may be room for
-    /// more.
+    /// How much each garment triangle is distorted now, into the caller's memory; returns how many. The buffer may be
+    /// larger.
     Result<std::size_t> read_distortion(NumberBuffer values) const {
         return read(bespoke_session_read_distortion, "room for distortion", values);
     }
@@ -1399,7 +1397,7 @@ public:
         return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
     }
 
-    /// What the session has done so far.
+    /// The session's measurements so far.
     Result<Report> read_report() const {
         Report report{};
         report.struct_size = sizeof report;
@@ -1429,7 +1427,7 @@ public:
         return energies;
     }
 
-    /// What is worth knowing about the inputs and the result. None before prepare.
+    /// Diagnostics about the inputs and the result. None before prepare.
     Result<std::vector<Diagnostic>> read_diagnostics() const {
         std::size_t count = 0;
         if (const auto counted = call(bespoke_session_read_diagnostics, nullptr, std::size_t{0}, &count); !counted) {
@@ -1473,7 +1471,7 @@ private:
         bespoke_session_last_message(handle, nullptr, 0, &needed);
         std::string message(needed, '\0');
         bespoke_session_last_message(handle, &message[0], message.size(), nullptr);
-        // Its zero byte; and another failure may have put a shorter sentence there in between.
+        // Its zero byte; and another failure may have put a shorter message there in between.
         message.resize(std::char_traits<char>::length(message.c_str()));
         if (message.empty()) message = status_name(typed);
         return Error(typed, std::move(message));

@@ -1,4 +1,4 @@
-//! What can go wrong, as a status for programs and a sentence for people.
+//! Errors: a kind for programs and a message for people.
 
 use std::fmt;
 
@@ -15,15 +15,15 @@ pub enum ErrorKind {
     InvalidSkeleton,
     /// Skin or fit weights have the wrong shape or hold bad values.
     InvalidWeights,
-    /// The garment intersects itself at the start, and the options are strict.
+    /// The garment intersects itself at the start, and the option `strict` is set.
     SelfIntersection,
-    /// The garment does not enclose the skeleton: the avatar, shrunk onto its bones, pokes through it.
+    /// The garment does not enclose the skeleton: the avatar, shrunk onto its bones, penetrates it.
     NotEnclosed,
     /// The avatar could not be inflated to its full size without an intersection.
     InflationStalled,
     /// The exact verifier found an intersection in the result as the caller would read it.
     NotVerified,
-    /// The caller asked to stop.
+    /// Cancelled by the caller.
     Cancelled,
     /// The session would take more memory than its limit.
     MemoryLimit,

@@ -8,8 +8,8 @@
 //!                               energy + contact + sdf, minimised by solver
 //! ```
 //!
-//! The product is the C ABI (`include/bespoke.h`); the Rust modules are public for our own tests and
-//! examples and may change at any time.
+//! The product is the C ABI (`include/bespoke.h`); the Rust modules are public for this repository's tests and tools
+//! and may change at any time.
 
 #[cfg(feature = "capi")]
 pub mod capi;

@@ -1,4 +1,4 @@
-//! What a caller may tune, with the paper's defaults.
+//! The options of a session, with the paper's defaults.
 
 pub use crate::energy::surface::SurfaceForm;
 use crate::error::{Error, ErrorKind, Result};
@@ -16,12 +16,12 @@ macro_rules! option_table {
             /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each
             /// point had on it. 1 is as designed; 0 is tight, as without a source avatar.
             designed_clearance: f64 = 1.0, in Between(0.0, 2.0), off = 0.0;
-            /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space.
+            /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit.
             offset: f64 = 0.0, in NotNegative;
             /// Where a source avatar is given and no fit weights: what was designed farther from it than this fits
             /// less, and not at all from twice this distance on; infinite for a garment that fits as a whole.
             fit_distance: f64 = 0.1, in Positive, off = f64::INFINITY;
-            /// Weight of the pins that hold vertices in given places.
+            /// Weight of the pins that hold vertices at their targets.
             pin_weight: f64 = 1000.0, in NotNegative;
             /// Bytes that the session may take at most; 0 is no limit.
             memory_limit: u64 = 0;
@@ -33,14 +33,14 @@ macro_rules! option_table {
             curvature_weight: f64 = 1.0, in NotNegative, off = 0.0;
             /// Weight of the torsion of boundary curves (section 3.4.5).
             torsion_weight: f64 = 1.0, in NotNegative, off = 0.0;
-            /// Weight of the position of boundaries along their bones (Eq. 3).
+            /// Weight of the positions of boundaries along their bones (Eq. 3).
             position_weight: f64 = 10.0, in NotNegative, off = 0.0;
             /// Weight of the contact barrier (Eq. 1, on squared distances).
             barrier_weight: f64 = 1e8, in Between(1.0, 1e14);
             /// Distance at which the barrier begins.
             dhat: f64 = 0.002, in Between(1e-5, 0.1);
             /// While the avatar grows: distance to it at which the barrier begins. Wider than `dhat`, so that the
-            /// garment sees the body coming before the step is cut.
+            /// barrier acts before CCD shortens the step.
             inflation_dhat: f64 = 0.01, in Between(1e-5, 0.1);
             /// While the avatar grows: weight of the barrier.
             inflation_barrier_weight: f64 = 1e4, in Between(1.0, 1e14);

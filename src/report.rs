@@ -1,4 +1,4 @@
-//! What a session has measured about itself.
+//! Times, counts and distances that a session has measured.
 
 use crate::solver::profile::Profile;
 
@@ -55,34 +55,35 @@ impl Verification {
 /// Everything measured so far. Lengths are in the normalised space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// Projection and set-up.
+    /// Stage PREPARE: set-up, and projection of the avatar onto the source skeleton.
     pub prepare: StageReport,
-    /// Step 2.
+    /// Stage INFLATE.
     pub inflate: StageReport,
-    /// Step 3.
+    /// Stage FIT.
     pub fit: StageReport,
     /// Seconds in the exact verifier.
     pub verify_seconds: f64,
-    /// Seconds until the distance field was built, beside the inflation.
+    /// Seconds until the distance field was built, in parallel with the inflation.
     pub field_seconds: f64,
-    /// Seconds that Step 3 waited for the distance field.
+    /// Seconds that the fit waited for the distance field.
     pub field_wait_seconds: f64,
-    /// Wall seconds from the beginning of Step 1 to t = 1, the first garment on the whole avatar; 0 before that.
+    /// Wall seconds from the beginning of PREPARE to t = 1, the first garment on the whole avatar; 0 before that.
     pub feasible_seconds: f64,
     /// The terms of the objective at the present configuration.
     pub terms: Vec<TermReport>,
-    /// Smallest distance between garment primitives that d-hat still sees; infinite where there is none.
+    /// Smallest distance between garment primitives within d-hat; infinite where there is none.
     pub min_distance_self: f64,
-    /// Smallest distance between garment and avatar or layers that d-hat still sees; infinite where there is none.
+    /// Smallest distance between garment and avatar or layers within d-hat; infinite where there is none.
     pub min_distance_avatar: f64,
     /// Intersections counted at the end, when the end was reached.
     pub verification: Option<Verification>,
     /// The minimum separation in force: lower than the option's where the garment is nearer to something than that, higher
     /// where the coordinates of the result are coarse.
     pub min_separation: f64,
-    /// Whether Step 3 ended by its tolerance, and not by the limit of iterations.
+    /// Whether the fit ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
-    /// Pairs of garment triangles that intersect or touch at the start, and are let off.
+    /// Pairs of garment triangles that intersect or touch at the start, which are exempted from contact until they
+    /// separate.
     pub initial_self_intersections: usize,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],

@@ -92,7 +92,7 @@ void on_interrupt(int) {
     if (BespokeControl *control = running.load()) bespoke_control_cancel(control);
 }
 
-/// What goes on, or goes on next, at a stage.
+/// The current or next stage of a run.
 const char *name_of(bespoke::Stage stage) {
     switch (stage) {
     case bespoke::Stage::setup: return "prepare";

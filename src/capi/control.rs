@@ -1,4 +1,4 @@
-//! Progress and cancel, for any thread at any time.
+//! Progress and cancellation, from any thread at any time.
 
 use std::mem::size_of;
 use std::sync::Arc;
@@ -14,8 +14,8 @@ pub const BESPOKE_MAX_TERMS: usize = 12;
 
 const _: () = assert!(BESPOKE_MAX_TERMS == MAX_TERMS);
 
-/// A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's bounding
-/// box is 2.
+/// Progress of a session, a snapshot. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// bounding box is 2.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeProgress {
@@ -37,11 +37,11 @@ pub struct BespokeProgress {
     pub min_distance: f64,
     /// Contact pairs closer than dhat.
     pub active_contacts: u64,
-    /// Seconds in step 1 so far.
+    /// Seconds in prepare so far.
     pub prepare_seconds: f64,
-    /// Seconds in step 2 so far.
+    /// Seconds in inflate so far.
     pub inflate_seconds: f64,
-    /// Seconds in step 3 so far.
+    /// Seconds in fit so far.
     pub fit_seconds: f64,
     /// Seconds in the verifier so far.
     pub verify_seconds: f64,
@@ -84,11 +84,11 @@ unsafe fn read_progress(control: &Control, progress: *mut BespokeProgress) -> Be
     }
 }
 
-/// Asks a session to stop. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
+/// Cancels a session. The call that runs, if it is prepare, step, run or verify, returns CANCELLED within 100 ms,
 /// whatever it is doing; otherwise the next one does. The request stays until bespoke_session_reset.
 ///
-/// What can be read afterwards is the last whole iteration. Work that cannot be interrupted on the way comes to its end
-/// in a thread of the library; bespoke_session_reset and bespoke_session_destroy wait for that.
+/// What can be read afterwards is the last complete iteration. Work that cannot be interrupted ends later in a thread
+/// of the library; bespoke_session_reset and bespoke_session_destroy wait for it.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null). Threads: any, at any time, also while another call runs; a signal handler may
 /// call it.
@@ -104,8 +104,7 @@ pub unsafe extern "C" fn bespoke_session_cancel(session: *const BespokeSession) 
     }
 }
 
-/// Fills a struct of progress with one moment of the session, as of its last iteration. The caller sets `struct_size`
-/// first.
+/// Fills a struct with the progress of a session as of its last iteration. The caller sets `struct_size` first.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null or struct_size); the session's message does not change. Threads: any, at any
 /// time, also while another call runs.
@@ -120,7 +119,7 @@ pub unsafe extern "C" fn bespoke_session_read_progress(
     }
 }
 
-/// Cancel and progress of one session, apart from it: it may outlive the session. Opaque.
+/// Cancellation and progress of one session; a handle of its own that may outlive the session. Opaque.
 pub struct BespokeControl {
     control: Arc<Control>,
 }
@@ -160,7 +159,7 @@ pub unsafe extern "C" fn bespoke_control_cancel(control: *const BespokeControl) 
     }
 }
 
-/// The same as bespoke_session_read_progress. The last moment stays once the session is destroyed.
+/// The same as bespoke_session_read_progress. Once the session is destroyed, the last progress stays.
 ///
 /// Errors: INVALID_ARGUMENT (null or struct_size). Threads: any, at any time.
 #[unsafe(no_mangle)]
@@ -174,7 +173,7 @@ pub unsafe extern "C" fn bespoke_control_read_progress(
     }
 }
 
-/// Frees a control. The session goes on, and a request to stop stays. A null control is fine.
+/// Frees a control. The session runs on, and a request to cancel stays. A null control is fine.
 ///
 /// Threads: any; no other call with this control may run or begin.
 #[unsafe(no_mangle)]

@@ -1,4 +1,4 @@
-//! What is worth knowing about inputs and result, element by element.
+//! Diagnostics about inputs and result, element by element.
 
 use std::ffi::c_char;
 
@@ -18,7 +18,7 @@ pub const BESPOKE_MAX_ELEMENTS: usize = 4;
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeDiagnosticKind {
-    /// Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
+    /// Garment vertices at equal positions, as along UV seams, that are welded. The first of them are named.
     SplitVertices = 1,
     /// A garment triangle with the corners of another, which counts once. Both are named.
     DuplicateTriangle = 2,
@@ -28,27 +28,27 @@ pub enum BespokeDiagnosticKind {
     NonManifoldEdge = 4,
     /// A garment vertex that no triangle uses.
     UnusedVertex = 5,
-    /// A small piece of the garment, such as a button, that is held to the piece beside it.
+    /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
     LoosePiece = 6,
-    /// Two garment triangles that pass through each other, or touch, before anything has moved. They are let off until
-    /// they have come apart.
+    /// Two garment triangles that pass through each other, or touch, before anything has moved. They are exempted from
+    /// contact until they separate.
     SelfIntersection = 7,
     /// Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
     /// named.
     NearContact = 8,
     /// The avatar, shrunk onto the source skeleton, passes through the garment.
     AvatarPenetrates = 9,
-    /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
+    /// The coordinates in which the result is read are coarse, so the minimum separation is larger than the option's.
     CoarseCoordinates = 10,
     /// Two triangles that intersect in the result and did not at the start.
     ResultIntersection = 11,
-    /// A pinned garment vertex ended away from its place.
+    /// A pinned garment vertex ended away from its target.
     PinNotReached = 12,
-    /// A rigid group of garment vertices ended bent, for something stands in its way.
+    /// A rigid group of garment vertices ended bent, because something is in its way.
     RigidGroupBent = 13,
-    /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A garment
-    /// triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between
-    /// the garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
+    /// The inflation stalled, and this part of the avatar, or these two, push against the garment. A garment triangle
+    /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
+    /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
     InflationBlocked = 14,
 }
 
@@ -56,7 +56,7 @@ pub enum BespokeDiagnosticKind {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeSeverity {
-    /// Good to know.
+    /// For information.
     Note = 1,
     /// The result may be worse for it.
     Warning = 2,
@@ -106,7 +106,7 @@ pub struct BespokeElement {
     pub index: u32,
 }
 
-/// One thing worth knowing about the inputs or the result.
+/// A diagnostic about the inputs or the result.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeDiagnostic {
@@ -189,9 +189,9 @@ impl From<&Diagnostic> for BespokeDiagnostic {
     }
 }
 
-/// Writes what is worth knowing about the inputs and the result: what prepare found, also where it failed, what holds the
-/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says how many more there
-/// are.
+/// Writes the diagnostics about the inputs and the result: what prepare found, also where it failed, what holds the
+/// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so
+/// are listed, and the last one says how many more there are.
 ///
 /// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
 /// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null

@@ -1,4 +1,4 @@
-//! What an artist asks of the fit: weights, pins, rigid groups.
+//! An artist's controls of the fit: weights, pins, rigid groups.
 
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
@@ -18,11 +18,11 @@ pub unsafe extern "C" fn bespoke_session_set_vertex_fit_weights(
     session: *mut BespokeSession,
     weights: *const BespokeView,
 ) -> BespokeStatus {
-    let what = "fit weights";
+    let name = "fit weights";
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
-            session.set_vertex_fit_weights(buffer::read_scalars(&view::floats(weights, what)?, what)?)
+            session.set_vertex_fit_weights(buffer::read_scalars(&view::floats(weights, name)?, name)?)
         })
     }
 }
@@ -38,19 +38,19 @@ pub unsafe extern "C" fn bespoke_session_set_no_fit_vertices(
     session: *mut BespokeSession,
     vertices: *const BespokeView,
 ) -> BespokeStatus {
-    let what = "no-fit vertices";
+    let name = "no-fit vertices";
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
             let Some(count) = session.garment_vertex_count() else {
-                let message = format!("{what}: the garment is set first");
+                let message = format!("{name}: the garment is set first");
                 return Err(Error::new(ErrorKind::InvalidState, message));
             };
             let mut weights = vec![1.0; count];
-            for vertex in buffer::read_indices(&view::indices(vertices, what)?, 1, what)? {
+            for vertex in buffer::read_indices(&view::indices(vertices, name)?, 1, name)? {
                 match weights.get_mut(vertex as usize) {
                     Some(weight) => *weight = 0.0,
-                    None => return invalid(format!("{what}: lists vertex {vertex}, the garment has {count} vertices")),
+                    None => return invalid(format!("{name}: lists vertex {vertex}, the garment has {count} vertices")),
                 }
             }
             session.set_vertex_fit_weights(weights)
@@ -60,34 +60,35 @@ pub unsafe extern "C" fn bespoke_session_set_no_fit_vertices(
 
 const PINS: &str = "pinned vertices";
 
-/// Optional: garment vertices that are held in their places. Replaces those before.
+/// Optional: garment vertices that are held at targets. Replaces earlier pins.
 ///
-/// `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `places`: null, or one point for each of them
-/// in the target's space, F32 or F64. Without places, a vertex is held where it was designed, carried along with the bone
-/// beside it: its coordinate along the bone and its distance from it stay, so on the same skeleton it stays where it is. A pin
-/// is a stiff spring (see BespokeOptions.pin_weight): what the body stands in the way of is not reached, and told as a
-/// diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not
-/// have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+/// `vertices`: garment vertices, from 0, each once, U16 or U32; none: no pins. `targets`: null, or one point for each
+/// of them in the target's coordinate system, F32 or F64. Without targets, a vertex keeps its position relative to the
+/// nearest bone: its coordinate along the bone and its distance from it, so with equal skeletons it stays where it is.
+/// A pin is a stiff spring (see BespokeOptions.pin_weight): one that cannot reach its target, because the body is in
+/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a
+/// vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads:
+/// any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_set_pinned_vertices(
     session: *mut BespokeSession,
     vertices: *const BespokeView,
-    places: *const BespokeView,
+    targets: *const BespokeView,
 ) -> BespokeStatus {
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
             let vertices = buffer::read_indices(&view::indices(vertices, PINS)?, 1, PINS)?;
-            if places.is_null() {
-                let pins = vertices.into_iter().map(|vertex| Pin { vertex, place: None });
+            if targets.is_null() {
+                let pins = vertices.into_iter().map(|vertex| Pin { vertex, target: None });
                 return session.set_pins(pins.collect());
             }
-            let what = "places of pinned vertices";
-            let places = buffer::read_positions(&view::floats(places, what)?, what)?;
-            if places.len() != vertices.len() {
-                return invalid(format!("{PINS}: there are {} vertices and {} places", vertices.len(), places.len()));
+            let name = "targets of pinned vertices";
+            let targets = buffer::read_positions(&view::floats(targets, name)?, name)?;
+            if targets.len() != vertices.len() {
+                return invalid(format!("{PINS}: there are {} vertices and {} targets", vertices.len(), targets.len()));
             }
-            let pins = vertices.into_iter().zip(places).map(|(vertex, p)| Pin { vertex, place: Some(p) });
+            let pins = vertices.into_iter().zip(targets).map(|(vertex, p)| Pin { vertex, target: Some(p) });
             session.set_pins(pins.collect())
         })
     }
@@ -95,13 +96,13 @@ pub unsafe extern "C" fn bespoke_session_set_pinned_vertices(
 
 const RIGID: &str = "rigid group";
 
-/// Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate: it turns and
-/// moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each call, counted from 0.
+/// Optional: garment vertices that stay one rigid body, such as a button, a buckle or an armour plate: it moves, turns
+/// and keeps its shape. Its size scales with the skeletons. Each call adds a group; they are numbered from 0.
 ///
-/// `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. Where contact does not
-/// let a group become rigid to rounding, that is told as a diagnostic. Ownership: copied during the call. State: SETUP.
-/// Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE,
-/// BUSY, INTERNAL. Threads: any, one at a time.
+/// `vertices`: garment vertices, from 0, in any order, U16 or U32; at least one, none of another group. A group that
+/// contact keeps from becoming rigid up to rounding is reported as a diagnostic. Ownership: copied during the call.
+/// State: SETUP. Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by
+/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_add_rigid_group(
     session: *mut BespokeSession,
@@ -115,7 +116,7 @@ pub unsafe extern "C" fn bespoke_session_add_rigid_group(
     }
 }
 
-/// Forgets all rigid groups.
+/// Removes all rigid groups.
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]

@@ -10,11 +10,11 @@ use crate::capi::view::BespokeView;
 /// Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar
 /// is set and after bespoke_session_reset.
 ///
-/// `positions`: points, F32 or F64, in the space of the target avatar; used exactly as they are. `triangles`: three vertices
-/// each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What is read or counted as the avatar
-/// is the avatar without its layers. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH
-/// (no vertices, no triangles, an index out of range, a coordinate that is not finite), INVALID_STATE, BUSY, INTERNAL.
-/// Threads: any, one at a time.
+/// `positions`: points, F32 or F64, in the coordinate system of the target avatar; used exactly as they are.
+/// `triangles`: three vertices each, U16 or U32. Skin weights are those of the avatar beneath, where it has any. What
+/// is read or counted as the avatar does not include its layers. Ownership: copied during the call. State: SETUP.
+/// Errors: INVALID_ARGUMENT, INVALID_MESH (no vertices, no triangles, an index out of range, a coordinate that is not
+/// finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_add_layer(
     session: *mut BespokeSession,
@@ -24,8 +24,8 @@ pub unsafe extern "C" fn bespoke_session_add_layer(
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
-            let what = format!("layer {}", session.layer_count());
-            session.add_layer(mesh(positions, triangles, &what)?.0)
+            let name = format!("layer {}", session.layer_count());
+            session.add_layer(mesh(positions, triangles, &name)?.0)
         })
     }
 }

@@ -13,6 +13,8 @@ pub mod session;
 
 pub mod inputs;
 
+pub mod coordinate_system;
+
 pub mod fit;
 
 pub mod layers;

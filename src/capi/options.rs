@@ -1,4 +1,4 @@
-//! Options and spaces as C structs in which zero means the default.
+//! Options as a C struct in which zero means the default.
 
 use std::mem::{offset_of, size_of};
 
@@ -21,10 +21,10 @@ pub enum BespokeSurfaceForm {
     Printed = 1,
 }
 
-/// What may be tuned. Zero in a field means its default. Lengths are in the normalised space, in which the longest
-/// side of the skeleton's bounding box is 2, where not said otherwise. Weights are finite and not negative, or
-/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. What an artist or a pipeline may want comes
-/// first; from surface_weight on ("Expert."), the fields tune the solver.
+/// The options of a session. Zero in a field means its default. Unless noted otherwise, lengths are in the normalised
+/// space, in which the longest side of the skeleton's bounding box is 2. Weights are finite and not negative, or
+/// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Artists' options come first; from
+/// surface_weight on ("Expert."), the fields tune the solver.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeOptions {
@@ -37,19 +37,19 @@ pub struct BespokeOptions {
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
     /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
     pub designed_clearance: f64,
-    /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the size of
-    /// the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+    /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
+    /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
     pub offset: f64,
     /// Where a source avatar is given and no fit weights: what was designed farther away from it than this fits less, and not
     /// at all from twice this distance on. Default 0.1. BESPOKE_WEIGHT_OFF: the garment fits as a whole.
     pub fit_distance: f64,
     /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
     pub pin_weight: f64,
-    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of its
-    /// meshes before it begins, and looked at again as it goes on.
+    /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
+    /// its meshes before it begins, and checked again during the run.
     pub memory_limit: u64,
-    /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are
-    /// exempted from contact until they separate and named by bespoke_session_read_diagnostics; no others ever join them.
+    /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are exempted
+    /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later.
     pub strict: u32,
     /// 0.
     pub reserved: u32,
@@ -59,7 +59,7 @@ pub struct BespokeOptions {
     pub curvature_weight: f64,
     /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
     pub torsion_weight: f64,
-    /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
+    /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
     /// possible.
     pub position_weight: f64,
     /// Expert. Weight of the contact barrier, on squared distances [1, 1e14]. Default 1e8.
@@ -72,8 +72,8 @@ pub struct BespokeOptions {
     pub inflation_barrier_weight: f64,
     /// Expert. Edge of a voxel of the distance field [1e-3, 0.2]. Default 0.01.
     pub voxel_size: f64,
-    /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of `dhat` and of `inflation_dhat`.
-    /// Default 1e-5.
+    /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
+    /// `dhat` and of `inflation_dhat`. Default 1e-5.
     pub min_separation: f64,
     /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
@@ -94,10 +94,10 @@ trait Crossing: Sized {
     /// Its type in C.
     type C;
 
-    /// What is meant by `given`: zero is `default`, and BESPOKE_WEIGHT_OFF is `off`, where there is such a thing.
+    /// The value for `given`: `default` for zero, and `off`, where there is one, for BESPOKE_WEIGHT_OFF.
     ///
     /// # Errors
-    /// `InvalidArgument` with the `name`, where it means nothing.
+    /// `InvalidArgument` with the `name`, where `given` is not a value of the option.
     fn read(given: Self::C, default: Self, off: Option<Self>, name: &str) -> Result<Self>;
 
     /// The same value in C.
@@ -193,8 +193,8 @@ macro_rules! cross {
                 let default = Options::default();
                 let options = Options {
                     $($name: {
-                        let off = None::<$kind>$(.or(Some($off)))?;
-                        Crossing::read(self.$name, default.$name, off, stringify!($name))?
+                        let switched_off = None::<$kind>$(.or(Some($off)))?;
+                        Crossing::read(self.$name, default.$name, switched_off, stringify!($name))?
                     },)*
                 };
                 Ok(options)

@@ -1,4 +1,4 @@
-//! What a session hands out: vertices, and the report of its work.
+//! Results of a session: vertices, distortion, report.
 
 use std::ffi::c_char;
 use std::mem::{offset_of, size_of};
@@ -27,22 +27,22 @@ unsafe fn write_count(count: *mut usize, elements: usize) {
 }
 
 /// # Safety
-/// `out` tells the truth.
-unsafe fn write_points(positions: &[DVec3], out: &PositionsViewMut, what: &str) -> Result<()> {
+/// `out` is a valid view.
+unsafe fn write_points(positions: &[DVec3], out: &PositionsViewMut, name: &str) -> Result<()> {
     if out.capacity == 0 && out.data.is_null() {
         return Ok(());
     }
     // SAFETY: passed on from the caller.
-    unsafe { buffer::write_positions(out, positions, what) }
+    unsafe { buffer::write_positions(out, positions, name) }
 }
 
-/// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and unit.
+/// Writes the garment's current vertices, in the order in which they were set, in the target's coordinate system.
 ///
-/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of the
-/// garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision; otherwise it
-/// is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then), INVALID_STATE,
-/// NOT_VERIFIED (DONE, but good in the precision only in which the garment was set; nothing is written), BUSY, INTERNAL.
-/// Threads: any, one at a time.
+/// `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless null: vertices of
+/// the garment, also where they do not fit. State: PREPARED or later. With DONE it is verified in this precision;
+/// otherwise it is a preview. Errors: INVALID_ARGUMENT (a capacity that is too small as well; nothing is written then),
+/// INVALID_STATE, NOT_VERIFIED (DONE, but clean only in the precision in which the garment was set; nothing is
+/// written), BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     session: *const BespokeSession,
@@ -63,8 +63,8 @@ pub unsafe extern "C" fn bespoke_session_read_garment_vertices(
     }
 }
 
-/// Writes where the target avatar's vertices, without its layers, are now: shrunk onto the skeleton at first, as they were
-/// set at the end.
+/// Writes the target avatar's current vertices, without its layers: shrunk onto the source skeleton at first, as they
+/// were set at the end.
 ///
 /// `points`, `count`, state, errors, threads: as for bespoke_session_read_garment_vertices.
 #[unsafe(no_mangle)]
@@ -83,10 +83,10 @@ pub unsafe extern "C" fn bespoke_session_read_avatar_vertices(
     }
 }
 
-/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how differently it
-/// and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity, the mean over its edges with
-/// a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or above; 0 for any
-/// similarity of the garment as a whole, and for triangles without area or neighbours.
+/// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how
+/// differently it and its neighbours deform (Eq. 2 of the paper, in the similarity-invariant form, the mean over its
+/// edges with a neighbour), over the ratio of the garment's area to that of the design. A number without unit, 0 or
+/// above; 0 for any similarity of the garment as a whole, and for triangles without area or neighbours.
 ///
 /// `values`: where to, one number for each triangle (not three), F32 or F64. With null data and capacity 0 nothing is
 /// written. `*count`, unless null: triangles of the garment, also where they do not fit. State: PREPARED or later; until DONE
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn bespoke_session_read_distortion(
     }
 }
 
-/// The work of one stage.
+/// The cost of one stage.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BespokeStageReport {
@@ -140,7 +140,7 @@ impl From<&StageReport> for BespokeStageReport {
     }
 }
 
-/// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
+/// Measurements of a session so far. Lengths are in the normalised space, in which the longest side of the skeleton's
 /// bounding box is 2.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,15 +149,15 @@ pub struct BespokeReport {
     pub struct_size: u32,
     /// Threads that the session works with.
     pub threads: u32,
-    /// Step 1.
+    /// Cost of prepare.
     pub prepare: BespokeStageReport,
-    /// Step 2.
+    /// Cost of inflate.
     pub inflate: BespokeStageReport,
-    /// Step 3.
+    /// Cost of fit.
     pub fit: BespokeStageReport,
     /// Wall-clock seconds of the exact verifier.
     pub verify_seconds: f64,
-    /// Seconds until the distance field was built, beside step 2.
+    /// Seconds until the distance field was built, in parallel with inflate.
     pub field_seconds: f64,
     /// Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.
     pub t: f64,
@@ -185,12 +185,12 @@ pub struct BespokeReport {
     pub subdivided_avatar_vertices: u64,
     /// Triangles of the target avatar once those over several bones are split.
     pub subdivided_avatar_triangles: u64,
-    /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where the
+    /// The minimum separation in force: the option's; less while something is nearer than that, more where the
     /// coordinates of the result are coarse.
     pub min_separation: f64,
-    /// 1 where the verifier has looked at the result, else 0.
+    /// 1 where the verifier has checked the result, else 0.
     pub is_verified: u32,
-    /// 1 where step 3 ended by its tolerance, 0 where by the limit of iterations or not at all.
+    /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations or not at all.
     pub is_converged: u32,
     /// Number of energy terms; see bespoke_session_read_energy.
     pub energy_count: u32,
@@ -198,7 +198,8 @@ pub struct BespokeReport {
     pub reserved: u32,
     /// Bytes that the session's arrays take, without what the threads and the allocator add.
     pub memory_bytes: u64,
-    /// Intersecting or touching pairs within the garment at the start, which are let off.
+    /// Intersecting or touching pairs within the garment at the start, which are exempted from contact until they
+    /// separate.
     pub initial_self_intersections: u64,
 }
 
@@ -207,7 +208,7 @@ unsafe impl Sized32 for BespokeReport {
     const FIRST_SIZE: usize = offset_of!(BespokeReport, memory_bytes);
 }
 
-/// Fills a struct with what the session has done so far. The caller sets `struct_size` first.
+/// Fills a struct with the session's measurements so far. The caller sets `struct_size` first.
 ///
 /// State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]

@@ -1,4 +1,4 @@
-//! The way from the inputs to a verified result.
+//! Running a session, from the inputs to a verified result.
 
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
@@ -6,25 +6,25 @@ use crate::capi::view::{self, invalid};
 use crate::error::{Error, ErrorKind};
 use crate::session::{Budget, Stage};
 
-/// Where a session is on its way.
+/// The stage of a session.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeStage {
     /// Takes inputs; nothing is computed yet.
     Setup = 0,
-    /// Step 1 is done: the avatar is shrunk onto the source skeleton.
+    /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
     Prepared = 1,
-    /// Step 2: the avatar grows to its full size inside the garment.
+    /// The avatar grows to its full size inside the garment, which gives way.
     Inflate = 2,
-    /// Step 3: the garment settles onto the avatar.
+    /// The garment is fitted to the avatar at its full size.
     Fit = 3,
-    /// The exact verifier looks at the result.
+    /// The exact verifier checks the result.
     Verify = 4,
     /// The result is final and verified.
     Done = 5,
-    /// A call failed for good. What the garment looked like last can be read.
+    /// A call failed for good. The last garment can be read.
     Failed = 6,
-    /// Somebody asked to stop. What the garment looked like last can be read.
+    /// Cancelled by the caller. The last garment can be read.
     Cancelled = 7,
 }
 
@@ -43,9 +43,9 @@ impl From<Stage> for BespokeStage {
     }
 }
 
-/// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes
-/// PREPARED; where it fails or is cancelled, the session is in SETUP with all that was set. What it finds in the inputs can
-/// be read with bespoke_session_read_diagnostics, also where it fails.
+/// Checks the inputs against each other and shrinks the avatar onto the source skeleton. SETUP becomes PREPARED; where
+/// it fails or is cancelled, the session stays in SETUP and keeps its inputs. Diagnostics about the inputs can be read
+/// with bespoke_session_read_diagnostics, also where it fails.
 ///
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
 /// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
@@ -57,14 +57,14 @@ pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -
     unsafe { call(session, |session| session.prepare()) }
 }
 
-/// Goes on for a while: to the end of the budget or of the whole way, whichever is first.
+/// Continues the run until it ends or the budget is spent, whichever is first.
 ///
-/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is looked at after each iteration, so a step does
-/// at least one and may take somewhat longer. `*stage`, unless null: one of BespokeStage, where the session is
-/// afterwards, also where the step failed (but not with BUSY or a null session). With OK and DONE the result is
-/// verified; until then what can be read is a preview.
-/// State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (an ended session goes on with bespoke_session_reset only),
-/// INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+/// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is checked after each iteration, so a step does
+/// at least one and may take somewhat longer. `*stage`, unless null: the stage afterwards, one of BespokeStage, also
+/// where the step failed (but not with BUSY or a null session). With OK and DONE the result is verified; until then
+/// what can be read is a preview. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
+/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY,
+/// INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_step(
     session: *mut BespokeSession,
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn bespoke_session_step(
     }
 }
 
-/// All that is left of the way: prepares where needed, then steps to the end. OK means DONE: the result is verified.
+/// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.
 ///
 /// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
 #[unsafe(no_mangle)]
@@ -104,19 +104,19 @@ pub unsafe extern "C" fn bespoke_session_run(session: *mut BespokeSession) -> Be
 pub struct BespokeIntersections {
     /// Of the garment with itself.
     pub garment_garment: u64,
-    /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may keep
+    /// Those of them that intersected or touched at the start, too: a garment with initial self-intersections may keep
     /// some of them.
     pub initial: u64,
-    /// Of the garment with the avatar or the layers that it wears.
+    /// Of the garment with the avatar or its layers.
     pub garment_avatar: u64,
 }
 
 /// Counts the intersections of the vertices as they would be read now, with exact predicates.
 ///
-/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has
-/// none in the precision of its garment but such as it had at the start. State: PREPARED or later. Errors:
-/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage stays), BUSY,
-/// INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
+/// `component`: the precision of reading, BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64. A session that is DONE has,
+/// in the precision of its garment, no others than initial self-intersections. State: PREPARED or later. Errors:
+/// INVALID_ARGUMENT, INVALID_STATE, CANCELLED (by a request that no call has answered yet; the stage does not change),
+/// BUSY, INTERNAL; `*intersections` is written with OK only. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_verify(
     session: *const BespokeSession,

@@ -14,11 +14,11 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::panics::{PanicLog, with_panic_log};
 use crate::session::Session;
 
-/// One garment on its way to one avatar. Opaque.
+/// The fitting of one garment to one avatar. Opaque.
 pub struct BespokeSession {
-    /// Tried, never waited for: a second caller is told BUSY. A panic poisons it, and with it this session only.
+    /// Tried, never waited for: a second caller gets BUSY. A panic poisons it, and with it this session only.
     session: Mutex<Session>,
-    /// Sentence of the last failure. Apart from the session, so that it can be read while a call runs.
+    /// Message of the last failure. Outside the session's lock, so that it can be read while a call runs.
     message: Mutex<String>,
     /// Reached without the session's lock.
     pub(super) control: Arc<Control>,
@@ -119,8 +119,8 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
     if made.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 
-/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns, no
-/// thread of the session is left; where a request to stop has just ended a call, that may take a moment.
+/// Ends a session and frees all it holds. A null session is fine. Controls made from it stay usable. When it returns,
+/// no thread of the session is left; after a call that was cancelled, that may take a moment.
 ///
 /// State: any. Errors: BUSY where another thread is inside a call with it, INVALID_STATE in a forked process; it is not
 /// destroyed then. INTERNAL where it ended by a panic. Threads: any, and no other call with this session may begin from here
@@ -144,8 +144,8 @@ pub unsafe extern "C" fn bespoke_session_destroy(session: *mut BespokeSession) -
     if freed.is_ok() { BespokeStatus::Ok } else { BespokeStatus::Internal }
 }
 
-/// Takes a session back to SETUP: inputs, spaces and options stay, all results and a request to cancel are forgotten. As
-/// bespoke_session_destroy, it waits for work that a request to stop has left.
+/// Takes a session back to SETUP: inputs, coordinate systems and options stay, results and a request to cancel are
+/// dropped. Like bespoke_session_destroy, it waits for work that a cancelled call has left.
 ///
 /// State: any. Errors: INVALID_ARGUMENT, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
@@ -159,12 +159,12 @@ pub unsafe extern "C" fn bespoke_session_reset(session: *mut BespokeSession) -> 
     }
 }
 
-/// Copies the sentence of the last call with this session that failed (UTF-8, empty where none did).
+/// Copies the message of the last call with this session that failed (UTF-8, empty where none did).
 ///
-/// `buffer`: room for `capacity` bytes. A longer sentence is cut at a character; a zero byte always ends it. May be
-/// null where `capacity` is 0. `*needed`, unless null: the bytes that the whole sentence takes with its zero byte.
-/// State: any, a failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity).
-/// Threads: any, at any time, also while another call runs.
+/// `buffer`: room for `capacity` bytes. A longer message is cut at a character; a zero byte always ends it. May be null
+/// where `capacity` is 0. `*needed`, unless null: the size of the whole message with its zero byte. State: any, a
+/// failed session included. Errors: INVALID_ARGUMENT (null session, or a null buffer with a capacity). Threads: any, at
+/// any time, also while another call runs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_last_message(
     session: *const BespokeSession,

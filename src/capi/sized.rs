@@ -1,4 +1,4 @@
-//! Structs that carry their own size, so that a program and a library of different age understand each other.
+//! Structs that carry their own size, so that programs and libraries of different versions stay compatible.
 
 use std::mem::size_of;
 
@@ -13,20 +13,20 @@ pub(super) unsafe trait Sized32: Copy {
     const FIRST_SIZE: usize = size_of::<Self>();
 }
 
-fn declared_size(pointer: *const u8, what: &str) -> Result<usize> {
+fn declared_size(pointer: *const u8, name: &str) -> Result<usize> {
     if pointer.is_null() {
-        return Err(Error::new(ErrorKind::InvalidArgument, format!("{what}: the pointer is null")));
+        return Err(Error::new(ErrorKind::InvalidArgument, format!("{name}: the pointer is null")));
     }
     // SAFETY: not null, and the caller vouches for a struct that begins with a 32-bit size.
     let size = unsafe { pointer.cast::<u32>().read_unaligned() } as usize;
     Ok(size)
 }
 
-fn check_size<T: Sized32>(size: usize, what: &str) -> Result<()> {
+fn check_size<T: Sized32>(size: usize, name: &str) -> Result<()> {
     if size < T::FIRST_SIZE {
         return Err(Error::new(
             ErrorKind::InvalidArgument,
-            format!("{what}: struct_size is {size}; set it to sizeof of the struct, which is {}", size_of::<T>()),
+            format!("{name}: struct_size is {size}; set it to sizeof of the struct, which is {}", size_of::<T>()),
         ));
     }
     Ok(())
@@ -37,17 +37,17 @@ fn check_size<T: Sized32>(size: usize, what: &str) -> Result<()> {
 ///
 /// # Safety
 /// `pointer` is null or points to as many readable bytes as its first field says.
-pub(super) unsafe fn read<T: Sized32>(pointer: *const T, what: &str) -> Result<T> {
+pub(super) unsafe fn read<T: Sized32>(pointer: *const T, name: &str) -> Result<T> {
     let bytes = pointer.cast::<u8>();
-    let size = declared_size(bytes, what)?;
-    check_size::<T>(size, what)?;
+    let size = declared_size(bytes, name)?;
+    check_size::<T>(size, name)?;
     for k in size_of::<T>()..size {
         // SAFETY: the caller vouches for `size` readable bytes.
         if unsafe { bytes.add(k).read() } != 0 {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "{what}: byte {k} is set, which this version of the library ({} bytes) does not know",
+                    "{name}: byte {k} is set, which this version of the library ({} bytes) does not know",
                     size_of::<T>()
                 ),
             ));
@@ -66,14 +66,14 @@ pub(super) unsafe fn read<T: Sized32>(pointer: *const T, what: &str) -> Result<T
 ///
 /// # Safety
 /// `pointer` is null or points to as many readable and writable bytes as its first field says.
-pub(super) unsafe fn write<T: Sized32>(value: T, pointer: *mut T, what: &str) -> Result<()> {
-    let size = declared_size(pointer.cast(), what)?;
-    check_size::<T>(size, what)?;
+pub(super) unsafe fn write<T: Sized32>(value: T, pointer: *mut T, name: &str) -> Result<()> {
+    let size = declared_size(pointer.cast(), name)?;
+    check_size::<T>(size, name)?;
     let from = (&raw const value).cast::<u8>();
     let to = pointer.cast::<u8>();
     let skip = size_of::<u32>();
     let known = size.min(size_of::<T>());
-    // SAFETY: ours holds `size_of::<T>()` bytes and the caller's `size`, both at least `known`, and they are apart.
+    // SAFETY: `value` holds `size_of::<T>()` bytes and the caller's struct `size`, both at least `known`, without overlap.
     unsafe {
         std::ptr::copy_nonoverlapping(from.add(skip), to.add(skip), known - skip);
         std::ptr::write_bytes(to.add(known), 0, size - known);

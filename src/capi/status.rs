@@ -8,7 +8,7 @@ use crate::error::ErrorKind;
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeStatus {
-    /// It did what it says.
+    /// The call succeeded.
     Ok = 0,
     /// An argument is null, out of range or of the wrong size.
     InvalidArgument = 1,
@@ -20,19 +20,20 @@ pub enum BespokeStatus {
     InvalidSkeleton = 4,
     /// Skin or fit weights have the wrong shape or hold bad values.
     InvalidWeights = 5,
-    /// The garment intersects itself at the start, and the options are strict.
+    /// The garment intersects itself at the start, and the option `strict` is set.
     SelfIntersection = 6,
-    /// The garment does not enclose its skeleton, and no way inside it was found.
+    /// The garment does not enclose its skeleton, and no path for it inside the garment was found.
     NotEnclosed = 7,
     /// The avatar could not be inflated to its full size without an intersection.
     InflationStalled = 8,
     /// The exact verifier found an intersection in the result.
     NotVerified = 9,
-    /// Somebody asked to stop.
+    /// Cancelled by the caller.
     Cancelled = 10,
     /// Another thread is inside a call with the same session. Nothing was done, and the message did not change.
     Busy = 11,
-    /// A defect of this library. The session refuses all further work and can only be destroyed; others go on.
+    /// A defect of this library. The session refuses all further calls and can only be destroyed; other sessions are
+    /// not affected.
     Internal = 12,
     /// The session would take more memory than the option `memory_limit` allows.
     MemoryLimit = 13,

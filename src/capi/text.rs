@@ -1,4 +1,4 @@
-//! Sentences in buffers of a fixed size.
+//! Messages in buffers of a fixed size.
 
 /// The longest beginning of `text` that is whole characters and at most `bytes` long.
 pub(super) fn cut(text: &str, bytes: usize) -> &str {

@@ -56,19 +56,19 @@ pub(super) fn invalid<T>(message: String) -> Result<T> {
     Err(Error::new(ErrorKind::InvalidArgument, message))
 }
 
-fn float_component(component: u32, what: &str) -> Result<Component> {
+fn float_component(component: u32, name: &str) -> Result<Component> {
     match component {
         c if c == BespokeComponent::F32 as u32 => Ok(Component::F32),
         c if c == BespokeComponent::F64 as u32 => Ok(Component::F64),
-        c => invalid(format!("{what}: the component is {c}; it must be BESPOKE_COMPONENT_F32 or _F64")),
+        c => invalid(format!("{name}: the component is {c}; it must be BESPOKE_COMPONENT_F32 or _F64")),
     }
 }
 
-fn index_component(component: u32, what: &str) -> Result<IndexComponent> {
+fn index_component(component: u32, name: &str) -> Result<IndexComponent> {
     match component {
         c if c == BespokeComponent::U16 as u32 => Ok(IndexComponent::U16),
         c if c == BespokeComponent::U32 as u32 => Ok(IndexComponent::U32),
-        c => invalid(format!("{what}: the component is {c}; it must be BESPOKE_COMPONENT_U16 or _U32")),
+        c => invalid(format!("{name}: the component is {c}; it must be BESPOKE_COMPONENT_U16 or _U32")),
     }
 }
 
@@ -81,15 +81,15 @@ pub(super) fn precision_of(component: Component) -> Precision {
 }
 
 /// The precision that a component number stands for.
-pub(super) fn precision(component: u32, what: &str) -> Result<Precision> {
-    float_component(component, what).map(precision_of)
+pub(super) fn precision(component: u32, name: &str) -> Result<Precision> {
+    float_component(component, name).map(precision_of)
 }
 
 /// # Safety
 /// `view` is null or points to a `T`.
-unsafe fn dereference<T: Copy>(view: *const T, what: &str) -> Result<T> {
+unsafe fn dereference<T: Copy>(view: *const T, name: &str) -> Result<T> {
     if view.is_null() {
-        return invalid(format!("{what}: the pointer to its description is null"));
+        return invalid(format!("{name}: the pointer to its description is null"));
     }
     // SAFETY: not null, and the caller vouches for a `T` behind it.
     Ok(unsafe { view.read_unaligned() })
@@ -97,24 +97,24 @@ unsafe fn dereference<T: Copy>(view: *const T, what: &str) -> Result<T> {
 
 /// # Safety
 /// `view` is null or points to a view.
-pub(super) unsafe fn floats(view: *const BespokeView, what: &str) -> Result<PositionsView> {
+pub(super) unsafe fn floats(view: *const BespokeView, name: &str) -> Result<PositionsView> {
     // SAFETY: passed on from the caller.
-    let BespokeView { data, count, stride, component } = unsafe { dereference(view, what)? };
-    Ok(PositionsView { data, count, stride, component: float_component(component, what)? })
+    let BespokeView { data, count, stride, component } = unsafe { dereference(view, name)? };
+    Ok(PositionsView { data, count, stride, component: float_component(component, name)? })
 }
 
 /// # Safety
 /// `view` is null or points to a view.
-pub(super) unsafe fn indices(view: *const BespokeView, what: &str) -> Result<IndicesView> {
+pub(super) unsafe fn indices(view: *const BespokeView, name: &str) -> Result<IndicesView> {
     // SAFETY: passed on from the caller.
-    let BespokeView { data, count, stride, component } = unsafe { dereference(view, what)? };
-    Ok(IndicesView { data, count, stride, component: index_component(component, what)? })
+    let BespokeView { data, count, stride, component } = unsafe { dereference(view, name)? };
+    Ok(IndicesView { data, count, stride, component: index_component(component, name)? })
 }
 
 /// # Safety
 /// `buffer` is null or points to a buffer.
-pub(super) unsafe fn points_out(buffer: *const BespokeBuffer, what: &str) -> Result<PositionsViewMut> {
+pub(super) unsafe fn points_out(buffer: *const BespokeBuffer, name: &str) -> Result<PositionsViewMut> {
     // SAFETY: passed on from the caller.
-    let BespokeBuffer { data, capacity, stride, component } = unsafe { dereference(buffer, what)? };
-    Ok(PositionsViewMut { data, capacity, stride, component: float_component(component, what)? })
+    let BespokeBuffer { data, capacity, stride, component } = unsafe { dereference(buffer, name)? };
+    Ok(PositionsViewMut { data, capacity, stride, component: float_component(component, name)? })
 }

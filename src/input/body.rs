@@ -1,4 +1,4 @@
-//! The body to dress and the layers that it wears already, as one mesh, and the way back to the caller's indices.
+//! The body to dress with its layers, as one mesh, and the map back to the caller's indices.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ impl From<TriangleMesh> for Body {
 }
 
 impl Body {
-    /// `avatar` in `layers`, all of which have passed [`TriangleMesh::check`] and are in one space.
+    /// `avatar` in `layers`, all of which have passed [`TriangleMesh::check`] and share a coordinate system.
     ///
     /// # Errors
     /// `InvalidMesh` where there are more vertices or triangles together than indices.
@@ -64,7 +64,7 @@ impl Body {
         Ok(Self { mesh: joined.into(), avatar_vertices, ends })
     }
 
-    /// The same vertices and triangles in another place, or another space.
+    /// The same triangles with other positions, as in another coordinate system.
     pub fn with_mesh(&self, mesh: TriangleMesh) -> Self {
         Self { mesh: mesh.into(), avatar_vertices: self.avatar_vertices, ends: self.ends.clone() }
     }

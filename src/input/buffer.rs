@@ -1,4 +1,4 @@
-//! The caller's memory: strided arrays of numbers and indices, read once into ours, and positions written back.
+//! The caller's memory: strided arrays of numbers and indices, copied once, and positions written back.
 //!
 //! The only file of the input layer with `unsafe` code. Every access goes through unaligned reads and writes, so
 //! the caller's arrays need no alignment.
@@ -90,27 +90,27 @@ fn invalid<T>(message: String) -> Result<T> {
 
 /// Checks what can be checked of a view of `count` elements of `width` numbers of `size` bytes each.
 /// Returns the true stride, for which the offset of every byte is at most `isize::MAX`.
-fn check_layout(null: bool, count: usize, stride: usize, width: usize, size: usize, what: &str) -> Result<usize> {
+fn check_layout(null: bool, count: usize, stride: usize, width: usize, size: usize, name: &str) -> Result<usize> {
     let element = match width.checked_mul(size) {
         Some(bytes) if bytes <= isize::MAX as usize => bytes,
-        _ => return invalid(format!("{what}: an element of {width} numbers is larger than memory")),
+        _ => return invalid(format!("{name}: an element of {width} numbers is larger than memory")),
     };
     let stride = if stride == 0 { element } else { stride };
     if count == 0 || width == 0 {
         return Ok(stride);
     }
     if null {
-        return invalid(format!("{what}: the pointer is null but the count is {count}"));
+        return invalid(format!("{name}: the pointer is null but the count is {count}"));
     }
     if count > u32::MAX as usize {
-        return invalid(format!("{what}: the count is {count}, at most {} can be used", u32::MAX));
+        return invalid(format!("{name}: the count is {count}, at most {} can be used", u32::MAX));
     }
     if stride < element {
-        return invalid(format!("{what}: the stride is {stride} bytes but an element takes {element}"));
+        return invalid(format!("{name}: the stride is {stride} bytes but an element takes {element}"));
     }
     let bytes = stride.checked_mul(count - 1).and_then(|b| b.checked_add(element));
     if bytes.is_none_or(|b| b > isize::MAX as usize) {
-        return invalid(format!("{what}: {count} elements of stride {stride} are larger than memory"));
+        return invalid(format!("{name}: {count} elements of stride {stride} are larger than memory"));
     }
     Ok(stride)
 }
@@ -122,15 +122,15 @@ fn check_layout(null: bool, count: usize, stride: usize, width: usize, size: usi
 unsafe fn read<C: Stored, T>(
     view: &View<C>,
     width: usize,
-    what: &str,
+    name: &str,
     read: impl Fn(*const u8) -> T,
 ) -> Result<Vec<T>> {
     let size = view.component.size();
-    let stride = check_layout(view.data.is_null(), view.count, view.stride, width, size, what)?;
+    let stride = check_layout(view.data.is_null(), view.count, view.stride, width, size, name)?;
     let mut numbers = Vec::new();
     let total = view.count.checked_mul(width);
     if total.is_none_or(|n| numbers.try_reserve_exact(n).is_err()) {
-        return invalid(format!("{what}: there is no memory for {} elements of {width} numbers", view.count));
+        return invalid(format!("{name}: there is no memory for {} elements of {width} numbers", view.count));
     }
     for element in 0..view.count {
         for k in 0..width {
@@ -145,31 +145,31 @@ unsafe fn read<C: Stored, T>(
 
 /// # Safety
 /// As for [`read_positions`], with `width` numbers an element.
-unsafe fn read_floats(view: &PositionsView, width: usize, what: &str) -> Result<Vec<f64>> {
+unsafe fn read_floats(view: &PositionsView, width: usize, name: &str) -> Result<Vec<f64>> {
     match view.component {
         // SAFETY: the caller's promise, handed on; `read` passes addresses of 4 readable bytes, and any bits are
         // an f32.
-        Component::F32 => unsafe { read(view, width, what, |p| f64::from(p.cast::<f32>().read_unaligned())) },
+        Component::F32 => unsafe { read(view, width, name, |p| f64::from(p.cast::<f32>().read_unaligned())) },
         // SAFETY: as above, with 8 bytes.
-        Component::F64 => unsafe { read(view, width, what, |p| p.cast::<f64>().read_unaligned()) },
+        Component::F64 => unsafe { read(view, width, name, |p| p.cast::<f64>().read_unaligned()) },
     }
 }
 
 /// # Safety
 /// As for [`read_positions`], with `width` indices an element.
-unsafe fn read_index_tuples(view: &IndicesView, width: usize, what: &str) -> Result<Vec<u32>> {
+unsafe fn read_index_tuples(view: &IndicesView, width: usize, name: &str) -> Result<Vec<u32>> {
     match view.component {
         // SAFETY: the caller's promise, handed on; `read` passes addresses of 2 readable bytes, and any bits are
         // a u16.
-        IndexComponent::U16 => unsafe { read(view, width, what, |p| u32::from(p.cast::<u16>().read_unaligned())) },
+        IndexComponent::U16 => unsafe { read(view, width, name, |p| u32::from(p.cast::<u16>().read_unaligned())) },
         // SAFETY: as above, with 4 bytes.
-        IndexComponent::U32 => unsafe { read(view, width, what, |p| p.cast::<u32>().read_unaligned()) },
+        IndexComponent::U32 => unsafe { read(view, width, name, |p| p.cast::<u32>().read_unaligned()) },
     }
 }
 
-/// Reads positions of three coordinates each. `what` names the array in the sentence ("garment positions").
+/// Reads positions of three coordinates each. `name` names the array in error messages ("garment positions").
 ///
-/// Values are not judged here: NaN is for [`TriangleMesh::check`](crate::geometry::mesh::TriangleMesh::check) to find.
+/// Values are not checked here: NaN is for [`TriangleMesh::check`](crate::geometry::mesh::TriangleMesh::check) to find.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidArgument`]: a null pointer with a count, a count above `u32::MAX`, a stride smaller than an
@@ -178,76 +178,76 @@ unsafe fn read_index_tuples(view: &IndicesView, width: usize, what: &str) -> Res
 /// # Safety
 /// Where `view.data` is not null, the `view.count` elements that it describes must be readable memory that nobody
 /// writes during the call.
-pub unsafe fn read_positions(view: &PositionsView, what: &str) -> Result<Vec<DVec3>> {
+pub unsafe fn read_positions(view: &PositionsView, name: &str) -> Result<Vec<DVec3>> {
     // SAFETY: the caller's promise, handed on with 3 numbers an element.
-    let numbers = unsafe { read_floats(view, 3, what)? };
+    let numbers = unsafe { read_floats(view, 3, name)? };
     Ok(numbers.as_chunks::<3>().0.iter().map(|&p| DVec3::from_array(p)).collect())
 }
 
-/// Reads one number an element. `what` names the array in the sentence.
+/// Reads one number an element. `name` names the array in error messages.
 ///
 /// # Errors
 /// As for [`read_positions`].
 ///
 /// # Safety
 /// As for [`read_positions`], with one number an element.
-pub unsafe fn read_scalars(view: &PositionsView, what: &str) -> Result<Vec<f64>> {
+pub unsafe fn read_scalars(view: &PositionsView, name: &str) -> Result<Vec<f64>> {
     // SAFETY: the caller's promise, handed on.
-    unsafe { read_floats(view, 1, what) }
+    unsafe { read_floats(view, 1, name) }
 }
 
-/// Reads a matrix: `view.count` rows of `columns` numbers each, `view.stride` bytes from row to row. The result is
-/// row after row, packed. `what` names it in the sentence.
+/// Reads a matrix: `view.count` rows of `columns` numbers each, `view.stride` bytes from row to row. The result is row
+/// after row, packed. `name` names it in error messages.
 ///
 /// # Errors
 /// As for [`read_positions`].
 ///
 /// # Safety
 /// As for [`read_positions`], with `columns` numbers an element.
-pub unsafe fn read_rows(view: &PositionsView, columns: usize, what: &str) -> Result<Vec<f64>> {
+pub unsafe fn read_rows(view: &PositionsView, columns: usize, name: &str) -> Result<Vec<f64>> {
     // SAFETY: the caller's promise, handed on.
-    unsafe { read_floats(view, columns, what) }
+    unsafe { read_floats(view, columns, name) }
 }
 
-/// Reads triangles of three indices each. `what` names the array in the sentence.
+/// Reads triangles of three indices each. `name` names the array in error messages.
 ///
 /// # Errors
 /// As for [`read_positions`].
 ///
 /// # Safety
 /// As for [`read_positions`], with 3 indices an element.
-pub unsafe fn read_triangles(view: &IndicesView, what: &str) -> Result<Vec<[u32; 3]>> {
+pub unsafe fn read_triangles(view: &IndicesView, name: &str) -> Result<Vec<[u32; 3]>> {
     // SAFETY: the caller's promise, handed on.
-    Ok(unsafe { read_index_tuples(view, 3, what)? }.as_chunks().0.to_vec())
+    Ok(unsafe { read_index_tuples(view, 3, name)? }.as_chunks().0.to_vec())
 }
 
-/// Reads pairs of indices, such as bones. `what` names the array in the sentence.
+/// Reads pairs of indices, such as bones. `name` names the array in error messages.
 ///
 /// # Errors
 /// As for [`read_positions`].
 ///
 /// # Safety
 /// As for [`read_positions`], with 2 indices an element.
-pub unsafe fn read_pairs(view: &IndicesView, what: &str) -> Result<Vec<[u32; 2]>> {
+pub unsafe fn read_pairs(view: &IndicesView, name: &str) -> Result<Vec<[u32; 2]>> {
     // SAFETY: the caller's promise, handed on.
-    Ok(unsafe { read_index_tuples(view, 2, what)? }.as_chunks().0.to_vec())
+    Ok(unsafe { read_index_tuples(view, 2, name)? }.as_chunks().0.to_vec())
 }
 
 /// Reads `width` indices an element, row after row: 1 for a plain list, k for the joints of k influences a vertex.
-/// `what` names the array in the sentence.
+/// `name` names the array in error messages.
 ///
 /// # Errors
 /// As for [`read_positions`].
 ///
 /// # Safety
 /// As for [`read_positions`], with `width` indices an element.
-pub unsafe fn read_indices(view: &IndicesView, width: usize, what: &str) -> Result<Vec<u32>> {
+pub unsafe fn read_indices(view: &IndicesView, width: usize, name: &str) -> Result<Vec<u32>> {
     // SAFETY: the caller's promise, handed on.
-    unsafe { read_index_tuples(view, width, what) }
+    unsafe { read_index_tuples(view, width, name) }
 }
 
-/// Writes `positions` from the view's first element on, rounding each coordinate to the nearest number that the
-/// view's component can hold. Bytes between elements are left as they are. `what` names the array in the sentence.
+/// Writes `positions` from the view's first element on, rounding each coordinate to the nearest number that the view's
+/// component can hold. Bytes between elements are left as they are. `name` names the array in error messages.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidArgument`], and nothing is written: as for [`read_positions`], the capacity is smaller than
@@ -256,9 +256,9 @@ pub unsafe fn read_indices(view: &IndicesView, width: usize, what: &str) -> Resu
 /// # Safety
 /// Where `view.data` is not null, the `view.capacity` elements that it describes must be writable memory that nobody
 /// else accesses during the call.
-pub unsafe fn write_positions(view: &PositionsViewMut, positions: &[DVec3], what: &str) -> Result<()> {
+pub unsafe fn write_positions(view: &PositionsViewMut, positions: &[DVec3], name: &str) -> Result<()> {
     // SAFETY: the caller's promise, handed on with 3 numbers an element.
-    unsafe { write_floats(view, positions.iter().map(DVec3::to_array), "position", what) }
+    unsafe { write_floats(view, positions.iter().map(DVec3::to_array), "position", name) }
 }
 
 /// Writes one number an element, otherwise as [`write_positions`].
@@ -268,9 +268,9 @@ pub unsafe fn write_positions(view: &PositionsViewMut, positions: &[DVec3], what
 ///
 /// # Safety
 /// As for [`write_positions`].
-pub unsafe fn write_scalars(view: &PositionsViewMut, values: &[f64], what: &str) -> Result<()> {
+pub unsafe fn write_scalars(view: &PositionsViewMut, values: &[f64], name: &str) -> Result<()> {
     // SAFETY: the caller's promise, handed on with one number an element.
-    unsafe { write_floats(view, values.iter().map(|&value| [value]), "number", what) }
+    unsafe { write_floats(view, values.iter().map(|&value| [value]), "number", name) }
 }
 
 /// # Safety
@@ -279,20 +279,20 @@ unsafe fn write_floats<const N: usize>(
     view: &PositionsViewMut,
     elements: impl ExactSizeIterator<Item = [f64; N]> + Clone,
     noun: &str,
-    what: &str,
+    name: &str,
 ) -> Result<()> {
     let count = elements.len();
     let size = view.component.size();
     if view.capacity < count {
-        return invalid(format!("{what}: the capacity is {} but there are {count} {noun}s", view.capacity));
+        return invalid(format!("{name}: the capacity is {} but there are {count} {noun}s", view.capacity));
     }
-    let stride = check_layout(view.data.is_null(), count, view.stride, N, size, what)?;
+    let stride = check_layout(view.data.is_null(), count, view.stride, N, size, name)?;
     let too_large =
         |element: &[f64; N]| element.iter().all(|v| v.is_finite()) && element.iter().any(|&v| !(v as f32).is_finite());
     if view.component == Component::F32
         && let Some((i, element)) = elements.clone().enumerate().find(|(_, element)| too_large(element))
     {
-        return invalid(format!("{what}: {noun} {i} is {element:?}, too large for 32-bit numbers"));
+        return invalid(format!("{name}: {noun} {i} is {element:?}, too large for 32-bit numbers"));
     }
     for (i, element) in elements.enumerate() {
         for (k, value) in element.into_iter().enumerate() {

@@ -1,7 +1,7 @@
-//! The caller's axes, unit and winding against ours.
+//! Conversion between the caller's coordinate systems and the internal one.
 //!
-//! Ours is right-handed, in metres: x to the right, y up, z backwards (towards a viewer who looks forward), front
-//! faces counter-clockwise. It is the caller's by default, so the default conversion is the identity.
+//! The internal one is right-handed, in metres: x to the right, y up, z backwards (towards a viewer who looks forward),
+//! front faces counter-clockwise. It is also the default, so the default conversion is the identity.
 
 use glam::DVec3;
 
@@ -49,27 +49,27 @@ impl Axis {
     }
 }
 
-/// How the corners of a front face follow each other for somebody who looks at its front.
+/// The order of a front face's corners, seen from the front.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
-    /// Against the hands of a clock.
+    /// Counter-clockwise.
     CounterClockwise,
-    /// With the hands of a clock.
+    /// Clockwise.
     Clockwise,
 }
 
 /// A coordinate system: which of its axes point to the right, up and forward of the scene, its unit and winding.
 ///
-/// Handedness follows from the axes. Winding is what the eye sees, as engines state it ("left-handed, y up,
-/// clockwise"), and the eye sees the same after a change of coordinates: a mirrored space changes the sign of
-/// `(b - a) x (c - a)` but not the winding.
+/// Handedness follows from the axes. Winding is meant as seen by a viewer, as engines state it ("left-handed, y up,
+/// clockwise"), and does not depend on the coordinates: a mirrored coordinate system changes the sign of `(b - a) x (c
+/// - a)` but not the winding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoordinateSystem {
-    /// The caller's axis to the right.
+    /// The caller's axis that points to the right.
     pub right: Axis,
-    /// The caller's axis upwards.
+    /// The caller's axis that points up.
     pub up: Axis,
-    /// The caller's axis forwards, into the picture.
+    /// The caller's axis that points forward, away from the viewer.
     pub forward: Axis,
     /// Length of the caller's unit in metres.
     pub metres_per_unit: f64,
@@ -78,7 +78,7 @@ pub struct CoordinateSystem {
 }
 
 impl Default for CoordinateSystem {
-    /// Our own space.
+    /// The internal coordinate system.
     fn default() -> Self {
         Self {
             right: Axis::PositiveX,
@@ -91,19 +91,19 @@ impl Default for CoordinateSystem {
 }
 
 impl CoordinateSystem {
-    /// Refuses a space that is none; `what` names it in the sentence ("target space").
+    /// Refuses an invalid coordinate system; `name` names it in error messages ("target coordinate system").
     ///
     /// # Errors
     /// [`ErrorKind::InvalidArgument`]: two of the axes are along one coordinate, or the unit is not a positive
     /// number between 1e-9 and 1e9 metres.
-    pub fn check(&self, what: &str) -> Result<()> {
+    pub fn check(&self, name: &str) -> Result<()> {
         let fail = |message: String| Err(Error::new(ErrorKind::InvalidArgument, message));
         let axes = [("right", self.right), ("up", self.up), ("forward", self.forward)];
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            let ((name, axis), (other_name, other)) = (axes[i], axes[j]);
+            let ((direction, axis), (other_direction, other)) = (axes[i], axes[j]);
             if axis.parts().0 == other.parts().0 {
                 return fail(format!(
-                    "{what}: {name} is {} and {other_name} is {}, the axes must be perpendicular to each other",
+                    "{name}: {direction} is {} and {other_direction} is {}, the axes must be perpendicular to each other",
                     axis.name(),
                     other.name()
                 ));
@@ -111,15 +111,15 @@ impl CoordinateSystem {
         }
         if !(1e-9..=1e9).contains(&self.metres_per_unit) {
             return fail(format!(
-                "{what}: the unit is {} metres, it must be between 1e-9 and 1e9",
+                "{name}: the unit is {} metres, it must be between 1e-9 and 1e9",
                 self.metres_per_unit
             ));
         }
         Ok(())
     }
 
-    /// A position of the caller's space in ours. Exact where the unit is the metre (or a power of two of it):
-    /// a permutation of the coordinates and their signs.
+    /// A position in the caller's coordinate system, converted to the internal one. Exact where the unit is the metre
+    /// (or a power of two of it): a permutation of the coordinates and their signs.
     #[inline]
     pub fn position_to_internal(&self, p: DVec3) -> DVec3 {
         let take = |axis: Axis| {
@@ -129,8 +129,9 @@ impl CoordinateSystem {
         DVec3::new(take(self.right), take(self.up), -take(self.forward)) * self.metres_per_unit
     }
 
-    /// A position of our space in the caller's: the inverse of [`position_to_internal`](Self::position_to_internal), up to
-    /// the rounding of one division where the unit is not a power of two metres.
+    /// An internal position in the caller's coordinate system: the inverse of
+    /// [`position_to_internal`](Self::position_to_internal), up to the rounding of one division where the unit is not a
+    /// power of two metres.
     #[inline]
     pub fn position_from_internal(&self, p: DVec3) -> DVec3 {
         let p = p / self.metres_per_unit;
@@ -142,7 +143,7 @@ impl CoordinateSystem {
         own
     }
 
-    /// A triangle of the caller's space in ours, and back: turned over where the caller's winding is not ours. The
+    /// A triangle converted to the internal winding, and back: turned over where the caller's winding is clockwise. The
     /// first corner stays first.
     #[inline]
     pub fn triangle(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {

@@ -1,4 +1,5 @@
-//! Diagnostics about the inputs and the result: typed data, whose sentences are made in [`super::diagnostic_text`] alone.
+//! Diagnostics about the inputs and the result: typed data, whose messages are made in [`super::diagnostic_text`]
+//! alone.
 
 /// Which of the caller's inputs an element belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,7 +60,7 @@ impl Element {
 /// What a diagnostic is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DiagnosticKind {
-    /// Garment vertices in one place, as along UV seams, that move as one.
+    /// Garment vertices at equal positions, as along UV seams, that are welded.
     SplitVertices,
     /// A garment triangle with the corners of another, which counts once.
     DuplicateTriangle,
@@ -69,7 +70,7 @@ pub enum DiagnosticKind {
     NonManifoldEdge,
     /// A garment vertex that no triangle uses.
     UnusedVertex,
-    /// A small piece of the garment, such as a button, that is held to the piece beside it.
+    /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
     LoosePiece,
     /// Two garment triangles that pass through each other, or touch, before anything has moved.
     SelfIntersection,
@@ -77,11 +78,11 @@ pub enum DiagnosticKind {
     NearContact,
     /// The shrunk avatar passes through the garment at the start.
     AvatarPenetrates,
-    /// The coordinates in which the result is read are so coarse that the garment keeps a wider gap.
+    /// The coordinates in which the result is read are so coarse that the minimum separation is raised.
     CoarseCoordinates,
     /// The result intersects where the input did not.
     ResultIntersection,
-    /// A pinned garment vertex ended away from its place.
+    /// A pinned garment vertex ended away from its target.
     PinNotReached,
     /// A rigid group of garment vertices ended bent, because something stands in its way.
     RigidGroupBent,
@@ -92,7 +93,7 @@ pub enum DiagnosticKind {
 /// How much a diagnostic matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Good to know.
+    /// For information.
     Note,
     /// The result may be worse for it.
     Warning,
@@ -127,15 +128,15 @@ pub struct AvatarPart {
 /// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Diagnostic {
-    /// Garment vertices share their place with another.
+    /// Garment vertices share their position with another.
     SplitVertices {
         /// Vertices that do.
         sharing: usize,
         /// All vertices.
         vertices: usize,
-        /// Places that they share.
+        /// Positions that they share.
         shared_places: usize,
-        /// Places in all: the vertices that are solved for.
+        /// Positions in all: the vertices that are solved for.
         places: usize,
         /// The first of those that share, at most four.
         first: Vec<u32>,
@@ -147,7 +148,7 @@ pub enum Diagnostic {
         /// The first with these corners.
         of: u32,
     },
-    /// A garment triangle has corners in one place.
+    /// A garment triangle has corners at one position.
     CollapsedTriangle {
         /// The triangle.
         triangle: u32,
@@ -175,7 +176,7 @@ pub enum Diagnostic {
         /// The vertex.
         vertex: u32,
     },
-    /// A loose piece of the garment is held to the piece beside it.
+    /// A loose piece of the garment is attached to the nearest other piece.
     LoosePiece {
         /// How many vertices the piece has.
         vertices: usize,
@@ -212,11 +213,11 @@ pub enum Diagnostic {
         bone: Bone,
         /// Garment triangles that the avatar would pass through there, at most three.
         triangles: Vec<u32>,
-        /// How far it was led aside.
+        /// How far it was displaced.
         aside: f64,
-        /// The length between its joints that was pulled back.
+        /// The length between its joints that was retracted.
         between: f64,
-        /// The length beyond its end that was pulled back.
+        /// The length beyond its end that was retracted.
         beyond: f64,
     },
     /// The shrunk avatar would pass through the garment between bones that form a cycle, which was cut open.
@@ -235,7 +236,7 @@ pub enum Diagnostic {
     },
     /// The coordinates in which the result is read are coarse.
     CoarseCoordinates {
-        /// The distance that the garment keeps for it.
+        /// The minimum separation that it leads to.
         min_separation: f64,
     },
     /// Two garment triangles intersect in the result and did not at the start.
@@ -250,7 +251,7 @@ pub enum Diagnostic {
         /// The triangle of the avatar or of a layer.
         avatar: Element,
     },
-    /// A pinned garment vertex ended away from its place.
+    /// A pinned garment vertex ended away from its target.
     PinNotReached {
         /// The vertex.
         vertex: u32,
@@ -266,7 +267,7 @@ pub enum Diagnostic {
         /// How far away.
         distance: f64,
     },
-    /// The inflation ended before its time, and one part of the avatar pushes against the garment from one side.
+    /// The inflation stalled, and one part of the avatar pushes against the garment from one side.
     InflationHeld {
         /// The garment triangle that is pushed hardest.
         garment: u32,
@@ -277,7 +278,7 @@ pub enum Diagnostic {
         /// The distance between the two triangles now.
         distance: f64,
     },
-    /// The inflation ended before its time, and the garment is between two parts of the avatar.
+    /// The inflation stalled, and the garment is between two parts of the avatar.
     InflationSqueezed {
         /// The garment triangle that is pushed hardest.
         garment: u32,

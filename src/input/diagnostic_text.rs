@@ -1,4 +1,4 @@
-//! The one place that makes sentences of diagnostics, for people. Who translates starts from here.
+//! Messages of diagnostics, all in this file, so that they can be translated.
 
 use std::fmt::{Display, Formatter, Result};
 
@@ -46,7 +46,7 @@ impl Display for Diagnostic {
                 let how = if *touches { "touch within rounding" } else { "intersect" };
                 let fate = match strict {
                     true => "which the option strict refuses",
-                    false => "so they are let off until they come apart, and may still do so in the result",
+                    false => "so they are exempted from contact until they separate, and may still do so in the result",
                 };
                 write!(f, "garment: triangles {s} and {t} {how} before anything has moved, {fate}")
             }
@@ -59,18 +59,18 @@ impl Display for Diagnostic {
                 let [a, b] = bone.joints;
                 write!(
                     f,
-                    "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would poke through the garment; \
+                    "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would penetrate the garment; \
                      {} (the skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
                     moves(*aside, *between, *beyond)
                 )
             }
             Self::CycleCut { .. } => f.write_str(
-                "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; the cycle \
+                "source skeleton: between bones that form a cycle, the shrunk avatar would penetrate the garment; the cycle \
                  was cut open; check the result there",
             ),
             Self::AvatarPenetrates { garment, bone, avatar } => write!(
                 f,
-                "garment: {}, shrunk onto the source skeleton, pokes through triangle {garment} {}, and no way around it was \
+                "garment: {}, shrunk onto the source skeleton, penetrates triangle {garment} {}, and no way around it was \
                  found",
                 avatar_triangle(*avatar),
                 at_bone(bone.map(|bone| bone.joints))

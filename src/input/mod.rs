@@ -1,4 +1,4 @@
-//! What a caller hands in, checked and turned into ours.
+//! The caller's inputs: read, checked and converted to the internal coordinate system.
 
 pub mod body;
 pub mod buffer;
@@ -13,8 +13,8 @@ pub mod weld;
 
 use glam::DVec3;
 
-/// The largest coordinate accepted, in absolute value. Beyond it, the products of coordinates that every later
-/// computation takes would leave the range of doubles.
+/// The largest coordinate accepted, in absolute value. Beyond it, products of coordinates, as every later computation
+/// forms them, would leave the range of doubles.
 pub const MAX_COORDINATE: f64 = 1e30;
 
 /// The first point that is not usable (NaN, infinite, beyond [`MAX_COORDINATE`]), described as "x = NaN".

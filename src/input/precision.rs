@@ -1,4 +1,4 @@
-//! The floating-point format in which a caller stores positions, and what rounding to it may move.
+//! The floating-point format in which a caller stores positions, and its rounding error.
 
 use glam::DVec3;
 
@@ -39,7 +39,7 @@ impl Precision {
         let largest = low.abs().max(high.abs()).max_element() + (high - low).max_element();
         match self {
             Self::F32 => 0.5 * largest * f64::from(f32::EPSILON),
-            // What is computed in 64 bits is rounded on its way, too.
+            // Computations in 64 bits are rounded, too.
             Self::F64 => 4.0 * largest * f64::EPSILON,
         }
     }

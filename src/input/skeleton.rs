@@ -1,4 +1,4 @@
-//! Joints and bones, and the ways along them.
+//! Joints and bones, and shortest paths along them.
 
 use std::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{MAX_COORDINATE, bad_coordinate};
 use crate::error::{Error, ErrorKind, Result};
 
-/// The largest number of joints accepted: the table of ways between joints grows with its square.
+/// The largest number of joints accepted: the table of paths between joints grows with its square.
 pub const MAX_JOINTS: usize = 4096;
 
 /// Joints, and bones between pairs of them.
@@ -29,7 +29,7 @@ fn undirected([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 impl Skeleton {
-    /// Refuses a skeleton that cannot be computed with; `what` names it in the sentence ("target skeleton").
+    /// Refuses a skeleton that cannot be used; `name` names it in error messages ("target skeleton").
     ///
     /// A bone of zero length is accepted and acts as a point.
     ///
@@ -37,39 +37,39 @@ impl Skeleton {
     /// [`ErrorKind::InvalidSkeleton`]: no joints, no bones, too many joints, a coordinate that is not finite or
     /// beyond [`MAX_COORDINATE`], a bone with an index out of range or from a joint to itself, a bone given twice,
     /// a joint that is not connected with the others.
-    pub fn check(&self, what: &str) -> Result<()> {
+    pub fn check(&self, name: &str) -> Result<()> {
         let count = self.joints.len();
         if count == 0 {
-            return fail(format!("{what}: there are no joints"));
+            return fail(format!("{name}: there are no joints"));
         }
         if count > MAX_JOINTS {
-            return fail(format!("{what}: there are {count} joints, at most {MAX_JOINTS} can be used"));
+            return fail(format!("{name}: there are {count} joints, at most {MAX_JOINTS} can be used"));
         }
         if self.bones.is_empty() {
-            return fail(format!("{what}: there are {count} joints but no bones"));
+            return fail(format!("{name}: there are {count} joints but no bones"));
         }
         if let Some((joint, value)) = bad_coordinate(&self.joints) {
             return fail(format!(
-                "{what}: joint {joint} has {value}, a coordinate must be finite and at most {MAX_COORDINATE:e} in size"
+                "{name}: joint {joint} has {value}, a coordinate must be finite and at most {MAX_COORDINATE:e} in size"
             ));
         }
         for (bone, &[a, b]) in self.bones.iter().enumerate() {
             if let Some(index) = [a, b].into_iter().find(|&j| j as usize >= count) {
-                return fail(format!("{what}: bone {bone} has joint {index}, the skeleton has {count} joints"));
+                return fail(format!("{name}: bone {bone} has joint {index}, the skeleton has {count} joints"));
             }
             if a == b {
-                return fail(format!("{what}: bone {bone} joins joint {a} to itself"));
+                return fail(format!("{name}: bone {bone} joins joint {a} to itself"));
             }
         }
         let mut sorted: Vec<([u32; 2], usize)> = self.bones.iter().map(|&b| undirected(b)).zip(0usize..).collect();
         sorted.sort_unstable();
         if let Some(pair) = sorted.windows(2).find(|w| w[0].0 == w[1].0) {
             let ([a, b], first) = pair[0];
-            return fail(format!("{what}: bones {first} and {} both join joints {a} and {b}", pair[1].1));
+            return fail(format!("{name}: bones {first} and {} both join joints {a} and {b}", pair[1].1));
         }
         let reached = JointAdjacency::new(count, &self.bones).distances_from(0);
         if let Some(joint) = reached.iter().position(|d| d.hops == UNREACHED) {
-            return fail(format!("{what}: joint {joint} is not connected to joint 0 by bones"));
+            return fail(format!("{name}: joint {joint} is not connected to joint 0 by bones"));
         }
         Ok(())
     }
@@ -107,16 +107,16 @@ impl Skeleton {
         Ok(Skeleton { joints: self.joints.clone(), bones: source.bones.clone() })
     }
 
-    /// The longest side of the joints' bounding box; `what` names the skeleton in the sentence.
+    /// The longest side of the joints' bounding box; `name` names the skeleton in error messages.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidSkeleton`] where all joints are in one place, so that no size can be told.
-    pub fn longest_side(&self, what: &str) -> Result<f64> {
+    /// [`ErrorKind::InvalidSkeleton`] where all joints are at one position, so that the skeleton has no size.
+    pub fn longest_side(&self, name: &str) -> Result<f64> {
         let low = self.joints.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = self.joints.iter().copied().reduce(DVec3::max).unwrap_or_default();
         let side = (high - low).max_element();
         if side * MAX_COORDINATE < 1.0 {
-            return fail(format!("{what}: all joints are in one place, the skeleton has no size"));
+            return fail(format!("{name}: all joints are in one place, the skeleton has no size"));
         }
         Ok(side)
     }
@@ -130,12 +130,12 @@ impl Skeleton {
     #[inline]
     pub fn point_at(&self, bone: u32, parameter: f64) -> DVec3 {
         let [a, b] = self.bones[bone as usize].map(|j| self.joints[j as usize]);
-        // Exact at both joints, so that places on different bones that are one joint coincide.
+        // Exact at both joints, so that locations on different bones that are one joint coincide.
         if parameter == 1.0 { b } else { a + parameter * (b - a) }
     }
 }
 
-/// A place on a skeleton.
+/// A location on a skeleton.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Location {
     /// On a bone, as in [`Skeleton::point_at`]. With `parameter` exactly 0 or 1 it is the joint there.
@@ -149,7 +149,7 @@ pub enum Location {
     Joint(u32),
 }
 
-/// The connectivity of a skeleton: leaves, and the shortest way along bones between any two places (section 3.3).
+/// The connectivity of a skeleton: leaves, and the shortest path along bones between any two locations (section 3.3).
 ///
 /// It depends on the bones only, so one graph serves a source skeleton and the target skeleton aligned to it.
 ///
@@ -191,7 +191,7 @@ impl JointAdjacency {
         self.first[joint as usize] as usize..self.first[joint as usize + 1] as usize
     }
 
-    /// Number of bones to each joint from `start`, and the joint before it on that way.
+    /// Number of bones to each joint from `start`, and the joint before it on that path.
     fn distances_from(&self, start: u32) -> Vec<Hop> {
         let mut row = vec![Hop { hops: UNREACHED, towards: 0 }; self.first.len() - 1];
         row[start as usize] = Hop { hops: 0, towards: start as u16 };
@@ -235,14 +235,14 @@ impl BoneGraph {
         &self.neighbours.bones[self.neighbours.range(joint)]
     }
 
-    /// Number of bones on the shortest way between two joints.
+    /// Number of bones on the shortest path between two joints.
     #[inline]
     pub fn joint_distance(&self, a: u32, b: u32) -> usize {
         usize::from(self.way(a, b).hops)
     }
 
-    /// The joints strictly between two places, in order from `a` to `b`: with them put in between, consecutive
-    /// places share a bone. Empty where `a` and `b` share a bone. Replaces the contents of `path`.
+    /// The joints strictly between two locations, in order from `a` to `b`: with them put in between, consecutive
+    /// locations share a bone. Empty where `a` and `b` share a bone. Replaces the contents of `path`.
     pub fn joints_between(&self, a: Location, b: Location, path: &mut Vec<u32>) {
         path.clear();
         let Some(way) = self.shortest(a, b) else { return };
@@ -253,16 +253,16 @@ impl BoneGraph {
         }
     }
 
-    /// The bone on which all places lie, if there is one; the lowest where there are several.
-    pub fn common_bone(&self, places: &[Location]) -> Option<u32> {
-        let lies_on = |place: &Location, bone: u32| match self.resolve(*place) {
+    /// The bone on which all locations lie, if there is one; the lowest where there are several.
+    pub fn common_bone(&self, locations: &[Location]) -> Option<u32> {
+        let lies_on = |location: &Location, bone: u32| match self.resolve(*location) {
             Location::Bone { bone: own, .. } => own == bone,
             Location::Joint(joint) => self.bones[bone as usize].contains(&joint),
         };
-        match self.resolve(*places.first()?) {
-            Location::Bone { bone, .. } => places.iter().all(|p| lies_on(p, bone)).then_some(bone),
+        match self.resolve(*locations.first()?) {
+            Location::Bone { bone, .. } => locations.iter().all(|p| lies_on(p, bone)).then_some(bone),
             Location::Joint(joint) => {
-                self.bones_at(joint).iter().copied().find(|&bone| places.iter().all(|p| lies_on(p, bone)))
+                self.bones_at(joint).iter().copied().find(|&bone| locations.iter().all(|p| lies_on(p, bone)))
             }
         }
     }
@@ -277,7 +277,7 @@ impl BoneGraph {
         let (a, b) = (skeleton.joints[j as usize], skeleton.joints[k as usize]);
         let (direction, offset) = (b - a, p - a);
         let square = direction.length_squared();
-        // Also a point where the length is lost in rounding beside the distance to p.
+        // Also a point where the length is lost in rounding against the distance to p.
         if square <= 1e-24 * offset.length_squared() || square == 0.0 {
             return 0.0;
         }
@@ -292,23 +292,23 @@ impl BoneGraph {
         self.ways[a as usize * (self.neighbours.first.len() - 1) + b as usize]
     }
 
-    /// A place at the end of a bone is the joint there.
-    fn resolve(&self, place: Location) -> Location {
-        match place {
+    /// A location at the end of a bone is the joint there.
+    fn resolve(&self, location: Location) -> Location {
+        match location {
             Location::Bone { bone, parameter: 0.0 } => Location::Joint(self.bones[bone as usize][0]),
             Location::Bone { bone, parameter: 1.0 } => Location::Joint(self.bones[bone as usize][1]),
             other => other,
         }
     }
 
-    /// The way between two places, or `None` where they share a bone.
+    /// The path between two locations, or `None` where they share a bone.
     fn shortest(&self, a: Location, b: Location) -> Option<Way> {
         let (a, b) = (self.resolve(a), self.resolve(b));
         if self.common_bone(&[a, b]).is_some() {
             return None;
         }
-        // A place inside a bone leaves it by one of its joints; a joint is itself and is not put in again.
-        let exits = |place| match place {
+        // A location inside a bone leaves it by one of its joints; a joint is itself and is not put in again.
+        let exits = |location| match location {
             Location::Bone { bone, .. } => (self.bones[bone as usize], 0),
             Location::Joint(joint) => ([joint, joint], 1),
         };

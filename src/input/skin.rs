@@ -1,4 +1,4 @@
-//! Skin weights: which joints move a vertex, and which of them most.
+//! Skin weights: which joints move a vertex, and which of them most. Only the latter is used: see `dominant_joint`.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::bytes;
@@ -17,51 +17,51 @@ fn fail<T>(message: String) -> Result<T> {
     Err(Error::new(ErrorKind::InvalidWeights, message))
 }
 
-fn check_size(what: &str, name: &str, len: usize, [rows, columns]: [usize; 2], shape: [&str; 2]) -> Result<()> {
+fn check_size(name: &str, array: &str, len: usize, [rows, columns]: [usize; 2], shape: [&str; 2]) -> Result<()> {
     match rows.checked_mul(columns) {
         Some(n) if n == len => Ok(()),
         _ => fail(format!(
-            "{what}: there are {len} {name}, but {rows} {} times {columns} {} are needed",
+            "{name}: there are {len} {array}, but {rows} {} times {columns} {} are needed",
             shape[0], shape[1]
         )),
     }
 }
 
-fn check_weight(what: &str, weight: f64, vertex: usize, joint: u32) -> Result<()> {
+fn check_weight(name: &str, weight: f64, vertex: usize, joint: u32) -> Result<()> {
     if weight.is_finite() && weight >= 0.0 {
         return Ok(());
     }
     fail(format!(
-        "{what}: the weight of vertex {vertex} for joint {joint} is {weight}, it must be finite and not negative"
+        "{name}: the weight of vertex {vertex} for joint {joint} is {weight}, it must be finite and not negative"
     ))
 }
 
 impl SkinWeights {
-    /// From a full matrix, one row a joint and one column a vertex, row after row. `what` names it in the sentence
+    /// From a full matrix, one row a joint and one column a vertex, row after row. `name` names it in error messages
     /// ("target skin weights"). Rows of one vertex need not sum to 1.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidWeights`]: there are no joints, the size is not joints times vertices, or a weight is negative
     /// or not finite.
-    pub fn from_dense(weights: &[f64], joint_count: usize, vertex_count: usize, what: &str) -> Result<Self> {
+    pub fn from_dense(weights: &[f64], joint_count: usize, vertex_count: usize, name: &str) -> Result<Self> {
         if joint_count == 0 {
-            // Without rows, no size of the array vouches for the number of vertices.
-            return fail(format!("{what}: there are no joints"));
+            // Without rows, the array's size does not bound the number of vertices.
+            return fail(format!("{name}: there are no joints"));
         }
-        check_size(what, "weights", weights.len(), [joint_count, vertex_count], ["joints", "vertices"])?;
+        check_size(name, "weights", weights.len(), [joint_count, vertex_count], ["joints", "vertices"])?;
         let mut counts = vec![0; vertex_count];
-        // No rows of no numbers.
+        // Rows may be empty.
         let width = vertex_count.max(1);
         for (joint, row) in (0u32..).zip(weights.chunks_exact(width)) {
             for (vertex, &weight) in row.iter().enumerate() {
-                check_weight(what, weight, vertex, joint)?;
+                check_weight(name, weight, vertex, joint)?;
                 counts[vertex] += usize::from(weight > 0.0);
             }
         }
         let mut ends = Vec::with_capacity(vertex_count);
         let mut total = 0;
         for count in counts {
-            // Where the vertex begins; what is written moves it to its end.
+            // Where the vertex begins; each entry that is written moves it on, to its end.
             ends.push(total);
             total += count;
         }
@@ -75,9 +75,9 @@ impl SkinWeights {
         Ok(Self { joint_count, ends, influences })
     }
 
-    /// From `influences` pairs of joint and weight a vertex, vertex after vertex, as engines keep them. `what` names
-    /// them in the sentence. A joint listed twice for a vertex counts with the sum; the joint beside a weight of 0
-    /// is padding and may be anything.
+    /// From `influences` pairs of joint and weight a vertex, vertex after vertex, as engines keep them. `name` names
+    /// them in error messages. A joint listed twice for a vertex counts with the sum; the joint of a weight of 0 is
+    /// padding and may be anything.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidWeights`]: a size is not vertices times influences, there are no influences, a weight is
@@ -88,26 +88,26 @@ impl SkinWeights {
         influences: usize,
         joint_count: usize,
         vertex_count: usize,
-        what: &str,
+        name: &str,
     ) -> Result<Self> {
         if influences == 0 {
-            return fail(format!("{what}: the number of influences for each vertex is 0"));
+            return fail(format!("{name}: the number of influences for each vertex is 0"));
         }
         let shape = ["vertices", "influences"];
-        check_size(what, "joint indices", joints.len(), [vertex_count, influences], shape)?;
-        check_size(what, "weights", weights.len(), [vertex_count, influences], shape)?;
+        check_size(name, "joint indices", joints.len(), [vertex_count, influences], shape)?;
+        check_size(name, "weights", weights.len(), [vertex_count, influences], shape)?;
         let mut skin = Self { joint_count, ends: Vec::with_capacity(vertex_count), influences: Vec::new() };
         let mut own: Vec<(u32, f64)> = Vec::new();
         for (vertex, (js, ws)) in joints.chunks_exact(influences).zip(weights.chunks_exact(influences)).enumerate() {
             own.clear();
             for (&joint, &weight) in js.iter().zip(ws) {
-                check_weight(what, weight, vertex, joint)?;
+                check_weight(name, weight, vertex, joint)?;
                 if weight == 0.0 {
                     continue;
                 }
                 if joint as usize >= joint_count {
                     return fail(format!(
-                        "{what}: vertex {vertex} has a weight for joint {joint}, the skeleton has {joint_count} joints"
+                        "{name}: vertex {vertex} has a weight for joint {joint}, the skeleton has {joint_count} joints"
                     ));
                 }
                 own.push((joint, weight));

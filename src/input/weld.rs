@@ -1,9 +1,9 @@
-//! Split vertices and welded ones: a garment as a modelling tool stores it, and as the one surface that it is.
+//! Vertex welding: from a garment as modelling tools store it, with split vertices, to one surface, and back.
 
 use super::diagnostic::Diagnostic;
 use crate::geometry::mesh::{TriangleMesh, has_area};
 
-/// A garment whose vertices in one place are one vertex, and the way back to the caller's indices.
+/// A garment whose vertices at equal positions are one vertex, and the maps back to the caller's indices.
 ///
 /// Vertices in the caller's order, triangles in the caller's order and winding: a garment without split vertices and
 /// faulty triangles stays as it is.
@@ -21,18 +21,18 @@ pub struct Weld {
     pub to_kept: Vec<Option<u32>>,
 }
 
-/// A triangle with two corners in one place.
+/// A triangle with two corners at one position.
 struct Collapsed {
     triangle: u32,
     kept: bool,
 }
 
 impl Weld {
-    /// Welds `garment`, which has passed [`TriangleMesh::check`], and says what was found in it.
+    /// Welds `garment`, which has passed [`TriangleMesh::check`], and reports diagnostics about it.
     ///
-    /// Vertices at equal positions (to the last bit, but -0 is 0) become one. Of the triangles with the same three corners
-    /// in any order, such as two sides modelled in one place, the first is kept. A triangle that repeats a corner is kept
-    /// only where it is the first to hold an edge, for contact must see a wire; it takes no part in anything else.
+    /// Vertices at equal positions (to the last bit, but -0 is 0) become one. Of the triangles with the same three
+    /// corners in any order, such as two sides modelled at the same positions, the first is kept. A triangle that
+    /// repeats a corner is kept only where it is the first to hold an edge, as an edge for contact; no energy uses it.
     pub fn new(garment: &TriangleMesh) -> (Self, Vec<Diagnostic>) {
         let (to_welded, vertex_of) = weld_vertices(garment);
         let corners: Vec<[u32; 3]> = garment.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
@@ -61,18 +61,18 @@ impl Weld {
         (weld, diagnostics)
     }
 
-    /// Values of the welded vertices, for each of the caller's: copies of one vertex get the same bits.
+    /// Scatters values of the welded vertices to the caller's: copies of one vertex get the same bits.
     pub fn scatter<T: Copy>(&self, welded: &[T]) -> Vec<T> {
         self.to_welded.iter().map(|&w| welded[w as usize]).collect()
     }
 
-    /// Values of the welded garment's triangles, for each of the caller's: duplicates get that of the one that counts, and
+    /// Scatters values of the welded triangles to the caller's: duplicates get that of the one that counts, and
     /// triangles that are left out 0.
     pub fn scatter_triangles(&self, values: &[f64]) -> Vec<f64> {
         self.to_kept.iter().map(|kept| kept.map_or(0.0, |k| values[k as usize])).collect()
     }
 
-    /// Values of the caller's vertices, for each welded one: the mean over the copies, so that no side of a seam
+    /// Gathers values of the caller's vertices, for each welded one the mean over the copies, so that no side of a seam
     /// outweighs the other. Equal copies give the same bits.
     pub fn gather(&self, values: &[f64]) -> Vec<f64> {
         let mut means = vec![0.0; self.vertex_of.len()];

@@ -18,7 +18,7 @@ impl Session {
     /// the garment's by `prepare`.
     pub fn set_pins(&mut self, pins: Vec<Pin>) -> Result<()> {
         self.setting("the pins")?;
-        if let Some(Pin { vertex, .. }) = pins.iter().find(|pin| pin.place.is_some_and(|p| !p.is_finite())) {
+        if let Some(Pin { vertex, .. }) = pins.iter().find(|pin| pin.target.is_some_and(|p| !p.is_finite())) {
             return invalid(format!("pinned vertices: the place of vertex {vertex} is not finite"));
         }
         let mut vertices: Vec<u32> = pins.iter().map(|pin| pin.vertex).collect();
@@ -83,7 +83,7 @@ impl Inputs {
         pins.sort_by_key(|&(welded, pin)| (welded, pin.vertex));
         for copies in pins.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             let [(_, a), (_, b)] = [copies[0], copies[1]];
-            if a.place != b.place {
+            if a.target != b.target {
                 return invalid(format!(
                     "pinned vertices: vertices {} and {} share their place in the garment and move as one, but are pinned to \
                      different places",
@@ -92,8 +92,8 @@ impl Inputs {
             }
         }
         pins.dedup_by_key(|pin| pin.0);
-        let ours = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
-        Ok(pins.into_iter().map(|(welded, pin)| (welded, ours(pin.place))).collect())
+        let internal = |target: Option<DVec3>| target.map(|p| self.target_coordinate_system.position_to_internal(p));
+        Ok(pins.into_iter().map(|(welded, pin)| (welded, internal(pin.target))).collect())
     }
 
     /// The rigid groups as lists of welded vertices.

@@ -19,13 +19,13 @@ use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as Posed, Problem};
 
-/// A garment vertex that is held in a place.
+/// A garment vertex that is held at a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
     /// The vertex.
     pub vertex: u32,
-    /// Its place in the target space; none: where it was designed, carried along with the bone beside it.
-    pub place: Option<DVec3>,
+    /// Its target, in the target's coordinate system; none: where it was designed, carried along with the nearest bone.
+    pub target: Option<DVec3>,
 }
 
 /// Everything that can be set, in the caller's own spaces.
@@ -178,8 +178,8 @@ impl Session {
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
     pub fn set_source_coordinate_system(&mut self, space: CoordinateSystem) -> Result<()> {
-        self.setting("the source space")?;
-        space.check("source space")?;
+        self.setting("the source coordinate system")?;
+        space.check("source coordinate system")?;
         self.inputs.source_coordinate_system = space;
         Ok(())
     }
@@ -189,8 +189,8 @@ impl Session {
     /// # Errors
     /// `InvalidArgument`, `InvalidState`.
     pub fn set_target_coordinate_system(&mut self, space: CoordinateSystem) -> Result<()> {
-        self.setting("the target space")?;
-        space.check("target space")?;
+        self.setting("the target coordinate system")?;
+        space.check("target coordinate system")?;
         self.inputs.target_coordinate_system = space;
         Ok(())
     }

@@ -1,9 +1,10 @@
-//! Null pointers, bad views, bad options: refused with a sentence, and nothing has changed.
+//! Null pointers, bad views, bad options: refused with a message, and nothing has changed.
 
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
 use bespoke::capi::control::*;
+use bespoke::capi::coordinate_system::*;
 use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;
@@ -88,8 +89,8 @@ fn null_views_and_null_data_are_named() {
         refused(bespoke_session_set_target_skin_influences(caller.session, null(), &p, 1, 1), "skin weights");
         refused(bespoke_session_set_vertex_fit_weights(caller.session, null()), "fit weights");
         refused(bespoke_session_set_no_fit_vertices(caller.session, null()), "no-fit vertices");
-        refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source space");
-        refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target space");
+        refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source coordinate system");
+        refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target coordinate system");
         refused(bespoke_session_set_options(caller.session, null()), "options");
         refused(bespoke_session_read_report(caller.session, null_mut()), "report");
         refused(bespoke_session_read_energy(caller.session, 0, null_mut()), "energy");
@@ -223,7 +224,7 @@ fn longer_structs_of_later_headers_work() {
 }
 
 #[test]
-fn spaces_are_checked() {
+fn coordinate_systems_are_checked() {
     let caller = Caller::new();
     let default = BespokeCoordinateSystem {
         struct_size: size_of::<BespokeCoordinateSystem>() as u32,
@@ -234,14 +235,14 @@ fn spaces_are_checked() {
         winding: 0,
         reserved: 0,
     };
-    // SAFETY: the space is as large as it says.
-    let set = |space: BespokeCoordinateSystem| unsafe {
-        bespoke_session_set_target_coordinate_system(caller.session, &space)
+    // SAFETY: the struct is as large as it says.
+    let set = |system: BespokeCoordinateSystem| unsafe {
+        bespoke_session_set_target_coordinate_system(caller.session, &system)
     };
     caller.accepted(set(default));
     let z_up = [BespokeAxis::PositiveX, BespokeAxis::PositiveZ, BespokeAxis::PositiveY].map(|axis| axis as u32);
     caller.accepted(set(BespokeCoordinateSystem { right: z_up[0], up: z_up[1], forward: z_up[2], ..default }));
-    for (space, word) in [
+    for (system, word) in [
         (BespokeCoordinateSystem { struct_size: 4, ..default }, "struct_size is 4"),
         (BespokeCoordinateSystem { up: BespokeAxis::NegativeX as u32, ..default }, "perpendicular"),
         (BespokeCoordinateSystem { right: 7, ..default }, "right is 7"),
@@ -250,7 +251,7 @@ fn spaces_are_checked() {
         (BespokeCoordinateSystem { metres_per_unit: -1.0, ..default }, "-1"),
         (BespokeCoordinateSystem { metres_per_unit: f64::NAN, ..default }, "NaN"),
     ] {
-        caller.refused(set(space), InvalidArgument, &["target space", word]);
+        caller.refused(set(system), InvalidArgument, &["target coordinate system", word]);
     }
 }
 
@@ -286,7 +287,7 @@ fn sparse_skin_weights_are_checked() {
     let set = |joints: &[[u16; 4]], weights: &[[f32; 4]]| {
         let joints = testing::caller::view(joints, BespokeComponent::U16);
         let weights = testing::caller::view(weights, BespokeComponent::F32);
-        // SAFETY: the views tell the truth.
+        // SAFETY: the views are valid.
         unsafe { bespoke_session_set_target_skin_influences(caller.session, &joints, &weights, 4, 3) }
     };
     let mut joints = vec![[0, 1, 2, 999]; count];
@@ -303,7 +304,7 @@ fn fit_weights_are_checked() {
     let count = sample.garment.0.len();
     let set = |weights: &[f64]| {
         let view = testing::caller::view(weights, BespokeComponent::F64);
-        // SAFETY: the view tells the truth.
+        // SAFETY: the view is valid.
         unsafe { bespoke_session_set_vertex_fit_weights(caller.session, &view) }
     };
     let mut weights = vec![1.0; count];
@@ -321,7 +322,7 @@ fn fit_weights_are_checked() {
 fn no_fit_vertices_are_checked() {
     let set = |caller: &Caller, vertices: &[u32]| {
         let view = testing::caller::view(vertices, BespokeComponent::U32);
-        // SAFETY: the view tells the truth.
+        // SAFETY: the view is valid.
         unsafe { bespoke_session_set_no_fit_vertices(caller.session, &view) }
     };
     let empty = Caller::new();

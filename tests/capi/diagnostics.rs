@@ -1,4 +1,4 @@
-//! What a caller is told about its inputs, element by element.
+//! Diagnostics that a caller reads about its inputs, element by element.
 
 use std::ffi::CStr;
 use std::mem::size_of;
@@ -26,8 +26,8 @@ fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
     (unsafe { std::slice::from_raw_parts(list.as_ptr().cast::<BespokeDiagnostic>(), written) }.to_vec(), count)
 }
 
-fn sentence(diagnostic: &BespokeDiagnostic) -> &str {
-    // SAFETY: a zero byte ends the sentence.
+fn message(diagnostic: &BespokeDiagnostic) -> &str {
+    // SAFETY: a zero byte ends the message.
     unsafe { CStr::from_ptr(diagnostic.message.as_ptr()) }.to_str().expect("UTF-8")
 }
 
@@ -79,16 +79,16 @@ fn every_flaw_is_named_by_the_callers_own_indices() {
     assert!(!crossing.is_empty());
     for d in crossing {
         assert_eq!((d.severity, d.element_count), (BespokeSeverity::Warning as u32, 2));
-        assert!(elements(d).contains(&triangle(blade)), "{}", sentence(d));
+        assert!(elements(d).contains(&triangle(blade)), "{}", message(d));
         for (_, _, index) in elements(d) {
-            assert!(sentence(d).contains(&index.to_string()), "{}", sentence(d));
+            assert!(message(d).contains(&index.to_string()), "{}", message(d));
         }
     }
-    assert!(list.iter().all(|d| !sentence(d).is_empty() && d.reserved == 0));
+    assert!(list.iter().all(|d| !message(d).is_empty() && d.reserved == 0));
 
     let (few, all) = read(&caller, 2);
     assert_eq!((few.len(), all), (2, count));
-    assert_eq!(sentence(&few[1]), sentence(&list[1]));
+    assert_eq!(message(&few[1]), message(&list[1]));
     // SAFETY: the session is alive; a null list with a capacity is refused.
     let refused = unsafe { bespoke_session_read_diagnostics(caller.session, null_mut(), 3, null_mut()) };
     caller.refused(refused, InvalidArgument, &["diagnostics", "null"]);
@@ -140,7 +140,7 @@ fn a_stalled_inflation_names_what_holds_the_garment() {
     // Joints 0 and 2 belong to one bone each.
     let skin: Vec<[u16; 1]> = (0..16).map(|v| [if v < 8 { 0 } else { 2 }]).collect();
     let (joints, weights) = (view(&skin, BespokeComponent::U16), view(&[[1.0f32]; 16], BespokeComponent::F32));
-    // SAFETY: the session is alive and the views tell the truth.
+    // SAFETY: the session is alive and the views are valid.
     caller.accepted(unsafe { bespoke_session_set_target_skin_influences(caller.session, &joints, &weights, 1, 4) });
     // SAFETY: the session is alive.
     caller.refused(
@@ -164,7 +164,7 @@ fn a_stalled_inflation_names_what_holds_the_garment() {
     );
     assert_ne!(one.index < 12, another.index < 12);
     for words in ["no garment can pass there", "(joints 0-1)", "(joints 2-3)"] {
-        assert!(sentence(first).contains(words), "{}", sentence(first));
+        assert!(message(first).contains(words), "{}", message(first));
     }
     // SAFETY: the session is alive.
     caller.accepted(unsafe { bespoke_session_reset(caller.session) });

@@ -13,12 +13,12 @@ use testing::caller::{Caller, points, view};
 
 fn pin(caller: &Caller, vertices: &[u16], places: &[[f32; 3]]) -> BespokeStatus {
     let (vertices, places) = (view(vertices, BespokeComponent::U16), points(places));
-    // SAFETY: the views tell the truth.
+    // SAFETY: the views are valid.
     unsafe { bespoke_session_set_pinned_vertices(caller.session, &vertices, &places) }
 }
 
 fn rigid(caller: &Caller, vertices: &[u32]) -> BespokeStatus {
-    // SAFETY: the view tells the truth.
+    // SAFETY: the view is valid.
     unsafe { bespoke_session_add_rigid_group(caller.session, &view(vertices, BespokeComponent::U32)) }
 }
 
@@ -35,7 +35,7 @@ fn result(caller: &Caller, count: usize) -> Vec<[f32; 3]> {
         stride: 0,
         component: BespokeComponent::F32 as u32,
     };
-    // SAFETY: the session is alive and the buffer tells the truth.
+    // SAFETY: the session is alive and the buffer is valid.
     unsafe {
         caller.accepted(bespoke_session_run(caller.session));
         caller.accepted(bespoke_session_read_garment_vertices(caller.session, &buffer, std::ptr::null_mut()));
@@ -62,7 +62,7 @@ fn pins_and_groups_do_what_they_say() {
         assert!((now / was - 1.1).abs() < 1e-5, "vertices {v} and {w}: {now}, designed {was}");
     }
     // Without places the pins go with their bones; without vertices there are none.
-    // SAFETY: the session is alive and the views tell the truth.
+    // SAFETY: the session is alive and the views are valid.
     unsafe {
         caller.accepted(bespoke_session_reset(caller.session));
         caller.accepted(bespoke_session_clear_rigid_groups(caller.session));
@@ -79,7 +79,7 @@ fn pins_and_groups_do_what_they_say() {
 fn bad_pins_and_groups_are_refused() {
     let (caller, sample) = Caller::with_sample();
     let count = sample.garment.0.len() as u16;
-    caller.refused(pin(&caller, &[1, 2], &[[0.0; 3]]), InvalidArgument, &["2 vertices", "1 places"]);
+    caller.refused(pin(&caller, &[1, 2], &[[0.0; 3]]), InvalidArgument, &["2 vertices", "1 targets"]);
     caller.refused(pin(&caller, &[1, 1], &[[0.0; 3]; 2]), InvalidArgument, &["vertex 1", "twice"]);
     caller.refused(pin(&caller, &[1], &[[f32::NAN; 3]]), InvalidArgument, &["pinned"]);
     caller.accepted(pin(&caller, &[count], &[[0.0; 3]]));

@@ -14,6 +14,7 @@ fn generated() -> String {
         "view",
         "session",
         "inputs",
+        "coordinate_system",
         "fit",
         "layers",
         "options",

@@ -201,15 +201,15 @@ fn a_forked_process_is_refused_and_the_parent_goes_on() {
                 bespoke_session_destroy(session),
             ];
             bespoke_session_last_message(session, sentence.as_mut_ptr().cast(), 200, std::ptr::null_mut());
-            let is_told = sentence.windows(6).any(|word| word == b"forked");
-            libc::_exit(if is_told && refused == [BespokeStatus::InvalidState; 3] { 42 } else { 1 });
+            let is_explained = sentence.windows(6).any(|word| word == b"forked");
+            libc::_exit(if is_explained && refused == [BespokeStatus::InvalidState; 3] { 42 } else { 1 });
         }
     }
     let mut status = 0;
     // SAFETY: the child is ours, and there is room for its status.
     assert_eq!(unsafe { libc::waitpid(child, &mut status, 0) }, child);
     assert!(libc::WIFEXITED(status));
-    assert_eq!(libc::WEXITSTATUS(status), 42, "the child was refused with a sentence");
+    assert_eq!(libc::WEXITSTATUS(status), 42, "the child was refused with a message");
     while !job.step() {}
     assert!(job.result() == Job::new().run());
     // SAFETY: the session is alive.

@@ -64,7 +64,7 @@ fn layers_are_refused_by_name_and_number() {
     let (caller, sample) = Caller::with_sample();
     let session = caller.session;
     let (p, t) = (points(&sample.garment.0), triangles(&sample.garment.1));
-    // SAFETY: the session is alive and the views tell the truth, or are refused.
+    // SAFETY: the session is alive and the views are valid, or are refused.
     let add = |p: *const BespokeView, t: *const BespokeView| unsafe { bespoke_session_add_layer(session, p, t) };
     caller.refused(add(null(), &t), InvalidArgument, &["layer 0 positions", "null"]);
     caller.refused(add(&p, null()), InvalidArgument, &["layer 0 triangles", "null"]);
@@ -87,7 +87,7 @@ fn layers_are_refused_by_name_and_number() {
 fn layers_are_fixed_from_prepare_to_reset() {
     let (caller, sample) = Caller::with_sample();
     let (p, t) = (points(&sample.garment.0), triangles(&sample.garment.1));
-    // SAFETY: the session is alive and the views tell the truth.
+    // SAFETY: the session is alive and the views are valid.
     unsafe {
         assert_eq!(bespoke_session_add_layer(null_mut(), &p, &t), InvalidArgument);
         assert_eq!(bespoke_session_clear_layers(null_mut()), InvalidArgument);

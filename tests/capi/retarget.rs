@@ -46,7 +46,7 @@ fn program() -> &'static Path {
     })
 }
 
-/// The program, told nothing about where libraries lie: it has to find its own.
+/// The program, without any search path for libraries: it has to find its own.
 fn retarget() -> Command {
     // Who runs the tests may have Ctrl-C ignored, which is inherited and which the program respects.
     let mut command = Command::new("env");
@@ -339,7 +339,7 @@ fn layers_and_distortion() {
     folder.refuses(&["--layer", "bad.obj"], 1, &["bad.obj", "layer 0"]);
 }
 
-/// Pins and rigid groups from files; what is not reached is told in the report.
+/// Pins and rigid groups from files; pins that are not reached are in the report.
 #[test]
 fn pins_and_rigid_groups_are_read_from_files() {
     let folder = Folder::new("controls");

@@ -54,7 +54,7 @@ fn inputs_are_fixed_from_prepare_to_reset() {
     let (caller, sample) = Caller::with_sample();
     let (p, t) = (points(&sample.garment.0), triangles(&sample.garment.1));
     let (j, b) = (points(&sample.source_joints), bones(&sample.bones));
-    // SAFETY: the session is alive and the views tell the truth.
+    // SAFETY: the session is alive and the views are valid.
     unsafe {
         let session = caller.session;
         caller.accepted(bespoke_session_prepare(session));

@@ -27,7 +27,7 @@ impl Shared {
 }
 
 #[test]
-fn a_second_thread_is_told_busy_and_changes_nothing() {
+fn a_second_thread_gets_busy_and_changes_nothing() {
     let (caller, sample) = Caller::with_sample();
     // SAFETY: the session is alive.
     caller.refused(

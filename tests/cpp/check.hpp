@@ -15,7 +15,7 @@
         }                                                                                                              \
     } while (0)
 
-/// The call succeeded; otherwise its sentence is shown.
+/// The call succeeded; otherwise its message is shown.
 #define ACCEPTED(call)                                                                                                 \
     do {                                                                                                               \
         const auto accepted_outcome = (call);                                                                          \
@@ -25,7 +25,7 @@
         }                                                                                                              \
     } while (0)
 
-/// The call was refused with this status and a sentence with this word.
+/// The call was refused with this status and a message with this word.
 #define REFUSED(call, expected, word)                                                                                  \
     do {                                                                                                               \
         const auto refused_outcome = (call);                                                                           \

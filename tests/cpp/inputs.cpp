@@ -1,4 +1,4 @@
-/* What goes into a session: every setter, in every shape of arrays, what they refuse, options and spaces. */
+/* Inputs of a session: every setter, in every shape of arrays, what they refuse, options and coordinate systems. */
 #include "check.hpp"
 
 namespace {
@@ -58,7 +58,7 @@ void wrong_shapes() {
     REFUSED(session.set_source_avatar(scene.body.points, seven), Status::invalid_argument, "source avatar triangles");
     REFUSED(session.set_source_skeleton(ten, seven), Status::invalid_argument, "source skeleton joints");
     REFUSED(session.set_target_skeleton(scene.joints, seven), Status::invalid_argument, "elements of 2 each: 1 would");
-    REFUSED(session.set_pinned_vertices(seven, ten), Status::invalid_argument, "places of pins");
+    REFUSED(session.set_pinned_vertices(seven, ten), Status::invalid_argument, "targets of pins");
     REFUSED(session.add_layer(scene.body.points, seven), Status::invalid_argument, "layer triangles");
     REFUSED(session.set_target_skin_weights({ten, 4}), Status::invalid_argument, "elements of 4 each: 2 would");
     REFUSED(session.set_target_skin_weights({ten, 0}), Status::invalid_argument, "target skin weights");
@@ -70,7 +70,7 @@ void wrong_shapes() {
     CHECK(room[0] == 0);
 }
 
-/// What the library refuses comes with its status and its sentence.
+/// What the library refuses comes with its status and its message.
 void refusals() {
     const Scene scene;
     Session session = session_with(scene);
@@ -92,9 +92,9 @@ void refusals() {
     REFUSED(session.step(), Status::invalid_state, "prepare");
     REFUSED(session.read_garment_vertices(), Status::invalid_state, "prepare");
     REFUSED(session.verify(Component::u16), Status::invalid_argument, "component");
-    Space space;
-    space.up = Axis::negative_x;
-    REFUSED(session.set_source_coordinate_system(space), Status::invalid_argument, "x");
+    CoordinateSystem system;
+    system.up = Axis::negative_x;
+    REFUSED(session.set_source_coordinate_system(system), Status::invalid_argument, "x");
     Options options;
     options.dhat = 5.0;
     REFUSED(session.set_options(options), Status::invalid_argument, "dhat");
@@ -140,24 +140,24 @@ double distance(const Triple<float> &a, const Triple<float> &b) {
 void pins_groups_and_layers() {
     const Scene scene;
     Session session = session_with(scene);
-    const std::array<Triple<float>, 2> places{{{0.55f, -0.45f, 0.1f}, {0, 0.05f, 0}}};
+    const std::array<Triple<float>, 2> targets{{{0.55f, -0.45f, 0.1f}, {0, 0.05f, 0}}};
     const std::array group{100u, 101u, 116u};
-    ACCEPTED(session.set_pinned_vertices(std::array{0u, 70u}, places));
+    ACCEPTED(session.set_pinned_vertices(std::array{0u, 70u}, targets));
     ACCEPTED(session.add_rigid_group(group));
     const auto inner = dressed(session);
-    CHECK(distance(inner[0], places[0]) < 0.01);
-    // The other place is inside the body.
-    CHECK(distance(inner[70], places[1]) > 0.2);
-    bool is_told = false;
+    CHECK(distance(inner[0], targets[0]) < 0.01);
+    // The other target is inside the body.
+    CHECK(distance(inner[70], targets[1]) > 0.2);
+    bool is_reported = false;
     for (const Diagnostic &diagnostic : session.read_diagnostics().value()) {
         if (diagnostic.kind != DiagnosticKind::pin_not_reached) continue;
-        is_told = true;
+        is_reported = true;
         CHECK(diagnostic.severity == Severity::warning && diagnostic.distance > 0 && !diagnostic.message.empty());
         CHECK(diagnostic.elements.size() == 1 && diagnostic.elements[0].index == 70);
         CHECK(diagnostic.elements[0].subject == Subject::garment && diagnostic.elements[0].kind == ElementKind::vertex);
         CHECK(!diagnostic.elements[0].layer());
     }
-    CHECK(is_told);
+    CHECK(is_reported);
     for (std::size_t k = 0; k < 3; k++) {
         const std::size_t v = group[k], w = group[(k + 1) % 3];
         const double designed = distance(scene.garment.points[v], scene.garment.points[w]);
@@ -216,9 +216,9 @@ void fields_of_options() {
     CHECK(std::memcmp(&back, &written, sizeof back) == 0);
 }
 
-/// A new space is the default; centimetres, z up and a mirrored winding give the same garment.
-void spaces() {
-    const BespokeCoordinateSystem plain = Space().get();
+/// A new coordinate system is the default; centimetres, z up and a mirrored winding give the same garment.
+void coordinate_systems() {
+    const BespokeCoordinateSystem plain = CoordinateSystem().get();
     CHECK(plain.struct_size == sizeof plain && plain.right == BESPOKE_AXIS_POSITIVE_X);
     CHECK(plain.up == BESPOKE_AXIS_POSITIVE_Y && plain.forward == BESPOKE_AXIS_NEGATIVE_Z && plain.reserved == 0);
     CHECK(plain.metres_per_unit == 1.0 && plain.winding == BESPOKE_WINDING_COUNTER_CLOCKWISE);
@@ -227,15 +227,15 @@ void spaces() {
     Session metres = session_with(scene);
     const auto expected = dressed(metres);
     ACCEPTED(metres.reset());
-    ACCEPTED(metres.set_source_coordinate_system(Space()));
-    ACCEPTED(metres.set_target_coordinate_system(Space()));
+    ACCEPTED(metres.set_source_coordinate_system(CoordinateSystem()));
+    ACCEPTED(metres.set_target_coordinate_system(CoordinateSystem()));
     CHECK(same_bits(dressed(metres), expected));
 
-    Space space;
-    space.up = Axis::positive_z;
-    space.forward = Axis::positive_y;
-    space.metres_per_unit = 0.01;
-    space.winding = Winding::clockwise;
+    CoordinateSystem system;
+    system.up = Axis::positive_z;
+    system.forward = Axis::positive_y;
+    system.metres_per_unit = 0.01;
+    system.winding = Winding::clockwise;
     const auto turned = [](const auto &p) {
         return Triple<float>{100 * static_cast<float>(p[0]), -100 * static_cast<float>(p[2]),
                              100 * static_cast<float>(p[1])};
@@ -244,7 +244,7 @@ void spaces() {
     for (const auto &p : scene.body.points) body.push_back(turned(p));
     for (const auto &p : scene.joints) joints.push_back(turned(p));
     Session session = session_with(scene);
-    ACCEPTED(session.set_target_coordinate_system(space));
+    ACCEPTED(session.set_target_coordinate_system(system));
     ACCEPTED(session.set_target_avatar(body, scene.body.triangles));
     ACCEPTED(session.set_target_skeleton(joints, scene.bones));
     const auto points = dressed(session);
@@ -260,5 +260,5 @@ void inputs() {
     optional_inputs();
     pins_groups_and_layers();
     fields_of_options();
-    spaces();
+    coordinate_systems();
 }

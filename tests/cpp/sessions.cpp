@@ -34,8 +34,8 @@ void empty(Session &session) {
     refused(session.set_target_skin_weights({std::vector<float>(4), 2}));
     refused(session.set_target_skin_influences(triangles, points, 3));
     refused(session.set_target_skin_influences(scene.bones, points, 3));
-    refused(session.set_source_coordinate_system(Space()));
-    refused(session.set_target_coordinate_system(Space()));
+    refused(session.set_source_coordinate_system(CoordinateSystem()));
+    refused(session.set_target_coordinate_system(CoordinateSystem()));
     refused(session.set_vertex_fit_weights(std::vector<float>(4)));
     refused(session.set_no_fit_vertices(std::vector<std::uint32_t>(4)));
     refused(session.set_pinned_vertices(std::vector<std::uint32_t>(4)));
@@ -145,7 +145,7 @@ void the_whole_way() {
         CHECK(++steps < 10000);
     }
     CHECK(steps > 5 && same_bits(session.read_garment_vertices().value(), expected));
-    // With somebody who watches.
+    // With a token or a callable.
     ACCEPTED(session.reset());
     std::vector<Stage> stages;
     double t = 0.0;
@@ -227,7 +227,7 @@ void what_is_read() {
     REFUSED(session.read_energy(100), Status::invalid_argument, "100");
 }
 
-/// Whatever is wrong with a garment is told with its elements.
+/// Whatever is wrong with a garment is reported with its elements.
 void diagnostics() {
     Scene scene;
     scene.garment.triangles.push_back(scene.garment.triangles[7]);

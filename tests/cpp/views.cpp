@@ -157,7 +157,7 @@ static_assert(refuses<Numbers, std::vector<int>, std::vector<Vec3>>);
 static_assert(made_of<Points, const std::array<float, 3> *, std::size_t> && made_of<Points, Vec3 *, std::size_t> &&
               made_of<Points, const double *, std::size_t, std::size_t> &&
               made_of<Triangles, std::uint16_t *, std::size_t, int> && made_of<Numbers, const float *, std::size_t>);
-// Without a stride, somebody may have meant a count of numbers.
+// Without a stride, a count of numbers may be meant.
 static_assert(!made_of<Points, const float *, std::size_t> && !made_of<Points, const Vec2 *, std::size_t> &&
               !made_of<Points, const int *, std::size_t, std::size_t> &&
               !made_of<Triangles, const float *, std::size_t> && !made_of<Points, const void *, std::size_t>);
@@ -176,7 +176,7 @@ static_assert(!made_of<Points, Vertices, decltype(&Vertex::label)> &&
               !made_of<Triangles, Vertices, decltype(&Vertex::position)> &&
               !made_of<Points, std::vector<float>, decltype(&Vertex::position)>);
 
-// Rows: of which length is told by the type, or has to be said.
+// Rows: their length follows from the type, or has to be given.
 static_assert(takes<NumberRows, std::vector<std::array<float, 4>>, std::vector<Vec4>, double (&)[4][2]>);
 static_assert(refuses<NumberRows, std::vector<float>, std::vector<std::array<int, 4>>>);
 static_assert(takes<IndexRows, std::vector<std::array<std::uint16_t, 8>>> && refuses<IndexRows, std::vector<Vec4>>);

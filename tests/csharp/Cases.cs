@@ -11,7 +11,7 @@ internal static class Cases
         { "arrays_of_every_shape", folder => Dressing.ArraysOfEveryShape() },
         { "every_input", folder => Dressing.EveryInput() },
         { "every_result", folder => Dressing.EveryResult() },
-        { "spaces", folder => Dressing.Spaces() },
+        { "coordinate_systems", folder => Dressing.CoordinateSystems() },
         { "versions_and_names", folder => Errors.Library() },
         { "bad_arguments", folder => Errors.Arguments() },
         { "wrong_states", folder => Errors.States() },

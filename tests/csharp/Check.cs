@@ -43,7 +43,7 @@ internal static class Check
         throw new Failed($"{typeof(T).Name} was not thrown");
     }
 
-    // The library, or the binding for it, refuses the work with this status and a sentence that holds these words.
+    // The library, or the binding for it, refuses the work with this status and a message that holds these words.
     public static void Refused(Status status, Action work, params string[] words)
     {
         BespokeException refusal = Throws<BespokeException>(work);

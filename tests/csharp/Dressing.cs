@@ -245,7 +245,7 @@ internal static class Dressing
         Inputs inputs = Inputs.Tube();
         using (Session session = inputs.Session())
         {
-            // A duplicate triangle and a pin within the body are worth a diagnostic.
+            // A duplicate triangle and a pin within the body are reported as diagnostics.
             int[] triangles = inputs.GarmentTriangles.Concat(inputs.GarmentTriangles.Take(3)).ToArray();
             session.SetGarment(inputs.GarmentPositions, triangles);
             session.SetPinnedVertices(new[] { 70 }, new[] { 0f, 0.05f, 0f });
@@ -292,7 +292,7 @@ internal static class Dressing
         LayersAreNumbered();
     }
 
-    // The sentence says which layer.
+    // The message says which layer.
     private static void LayersAreNumbered()
     {
         Inputs inputs = Inputs.Tube();
@@ -304,8 +304,8 @@ internal static class Dressing
         }
     }
 
-    // Unity's space on both sides is a mirror image: the same garment, mirrored.
-    public static void Spaces()
+    // Unity's coordinate system on both sides is a mirror image: the same garment, mirrored.
+    public static void CoordinateSystems()
     {
         Inputs inputs = Inputs.Tube();
         float[] expected = Dressed(inputs, session => { });
@@ -325,7 +325,7 @@ internal static class Dressing
             session.Reset();
             CoordinateSystem bad = CoordinateSystem.Unity;
             bad.Up = Axis.NegativeX;
-            Check.Refused(Status.InvalidArgument, () => session.SetTargetCoordinateSystem(bad), "target space");
+            Check.Refused(Status.InvalidArgument, () => session.SetTargetCoordinateSystem(bad), "target coordinate system");
         }
     }
 }

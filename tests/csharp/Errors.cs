@@ -130,7 +130,7 @@ internal static class Errors
         }
     }
 
-    // One thread is inside: another is told so at once, and does no harm.
+    // One thread is inside: another gets Busy at once, and does no harm.
     public static void Busy()
     {
         using (Session session = Inputs.Tube().Session())

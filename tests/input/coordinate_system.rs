@@ -15,9 +15,9 @@ const AXES: [(Axis, DVec3); 6] = [
     (Axis::NegativeZ, DVec3::NEG_Z),
 ];
 
-/// Whether the conversion to our space is a reflection of coordinates.
-fn is_left_handed(space: &CoordinateSystem) -> bool {
-    let [x, y, z] = DVec3::AXES.map(|axis| space.position_to_internal(axis));
+/// Whether the conversion to the internal coordinate system is a reflection of coordinates.
+fn is_left_handed(system: &CoordinateSystem) -> bool {
+    let [x, y, z] = DVec3::AXES.map(|axis| system.position_to_internal(axis));
     x.cross(y).dot(z) < 0.0
 }
 
@@ -28,20 +28,20 @@ fn every_choice_of_axes() {
     for (right, r) in AXES {
         for (up, u) in AXES {
             for (forward, f) in AXES {
-                let space = CoordinateSystem { right, up, forward, ..CoordinateSystem::default() };
+                let system = CoordinateSystem { right, up, forward, ..CoordinateSystem::default() };
                 let perpendicular = r.dot(u) == 0.0 && r.dot(f) == 0.0 && u.dot(f) == 0.0;
-                assert_eq!(space.check("target space").is_ok(), perpendicular);
+                assert_eq!(system.check("target coordinate system").is_ok(), perpendicular);
                 if !perpendicular {
                     continue;
                 }
                 good += 1;
-                left += usize::from(is_left_handed(&space));
-                assert_eq!(is_left_handed(&space), r.cross(u).dot(-f) < 0.0);
-                assert_eq!(space.position_to_internal(r), DVec3::X);
-                assert_eq!(space.position_to_internal(u), DVec3::Y);
-                assert_eq!(space.position_to_internal(f), DVec3::NEG_Z);
+                left += usize::from(is_left_handed(&system));
+                assert_eq!(is_left_handed(&system), r.cross(u).dot(-f) < 0.0);
+                assert_eq!(system.position_to_internal(r), DVec3::X);
+                assert_eq!(system.position_to_internal(u), DVec3::Y);
+                assert_eq!(system.position_to_internal(f), DVec3::NEG_Z);
                 let p = random.vector();
-                assert_eq!(space.position_from_internal(space.position_to_internal(p)), p);
+                assert_eq!(system.position_from_internal(system.position_to_internal(p)), p);
             }
         }
     }
@@ -50,11 +50,11 @@ fn every_choice_of_axes() {
 
 #[test]
 fn default_is_the_identity() {
-    let space = CoordinateSystem::default();
+    let system = CoordinateSystem::default();
     let p = DVec3::new(0.1, -2.0, 1e-9);
-    assert_eq!((space.position_to_internal(p), space.position_from_internal(p)), (p, p));
-    assert_eq!(space.triangle([4, 5, 6]), [4, 5, 6]);
-    assert!(!is_left_handed(&space));
+    assert_eq!((system.position_to_internal(p), system.position_from_internal(p)), (p, p));
+    assert_eq!(system.triangle([4, 5, 6]), [4, 5, 6]);
+    assert!(!is_left_handed(&system));
 }
 
 #[test]
@@ -68,32 +68,37 @@ fn units() {
         assert!((back - p).abs().max_element() <= 2e-16 * 100.0);
     }
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-12] {
-        let error =
-            CoordinateSystem { metres_per_unit: bad, ..CoordinateSystem::default() }.check("target space").unwrap_err();
+        let error = CoordinateSystem { metres_per_unit: bad, ..CoordinateSystem::default() }
+            .check("target coordinate system")
+            .unwrap_err();
         assert_eq!(error.kind, ErrorKind::InvalidArgument);
-        assert!(error.message.starts_with("target space: the unit is"), "{error}");
+        assert!(error.message.starts_with("target coordinate system: the unit is"), "{error}");
     }
-    let flat =
-        CoordinateSystem { up: Axis::NegativeX, ..CoordinateSystem::default() }.check("target space").unwrap_err();
-    assert_eq!(flat.message, "target space: right is +x and up is -x, the axes must be perpendicular to each other");
+    let flat = CoordinateSystem { up: Axis::NegativeX, ..CoordinateSystem::default() }
+        .check("target coordinate system")
+        .unwrap_err();
+    assert_eq!(
+        flat.message,
+        "target coordinate system: right is +x and up is -x, the axes must be perpendicular to each other"
+    );
 }
 
 #[test]
 fn front_faces_face_the_viewer() {
-    // A triangle in front of somebody who looks forward, its corners low left, high left, high right: clockwise.
+    // A triangle in front of a viewer who looks forward, its corners low left, high left, high right: clockwise.
     for (right, r) in AXES {
         for (up, u) in AXES {
             for (forward, f) in AXES {
-                let space =
+                let system =
                     CoordinateSystem { right, up, forward, winding: Winding::Clockwise, ..CoordinateSystem::default() };
-                if space.check("space").is_err() {
+                if system.check("system").is_err() {
                     continue;
                 }
-                let seen = [f, f + u, f + u + r].map(|p| space.position_to_internal(p));
-                let [a, b, c] = space.triangle([0, 1, 2]).map(|v| seen[v as usize]);
+                let seen = [f, f + u, f + u + r].map(|p| system.position_to_internal(p));
+                let [a, b, c] = system.triangle([0, 1, 2]).map(|v| seen[v as usize]);
                 // In ours the normal of a front face points back to the viewer, +z.
                 assert_eq!((b - a).cross(c - a), DVec3::Z);
-                assert_eq!(space.triangle(space.triangle([7, 8, 9])), [7, 8, 9]);
+                assert_eq!(system.triangle(system.triangle([7, 8, 9])), [7, 8, 9]);
             }
         }
     }

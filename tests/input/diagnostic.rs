@@ -1,4 +1,4 @@
-//! Every sort of diagnostic, with its sentence to the letter.
+//! Every sort of diagnostic, with its message to the letter.
 
 use bespoke::input::diagnostic::{AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Severity, Subject};
 
@@ -16,8 +16,7 @@ fn layer(index: u32) -> Element {
 fn every_sentence_is_made_of_its_data() {
     let moved =
         |aside, between, beyond| Diagnostic::BoneMoved { bone: BONE, triangles: vec![1, 2], aside, between, beyond };
-    let start =
-        "source skeleton: at the bone between joints 5 and 7, the shrunk avatar would poke through the garment;";
+    let start = "source skeleton: at the bone between joints 5 and 7, the shrunk avatar would penetrate the garment;";
     let end = "(the skeleton is 2 long); check the result there, or move skeleton and garment onto each other";
     let cases = [
         (
@@ -64,8 +63,8 @@ fn every_sentence_is_made_of_its_data() {
         ),
         (
             Diagnostic::SelfIntersection { triangles: [1, 2], touches: true, strict: false },
-            "garment: triangles 1 and 2 touch within rounding before anything has moved, so they are let off until they come \
-             apart, and may still do so in the result"
+            "garment: triangles 1 and 2 touch within rounding before anything has moved, so they are exempted from \
+             contact until they separate, and may still do so in the result"
                 .into(),
         ),
         (
@@ -84,19 +83,19 @@ fn every_sentence_is_made_of_its_data() {
         ),
         (
             Diagnostic::CycleCut { triangles: vec![5] },
-            "source skeleton: between bones that form a cycle, the shrunk avatar would poke through the garment; the cycle was \
+            "source skeleton: between bones that form a cycle, the shrunk avatar would penetrate the garment; the cycle was \
              cut open; check the result there"
                 .into(),
         ),
         (
             Diagnostic::AvatarPenetrates { garment: 3, bone: Some(BONE), avatar: avatar(6) },
-            "garment: avatar triangle 6, shrunk onto the source skeleton, pokes through triangle 3 at the bone between joints 5 \
+            "garment: avatar triangle 6, shrunk onto the source skeleton, penetrates triangle 3 at the bone between joints 5 \
              and 7, and no way around it was found"
                 .into(),
         ),
         (
             Diagnostic::AvatarPenetrates { garment: 3, bone: None, avatar: layer(6) },
-            "garment: triangle 6 of layer 2, shrunk onto the source skeleton, pokes through triangle 3 between bones that form \
+            "garment: triangle 6 of layer 2, shrunk onto the source skeleton, penetrates triangle 3 between bones that form \
              a cycle, and no way around it was found"
                 .into(),
         ),

@@ -179,7 +179,7 @@ fn projection_is_clamped_at_interior_joints_only() {
     // Exact at the joints.
     skeleton.joints[3] = DVec3::new(0.1, 0.7, 1e9);
     assert_eq!((skeleton.point_at(3, 0.0), skeleton.point_at(2, 1.0)), (skeleton.joints[3], skeleton.joints[3]));
-    // A bone without length is a point; a bone that is lost in rounding beside the distance too.
+    // A bone without length is a point; a bone that is lost in rounding against the distance too.
     skeleton.joints[4] = skeleton.joints[3];
     assert_eq!(graph.project(&skeleton, 3, p), 0.0);
     skeleton.joints[4] = skeleton.joints[3] + DVec3::X * 1e-300;

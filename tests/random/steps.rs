@@ -66,8 +66,8 @@ fn control(session: &mut Session, scene: &Scene, random: &mut Random) -> bespoke
     let mut place = || scene.avatar.positions[(random.unit() * scene.avatar.positions.len() as f64) as usize];
     let places: Vec<DVec3> = pinned.iter().map(|_| place()).collect();
     let pin = |(&vertex, &p): (&u32, &DVec3)| {
-        let place = (random.unit() < 0.7).then(|| p + 0.1 * size * random.vector());
-        Pin { vertex, place }
+        let target = (random.unit() < 0.7).then(|| p + 0.1 * size * random.vector());
+        Pin { vertex, target }
     };
     session.set_pins(pinned.iter().zip(&places).map(pin).collect())?;
     patches.into_iter().try_for_each(|patch| session.add_rigid_group(patch))?;

@@ -113,8 +113,8 @@ fn pins_hold_their_places() {
     let last = rest.len() as u32 - 20;
     // One end of the sleeve goes with its bone, and a vertex of the other to a place of its own.
     let place = rest[3] + DVec3::new(0.3, 0.1, -0.1);
-    let mut pins: Vec<Pin> = (last..rest.len() as u32).map(|vertex| Pin { vertex, place: None }).collect();
-    pins.push(Pin { vertex: 3, place: Some(place) });
+    let mut pins: Vec<Pin> = (last..rest.len() as u32).map(|vertex| Pin { vertex, target: None }).collect();
+    pins.push(Pin { vertex: 3, target: Some(place) });
     let mut session = session(1.0, DVec3::ZERO);
     session.set_target_avatar(thin_arm()).unwrap();
     let free = dressed(&mut session);
@@ -133,7 +133,7 @@ fn pins_hold_their_places() {
 fn a_pin_inside_the_body_is_told() {
     let mut session = session(1.0, DVec3::ZERO);
     let inside = DVec3::new(0.0, 0.0, 0.1);
-    session.set_pins(vec![Pin { vertex: 170, place: Some(inside) }]).unwrap();
+    session.set_pins(vec![Pin { vertex: 170, target: Some(inside) }]).unwrap();
     let x = dressed(&mut session);
     let diagnostic =
         session.diagnostics().iter().find(|f| f.kind() == DiagnosticKind::PinNotReached).expect("a diagnostic");
@@ -191,7 +191,7 @@ fn split_vertices_share_groups_and_pins() {
         change(&mut session);
         session.prepare()
     };
-    let pin = |vertex: u32, x: f64| Pin { vertex, place: Some(DVec3::new(x, 0.0, 0.0)) };
+    let pin = |vertex: u32, x: f64| Pin { vertex, target: Some(DVec3::new(x, 0.0, 0.0)) };
     assert!(with(&|s| s.set_pins(vec![pin(7, 1.0), pin(copy, 1.0)]).unwrap()).is_ok());
     let error = with(&|s| s.set_pins(vec![pin(7, 1.0), pin(copy, 2.0)]).unwrap()).unwrap_err();
     assert_eq!(error.kind, ErrorKind::InvalidArgument);
@@ -213,9 +213,9 @@ fn bad_requests_are_refused_with_a_sentence() {
         assert_eq!(error.kind, ErrorKind::InvalidArgument, "{}", error.message);
         assert!(error.message.contains(says), "{}", error.message);
     };
-    let pin = |vertex: u32| Pin { vertex, place: None };
+    let pin = |vertex: u32| Pin { vertex, target: None };
     refused(&|s| s.set_pins(vec![pin(1), pin(5), pin(1)]), "vertex 1 is listed twice");
-    refused(&|s| s.set_pins(vec![Pin { vertex: 4, place: Some(DVec3::NAN) }]), "vertex 4 is not finite");
+    refused(&|s| s.set_pins(vec![Pin { vertex: 4, target: Some(DVec3::NAN) }]), "vertex 4 is not finite");
     refused(&|s| s.set_pins(vec![pin(100_000)]), "vertex 100000");
     refused(&|s| s.add_rigid_group(Vec::new()), "rigid group 0");
     refused(&|s| s.add_rigid_group(vec![1, 100_000]), "vertex 100000");

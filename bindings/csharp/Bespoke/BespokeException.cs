@@ -4,14 +4,14 @@ using System;
 namespace Bespoke
 {
     /// <summary>
-    /// A call failed. <see cref="Exception.Message"/> is a sentence for people that says what, where and which element.
+    /// A call failed. <see cref="Exception.Message"/> is a message for people that says what, where and which element.
     /// A call that failed because of its arguments or of the session's state changed nothing.
     /// </summary>
     public sealed class BespokeException : Exception
     {
-        /// <summary>A failure with this status and this sentence.</summary>
+        /// <summary>A failure with this status and this message.</summary>
         /// <param name="status">Why.</param>
-        /// <param name="message">The sentence.</param>
+        /// <param name="message">The message.</param>
         public BespokeException(Status status, string message) : base(message)
         {
             Status = status;

@@ -4,13 +4,13 @@ namespace Bespoke
     /// <summary>A coordinate system. What is not set is the default; handedness follows from the axes.</summary>
     public sealed class CoordinateSystem
     {
-        /// <summary>The axis to the right. Default: +x.</summary>
+        /// <summary>The axis that points to the right. Default: +x.</summary>
         public Axis Right { get; set; }
 
-        /// <summary>The axis upwards. Default: +y.</summary>
+        /// <summary>The axis that points up. Default: +y.</summary>
         public Axis Up { get; set; }
 
-        /// <summary>The axis forwards, into the picture. Default: -z.</summary>
+        /// <summary>The axis that points forward, away from the viewer. Default: -z.</summary>
         public Axis Forward { get; set; }
 
         /// <summary>Length of the unit in metres. 0, the default, is 1.</summary>

@@ -1,4 +1,4 @@
-// What is worth knowing about the inputs or the result.
+// Diagnostics about the inputs or the result.
 using System.Collections.Generic;
 
 namespace Bespoke
@@ -29,7 +29,7 @@ namespace Bespoke
         }
     }
 
-    /// <summary>One thing worth knowing about the inputs or the result.</summary>
+    /// <summary>A diagnostic about the inputs or the result.</summary>
     public sealed class Diagnostic
     {
         internal unsafe Diagnostic(NativeDiagnostic* native)

@@ -7,7 +7,7 @@ namespace Bespoke
     /// <summary>The outcome of a call.</summary>
     public enum Status : uint
     {
-        /// <summary>It did what it says.</summary>
+        /// <summary>The call succeeded.</summary>
         Ok = 0,
 
         /// <summary>An argument is null, out of range or of the wrong size.</summary>
@@ -27,10 +27,14 @@ namespace Bespoke
         /// <summary>Skin or fit weights have the wrong shape or hold bad values.</summary>
         InvalidWeights = 5,
 
-        /// <summary>The garment intersects itself at the start, and the options are strict.</summary>
+        /// <summary>
+        /// The garment intersects itself at the start, and the option <see cref="Options.Strict"/> is set.
+        /// </summary>
         SelfIntersection = 6,
 
-        /// <summary>The garment does not enclose its skeleton, and no way inside it was found.</summary>
+        /// <summary>
+        /// The garment does not enclose its skeleton, and no path for it inside the garment was found.
+        /// </summary>
         NotEnclosed = 7,
 
         /// <summary>The avatar could not be inflated to its full size without an intersection.</summary>
@@ -40,7 +44,7 @@ namespace Bespoke
         NotVerified = 9,
 
         /// <summary>
-        /// Somebody asked to stop. It is thrown as <see cref="System.OperationCanceledException"/>, never as
+        /// Cancelled by the caller. It is thrown as <see cref="System.OperationCanceledException"/>, never as
         /// <see cref="BespokeException"/>.
         /// </summary>
         Cancelled = 10,
@@ -51,7 +55,8 @@ namespace Bespoke
         Busy = 11,
 
         /// <summary>
-        /// A defect of this library. The session refuses all further work and can only be destroyed; others go on.
+        /// A defect of this library. The session refuses all further calls and can only be destroyed; other sessions
+        /// are not affected.
         /// </summary>
         Internal = 12,
 
@@ -79,31 +84,33 @@ namespace Bespoke
         U32 = 4,
     }
 
-    /// <summary>Where a session is on its way.</summary>
+    /// <summary>The stage of a session.</summary>
     public enum Stage : uint
     {
         /// <summary>Takes inputs; nothing is computed yet.</summary>
         Setup = 0,
 
-        /// <summary>Step 1 is done: the avatar is shrunk onto the source skeleton.</summary>
+        /// <summary>
+        /// Prepare is done: the inputs are checked, and the avatar is shrunk onto the source skeleton.
+        /// </summary>
         Prepared = 1,
 
-        /// <summary>Step 2: the avatar grows to its full size inside the garment.</summary>
+        /// <summary>The avatar grows to its full size inside the garment, which gives way.</summary>
         Inflate = 2,
 
-        /// <summary>Step 3: the garment settles onto the avatar.</summary>
+        /// <summary>The garment is fitted to the avatar at its full size.</summary>
         Fit = 3,
 
-        /// <summary>The exact verifier looks at the result.</summary>
+        /// <summary>The exact verifier checks the result.</summary>
         Verify = 4,
 
         /// <summary>The result is final and verified.</summary>
         Done = 5,
 
-        /// <summary>A call failed for good. What the garment looked like last can be read.</summary>
+        /// <summary>A call failed for good. The last garment can be read.</summary>
         Failed = 6,
 
-        /// <summary>Somebody asked to stop. What the garment looked like last can be read.</summary>
+        /// <summary>Cancelled by the caller. The last garment can be read.</summary>
         Cancelled = 7,
     }
 
@@ -132,13 +139,13 @@ namespace Bespoke
         NegativeZ = 6,
     }
 
-    /// <summary>How the corners of a front face follow each other for somebody who looks at its front.</summary>
+    /// <summary>The order of a front face's corners, seen from the front.</summary>
     public enum Winding : uint
     {
-        /// <summary>Against the hands of a clock.</summary>
+        /// <summary>Counter-clockwise.</summary>
         CounterClockwise = 0,
 
-        /// <summary>With the hands of a clock.</summary>
+        /// <summary>Clockwise.</summary>
         Clockwise = 1,
     }
 
@@ -156,7 +163,7 @@ namespace Bespoke
     public enum DiagnosticKind : uint
     {
         /// <summary>
-        /// Garment vertices in one place, as along UV seams, that move as one. The first of them are named.
+        /// Garment vertices at equal positions, as along UV seams, that are welded. The first of them are named.
         /// </summary>
         SplitVertices = 1,
 
@@ -172,12 +179,14 @@ namespace Bespoke
         /// <summary>A garment vertex that no triangle uses.</summary>
         UnusedVertex = 5,
 
-        /// <summary>A small piece of the garment, such as a button, that is held to the piece beside it.</summary>
+        /// <summary>
+        /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
+        /// </summary>
         LoosePiece = 6,
 
         /// <summary>
-        /// Two garment triangles that pass through each other, or touch, before anything has moved. They are let off
-        /// until they have come apart.
+        /// Two garment triangles that pass through each other, or touch, before anything has moved. They are exempted
+        /// from contact until they separate.
         /// </summary>
         SelfIntersection = 7,
 
@@ -191,24 +200,25 @@ namespace Bespoke
         AvatarPenetrates = 9,
 
         /// <summary>
-        /// The coordinates in which the result is read are coarse, and the garment keeps a wider distance for it.
+        /// The coordinates in which the result is read are coarse, so the minimum separation is larger than the
+        /// option's.
         /// </summary>
         CoarseCoordinates = 10,
 
         /// <summary>Two triangles that intersect in the result and did not at the start.</summary>
         ResultIntersection = 11,
 
-        /// <summary>A pinned garment vertex ended away from its place.</summary>
+        /// <summary>A pinned garment vertex ended away from its target.</summary>
         PinNotReached = 12,
 
-        /// <summary>A rigid group of garment vertices ended bent, for something stands in its way.</summary>
+        /// <summary>A rigid group of garment vertices ended bent, because something is in its way.</summary>
         RigidGroupBent = 13,
 
         /// <summary>
-        /// The inflation ended before its time, and this part of the avatar, or these two, push against the garment. A
-        /// garment triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance
-        /// is that between the garment and one part now, or that between two parts at full size, which is 0 where they
-        /// touch or overlap.
+        /// The inflation stalled, and this part of the avatar, or these two, push against the garment. A garment
+        /// triangle is named and the avatar's triangles on its sides, and with one part its bone. The distance is that
+        /// between the garment and one part now, or that between two parts at full size, which is 0 where they touch or
+        /// overlap.
         /// </summary>
         InflationBlocked = 14,
     }
@@ -216,7 +226,7 @@ namespace Bespoke
     /// <summary>How much a diagnostic matters.</summary>
     public enum Severity : uint
     {
-        /// <summary>Good to know.</summary>
+        /// <summary>For information.</summary>
         Note = 1,
 
         /// <summary>The result may be worse for it.</summary>

@@ -1,4 +1,4 @@
-// Room of the caller that results are written to.
+// The caller's memory that results are written to.
 using System;
 using System.Runtime.InteropServices;
 

@@ -8,7 +8,7 @@ namespace Bespoke
     /// Triangles (three vertices each), bones (two joints each) or other indices of the caller, from 0. An array or
     /// span of int, uint or ushort becomes one by itself, its numbers one after the other. Arrays of a struct become
     /// one by <see cref="I32{T}(T[], int)"/>, <see cref="U32{T}(T[], int)"/> and <see cref="U16{T}(T[], int)"/>. A
-    /// negative index is refused with a sentence. The memory is read during the call, and never kept.
+    /// negative index is refused with an exception. The memory is read during the call, and never kept.
     /// </summary>
     public readonly ref struct IndexView
     {

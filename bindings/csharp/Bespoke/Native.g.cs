@@ -69,11 +69,11 @@ namespace Bespoke
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_source_coordinate_system(
-            SessionHandle session, NativeCoordinateSystem* space);
+            SessionHandle session, NativeCoordinateSystem* coordinateSystem);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_target_coordinate_system(
-            SessionHandle session, NativeCoordinateSystem* space);
+            SessionHandle session, NativeCoordinateSystem* coordinateSystem);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_vertex_fit_weights(
@@ -84,7 +84,7 @@ namespace Bespoke
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_pinned_vertices(
-            SessionHandle session, NativeView* vertices, NativeView* places);
+            SessionHandle session, NativeView* vertices, NativeView* targets);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_add_rigid_group(SessionHandle session, NativeView* vertices);

@@ -1,9 +1,10 @@
-// What may be tuned.
+// The options of a session.
 namespace Bespoke
 {
     /// <summary>
-    /// What may be tuned. 0 is the default of each property; a weight is switched off by <see cref="WeightOff"/>.
-    /// Lengths are in the normalised space, in which the longest side of the skeleton's bounding box is 2.
+    /// The options of a session. 0 is the default of each property; a weight is switched off by
+    /// <see cref="WeightOff"/>. Lengths are in the normalised space, in which the longest side of the skeleton's
+    /// bounding box is 2.
     /// </summary>
     public sealed partial class Options
     {
@@ -21,7 +22,7 @@ namespace Bespoke
             Status status = Native.bespoke_options_read_defaults(&native);
             if (status != Status.Ok)
             {
-                throw new BespokeException(status, "The library does not tell its default options.");
+                throw new BespokeException(status, "The library does not give its default options.");
             }
             return FromNative(native);
         }

@@ -22,7 +22,7 @@ namespace Bespoke
         public double DesignedClearance { get; set; }
 
         /// <summary>
-        /// Clearance to aim at everywhere, beside the designed one, in the unit of the target space, from 0 to half the
+        /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the
         /// size of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
         /// </summary>
         public double Offset { get; set; }
@@ -39,14 +39,13 @@ namespace Bespoke
 
         /// <summary>
         /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes
-        /// of its meshes before it begins, and looked at again as it goes on.
+        /// of its meshes before it begins, and checked again during the run.
         /// </summary>
         public ulong MemoryLimit { get; set; }
 
         /// <summary>
         /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
-        /// exempted from contact until they separate and named by <c>Session.ReadDiagnostics</c>; no others ever join
-        /// them.
+        /// exempted from contact until they separate and named by <c>Session.ReadDiagnostics</c>; none are added later.
         /// </summary>
         public bool Strict { get; set; }
 
@@ -64,7 +63,7 @@ namespace Bespoke
         public double TorsionWeight { get; set; }
 
         /// <summary>
-        /// Expert. Weight of the place of cuffs, hems and collars along their bones. Default 10.
+        /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10.
         /// <see cref="Options.WeightOff"/> possible.
         /// </summary>
         public double PositionWeight { get; set; }
@@ -87,8 +86,8 @@ namespace Bespoke
         public double VoxelSize { get; set; }
 
         /// <summary>
-        /// Expert. Distance that nothing ever falls below [1e-8, 0.01], less than half of <see cref="Options.Dhat"/>
-        /// and of <see cref="Options.InflationDhat"/>. Default 1e-5.
+        /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
+        /// <see cref="Options.Dhat"/> and of <see cref="Options.InflationDhat"/>. Default 1e-5.
         /// </summary>
         public double MinSeparation { get; set; }
 

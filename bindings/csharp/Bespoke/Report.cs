@@ -2,9 +2,9 @@
 namespace Bespoke
 {
     /// <summary>The work of one stage.</summary>
-    public sealed class Work
+    public sealed class StageReport
     {
-        internal Work(NativeStageReport native)
+        internal StageReport(NativeStageReport native)
         {
             Seconds = native.seconds;
             Iterations = checked((int)native.iterations);
@@ -26,17 +26,17 @@ namespace Bespoke
     }
 
     /// <summary>
-    /// What a session has done so far. Lengths are in the normalised space, in which the longest side of the skeleton's
-    /// bounding box is 2.
+    /// Measurements of a session so far. Lengths are in the normalised space, in which the longest side of the
+    /// skeleton's bounding box is 2.
     /// </summary>
     public sealed class Report
     {
         internal unsafe Report(NativeReport* native)
         {
             Threads = checked((int)native->threads);
-            Prepare = new Work(native->prepare);
-            Inflate = new Work(native->inflate);
-            Fit = new Work(native->fit);
+            Prepare = new StageReport(native->prepare);
+            Inflate = new StageReport(native->inflate);
+            Fit = new StageReport(native->fit);
             VerifySeconds = native->verify_seconds;
             FieldSeconds = native->field_seconds;
             T = native->t;
@@ -63,19 +63,19 @@ namespace Bespoke
         /// <summary>Threads that the session works with.</summary>
         public int Threads { get; }
 
-        /// <summary>Step 1.</summary>
-        public Work Prepare { get; }
+        /// <summary>Cost of prepare.</summary>
+        public StageReport Prepare { get; }
 
-        /// <summary>Step 2.</summary>
-        public Work Inflate { get; }
+        /// <summary>Cost of inflate.</summary>
+        public StageReport Inflate { get; }
 
-        /// <summary>Step 3.</summary>
-        public Work Fit { get; }
+        /// <summary>Cost of fit.</summary>
+        public StageReport Fit { get; }
 
         /// <summary>Wall-clock seconds of the exact verifier.</summary>
         public double VerifySeconds { get; }
 
-        /// <summary>Seconds until the distance field was built, beside step 2.</summary>
+        /// <summary>Seconds until the distance field was built, in parallel with inflate.</summary>
         public double FieldSeconds { get; }
 
         /// <summary>Inflation: 0 is the avatar shrunk onto the source skeleton, 1 the target avatar.</summary>
@@ -120,15 +120,15 @@ namespace Bespoke
         public long SubdividedAvatarTriangles { get; }
 
         /// <summary>
-        /// Distance that nothing falls below now: the option's; less while something is nearer than that, more where
-        /// the coordinates of the result are coarse.
+        /// The minimum separation in force: the option's; less while something is nearer than that, more where the
+        /// coordinates of the result are coarse.
         /// </summary>
         public double MinSeparation { get; }
 
-        /// <summary>Whether the verifier has looked at the result.</summary>
+        /// <summary>Whether the verifier has checked the result.</summary>
         public bool IsVerified { get; }
 
-        /// <summary>Whether step 3 ended by its tolerance, and not by the limit of iterations or not at all.</summary>
+        /// <summary>Whether the fit ended by its tolerance, and not by the limit of iterations or not at all.</summary>
         public bool IsConverged { get; }
 
         /// <summary>Number of energy terms; see <see cref="Session.ReadEnergy"/>.</summary>
@@ -137,7 +137,10 @@ namespace Bespoke
         /// <summary>Bytes that the session's arrays take, without what the threads and the allocator add.</summary>
         public long MemoryBytes { get; }
 
-        /// <summary>Intersecting or touching pairs within the garment at the start, which are let off.</summary>
+        /// <summary>
+        /// Intersecting or touching pairs within the garment at the start, which are exempted from contact until they
+        /// separate.
+        /// </summary>
         public long InitialSelfIntersections { get; }
     }
 
@@ -175,12 +178,12 @@ namespace Bespoke
         public long GarmentGarment { get; }
 
         /// <summary>
-        /// Those of them that intersected or touched at the start, too: a garment that is given with intersections may
+        /// Those of them that intersected or touched at the start, too: a garment with initial self-intersections may
         /// keep some of them.
         /// </summary>
         public long Initial { get; }
 
-        /// <summary>Of the garment with the avatar or the layers that it wears.</summary>
+        /// <summary>Of the garment with the avatar or its layers.</summary>
         public long GarmentAvatar { get; }
     }
 }

@@ -7,7 +7,7 @@ namespace Bespoke
     public sealed partial class Session
     {
         /// <summary>
-        /// The garment as it was modelled, around the source skeleton. It may be open and in pieces. The result is
+        /// The garment as it was modelled, enclosing the source skeleton. It may be open and in pieces. The result is
         /// verified in the precision of its positions. A second call replaces the first.
         /// </summary>
         /// <param name="positions">Points.</param>
@@ -27,7 +27,7 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The skeleton around which the garment was modelled, in the space of the garment.
+        /// The skeleton that the garment was modelled around, in the coordinate system of the garment.
         /// </summary>
         /// <param name="joints">Points.</param>
         /// <param name="bones">Two joints each, from 0; order and direction are free.</param>
@@ -64,8 +64,8 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The skeleton of the body to dress, in its space and in the pose of the source skeleton. Joint i corresponds
-        /// to joint i of the source skeleton, and the same pairs of joints are bones.
+        /// The skeleton of the body to dress, in its coordinate system and in the pose of the source skeleton. Joint i
+        /// corresponds to joint i of the source skeleton, and the same pairs of joints are bones.
         /// </summary>
         /// <param name="joints">Points.</param>
         /// <param name="bones">Two joints each, from 0; order and direction are free.</param>
@@ -84,8 +84,8 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Optional: the body on which the garment was designed, in the space of the garment. With it, the fit aims at
-        /// the looseness of the design.
+        /// Optional: the body on which the garment was designed, in the coordinate system of the garment. With it, the
+        /// fit aims at the clearance of the design.
         /// </summary>
         /// <param name="positions">Points.</param>
         /// <param name="triangles">Three vertices each, from 0.</param>
@@ -103,9 +103,10 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Optional: skin weights of the target avatar as a full matrix, one row a joint. Without them, the nearest
-        /// bone decides to which part of the body a vertex belongs. Weights are finite and not negative; those of a
-        /// vertex need not sum to 1.
+        /// Optional: skin weights of the target avatar as a full matrix, one row a joint. They only assign each vertex
+        /// to one joint: the one with its largest weight, the lowest of several. Without them, and for a vertex whose
+        /// weights are all 0, the nearest bone decides. Weights are finite and not negative; those of a vertex need not
+        /// sum to 1.
         /// </summary>
         /// <param name="rows">For each joint, <paramref name="vertices"/> numbers.</param>
         /// <param name="vertices">Vertices of the target avatar.</param>
@@ -123,8 +124,8 @@ namespace Bespoke
 
         /// <summary>
         /// Optional: skin weights of the target avatar as engines keep them, a few joints with their weights for each
-        /// vertex. A joint with weight 0 is not looked at. All else as for <see cref="SetTargetSkinWeights"/>, which
-        /// this replaces.
+        /// vertex. Only the joint with the largest weight of a vertex is used; one with weight 0 is ignored. All else
+        /// as for <see cref="SetTargetSkinWeights"/>, which this replaces.
         /// </summary>
         /// <param name="joints">For each vertex, <paramref name="influences"/> joints, from 0.</param>
         /// <param name="weights">For each vertex, as many weights.</param>
@@ -148,25 +149,26 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Optional: the space of garment, source skeleton and source avatar, where it is not that of the target.
+        /// Optional: the coordinate system of garment, source skeleton and source avatar; by default right-handed, in
+        /// metres, y up.
         /// </summary>
-        /// <param name="space">The space.</param>
-        /// <exception cref="BespokeException">InvalidArgument (two axes along one coordinate, an absurd unit),
-        /// InvalidState, Busy, Internal.</exception>
-        public unsafe void SetSourceCoordinateSystem(CoordinateSystem space)
+        /// <param name="coordinateSystem">The coordinate system.</param>
+        /// <exception cref="BespokeException">InvalidArgument (two axes along one coordinate, a unit outside
+        /// 1e-9 to 1e9 metres), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetSourceCoordinateSystem(CoordinateSystem coordinateSystem)
         {
-            NativeCoordinateSystem native = NotNull(space, nameof(space)).ToNative();
+            NativeCoordinateSystem native = NotNull(coordinateSystem, nameof(coordinateSystem)).ToNative();
             Check(Native.bespoke_session_set_source_coordinate_system(handle, &native));
         }
 
         /// <summary>
-        /// Optional: the space of target avatar and target skeleton, and so of the vertices that are read.
+        /// Optional: the coordinate system of target avatar and target skeleton, and so of the vertices that are read.
         /// </summary>
-        /// <param name="space">The space.</param>
+        /// <param name="coordinateSystem">The coordinate system.</param>
         /// <exception cref="BespokeException">As for <see cref="SetSourceCoordinateSystem"/>.</exception>
-        public unsafe void SetTargetCoordinateSystem(CoordinateSystem space)
+        public unsafe void SetTargetCoordinateSystem(CoordinateSystem coordinateSystem)
         {
-            NativeCoordinateSystem native = NotNull(space, nameof(space)).ToNative();
+            NativeCoordinateSystem native = NotNull(coordinateSystem, nameof(coordinateSystem)).ToNative();
             Check(Native.bespoke_session_set_target_coordinate_system(handle, &native));
         }
 
@@ -206,10 +208,10 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Optional: garment vertices that are held where they were designed, carried along with the bone beside them:
-        /// the coordinate along the bone and the distance from it stay. Replaces pins set before; none: no pins. A pin
-        /// is a stiff spring (see <see cref="Options.PinWeight"/>): what the body stands in the way of is not reached,
-        /// and told as a diagnostic.
+        /// Optional: garment vertices that keep their positions relative to the nearest bone: the coordinate along the
+        /// bone and the distance from it. Replaces earlier pins; none: no pins. A pin is a stiff spring (see
+        /// <see cref="Options.PinWeight"/>): one that cannot reach its target, because the body is in the way, is
+        /// reported as a diagnostic.
         /// </summary>
         /// <param name="vertices">Garment vertices, from 0, each once.</param>
         /// <exception cref="BespokeException">InvalidArgument (a vertex that the garment does not have is found by
@@ -225,28 +227,27 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The same as <see cref="SetPinnedVertices(IndexView)"/>, with a place for each of them.
+        /// The same as <see cref="SetPinnedVertices(IndexView)"/>, with a target for each of them.
         /// </summary>
         /// <param name="vertices">Garment vertices, from 0, each once.</param>
-        /// <param name="places">One point for each of them, in the target's space.</param>
+        /// <param name="targets">One point for each of them, in the target's coordinate system.</param>
         /// <exception cref="BespokeException">As there.</exception>
-        public unsafe void SetPinnedVertices(IndexView vertices, FloatView places)
+        public unsafe void SetPinnedVertices(IndexView vertices, FloatView targets)
         {
             fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
-            fixed (byte* p = &MemoryMarshal.GetReference(places.Bytes))
+            fixed (byte* p = &MemoryMarshal.GetReference(targets.Bytes))
             {
                 NativeView indices = vertices.Pinned(v, 1, "pinned vertices");
-                NativeView points = places.Pinned(p, 3, "pinned vertices: places");
+                NativeView points = targets.Pinned(p, 3, "pinned vertices: targets");
                 vertices.RefuseNegative(1, Status.InvalidArgument, "pinned vertices", "element");
                 Check(Native.bespoke_session_set_pinned_vertices(handle, &indices, &points));
             }
         }
 
         /// <summary>
-        /// Optional: garment vertices that are to stay one rigid body, such as a button, a buckle or an armour plate:
-        /// it turns and moves, and keeps its shape. Its size goes with that of the skeletons. One more group with each
-        /// call, counted from 0. Where contact does not let a group become rigid to rounding, that is told as a
-        /// diagnostic.
+        /// Optional: garment vertices that stay one rigid body, such as a button, a buckle or an armour plate: it
+        /// moves, turns and keeps its shape. Its size scales with the skeletons. Each call adds a group; they are
+        /// numbered from 0. A group that contact keeps from becoming rigid up to rounding is reported as a diagnostic.
         /// </summary>
         /// <param name="vertices">Garment vertices, from 0, in any order; at least one, none of another group.</param>
         /// <exception cref="BespokeException">InvalidArgument (a vertex that the garment does not have is found by
@@ -261,7 +262,7 @@ namespace Bespoke
             }
         }
 
-        /// <summary>Forgets all rigid groups.</summary>
+        /// <summary>Removes all rigid groups.</summary>
         /// <exception cref="BespokeException">InvalidState, Busy, Internal.</exception>
         public void ClearRigidGroups()
         {
@@ -273,10 +274,11 @@ namespace Bespoke
         /// the avatar as an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and
         /// is verified against both. Each call adds one layer; they are numbered from 0, and stay until
         /// <see cref="ClearLayers"/>, also when another avatar is set and after <see cref="Reset"/>. Skin weights are
-        /// those of the avatar beneath, where it has any. What is read or counted as the avatar is the avatar without
-        /// its layers.
+        /// those of the avatar beneath, where it has any. What is read or counted as the avatar does not include its
+        /// layers.
         /// </summary>
-        /// <param name="positions">Points in the space of the target avatar; used exactly as they are.</param>
+        /// <param name="positions">Points in the coordinate system of the target avatar; used exactly as they
+        /// are.</param>
         /// <param name="triangles">Three vertices each, from 0.</param>
         /// <exception cref="BespokeException">InvalidArgument, InvalidMesh (no vertices, no triangles, an index out of
         /// range, a coordinate that is not finite), InvalidState, Busy, Internal.</exception>

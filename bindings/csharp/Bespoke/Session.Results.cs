@@ -1,4 +1,4 @@
-// What can be read of a session: its result, and what is worth knowing about it.
+// Results of a session: vertices, distortion, report, diagnostics.
 using System;
 using System.Runtime.InteropServices;
 
@@ -6,16 +6,16 @@ namespace Bespoke
 {
     public sealed partial class Session
     {
-        /// <summary>Where the session is. At any time, also while another call runs.</summary>
+        /// <summary>The stage of the session. At any time, also while another call runs.</summary>
         public Stage Stage
         {
             get { return ReadProgress().Stage; }
         }
 
         /// <summary>
-        /// One moment of the session, as of its last iteration. At any time, also while another call runs.
+        /// Progress of the session as of its last iteration. At any time, also while another call runs.
         /// </summary>
-        /// <returns>The moment.</returns>
+        /// <returns>The progress.</returns>
         public unsafe SessionProgress ReadProgress()
         {
             NativeProgress native = new NativeProgress { struct_size = (uint)sizeof(NativeProgress) };
@@ -25,12 +25,14 @@ namespace Bespoke
 
         /// <summary>
         /// Counts the intersections of the vertices as they would be read now, with exact predicates. A session that is
-        /// Done has none in the precision of its garment but such as it had at the start. State: Prepared or later.
+        /// Done has, in the precision of its garment, no others than initial self-intersections. State: Prepared or
+        /// later.
         /// </summary>
         /// <param name="precision">The precision of reading.</param>
         /// <returns>The counts.</returns>
         /// <exception cref="BespokeException">InvalidArgument, InvalidState, Busy, Internal.</exception>
-        /// <exception cref="OperationCanceledException">By a request that no call has answered yet; the stage stays.
+        /// <exception cref="OperationCanceledException">By a request that no call has answered yet; the stage does not
+        /// change.
         /// </exception>
         public unsafe Intersections Verify(Precision precision = Precision.F32)
         {
@@ -69,8 +71,9 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Writes where the garment's vertices are now: in the order in which they were set, in the target's space and
-        /// unit. State: Prepared or later. With Done it is verified in this precision; otherwise it is a preview.
+        /// Writes the garment's current vertices, in the order in which they were set, in the target's coordinate
+        /// system and unit. State: Prepared or later. With Done it is verified in this precision; otherwise it is a
+        /// preview.
         /// </summary>
         /// <param name="points">Room for a point for each vertex, or more; empty: nothing is written.</param>
         /// <returns>Vertices of the garment.</returns>
@@ -129,10 +132,10 @@ namespace Bespoke
 
         /// <summary>
         /// Writes how much each garment triangle is distorted now, in the order in which the triangles were set: how
-        /// differently it and its neighbours deform (Eq. 2 of the paper, in the form that is free for any similarity,
-        /// the mean over its edges with a neighbour), over the ratio of the garment's area to that of the design. A
-        /// number without unit, 0 or above; 0 for any similarity of the garment as a whole, and for triangles without
-        /// area or neighbours. State: Prepared or later; until Done it is that of a preview.
+        /// differently it and its neighbours deform (Eq. 2 of the paper, in the similarity-invariant form, the mean
+        /// over its edges with a neighbour), over the ratio of the garment's area to that of the design. A number
+        /// without unit, 0 or above; 0 for any similarity of the garment as a whole, and for triangles without area or
+        /// neighbours. State: Prepared or later; until Done it is that of a preview.
         /// </summary>
         /// <param name="values">Room for one number for each triangle, or more; empty: nothing is written.</param>
         /// <returns>Triangles of the garment.</returns>
@@ -184,9 +187,9 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// What is worth knowing about the inputs and the result: what <see cref="Prepare"/> found, also where it
-        /// failed, and what the verifier found in the end. Of one kind, the first thousand or so are listed, and the
-        /// last one says how many more there are. State: any; there are none before Prepare.
+        /// Diagnostics about the inputs and the result: what <see cref="Prepare"/> found, also where it failed, and
+        /// what the verifier found in the end. Of one kind, the first thousand or so are listed, and the last one says
+        /// how many more there are. State: any; there are none before Prepare.
         /// </summary>
         /// <returns>The diagnostics.</returns>
         /// <exception cref="BespokeException">Busy, Internal.</exception>

@@ -11,18 +11,18 @@ namespace Bespoke
         private const uint ReportMilliseconds = 50;
 
         /// <summary>
-        /// Step 1: checks the inputs against each other and shrinks the avatar onto the source skeleton.
+        /// Checks the inputs against each other and shrinks the avatar onto the source skeleton.
         /// <see cref="Stage.Setup"/> becomes <see cref="Stage.Prepared"/>; where it fails or is cancelled, the session
-        /// is in Setup with all that was set. What it finds in the inputs can be read with
+        /// stays in Setup and keeps its inputs. Diagnostics about the inputs can be read with
         /// <see cref="ReadDiagnostics"/>, also where it fails. State: Setup, with garment, both skeletons and target
         /// avatar set.
         /// </summary>
-        /// <param name="token">Cancelled: the session is asked to stop.</param>
+        /// <param name="token">Cancelled: so is the session.</param>
         /// <exception cref="BespokeException">InvalidState, InvalidArgument (a voxel too small for the avatar),
         /// InvalidMesh (also: too far from the origin for its precision), InvalidSkeleton (another topology),
-        /// InvalidWeights (a wrong size), SelfIntersection (with strict options), NotEnclosed, MemoryLimit, Busy,
+        /// InvalidWeights (a wrong size), SelfIntersection (with the option Strict), NotEnclosed, MemoryLimit, Busy,
         /// Internal.</exception>
-        /// <exception cref="OperationCanceledException">Somebody asked to stop.</exception>
+        /// <exception cref="OperationCanceledException">Cancelled by the caller.</exception>
         public void Prepare(CancellationToken token = default(CancellationToken))
         {
             using (Watch(token))
@@ -32,18 +32,17 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Goes on for a while: to the end of the budget or of the whole way, whichever is first. The budget is looked
-        /// at after each iteration, so a step does at least one and may take somewhat longer. At
-        /// <see cref="Stage.Done"/> the result is verified; until then what can be read is a preview. State: Prepared,
-        /// Inflate or Fit.
+        /// Continues the run until it ends or the budget is spent, whichever is first. The budget is checked after each
+        /// iteration, so a step does at least one and may take somewhat longer. At <see cref="Stage.Done"/> the result
+        /// is verified; until then what can be read is a preview. State: Prepared, Inflate or Fit.
         /// </summary>
         /// <param name="maxIterations">Iterations at most; 0: no limit.</param>
         /// <param name="maxMilliseconds">Time; 0: no limit.</param>
-        /// <param name="token">Cancelled: the session is asked to stop.</param>
-        /// <returns>Where the session is afterwards.</returns>
-        /// <exception cref="BespokeException">InvalidState (an ended session goes on with <see cref="Reset"/> only),
-        /// InflationStalled, NotVerified, MemoryLimit, Busy, Internal.</exception>
-        /// <exception cref="OperationCanceledException">Somebody asked to stop.</exception>
+        /// <param name="token">Cancelled: so is the session.</param>
+        /// <returns>The stage afterwards.</returns>
+        /// <exception cref="BespokeException">InvalidState (a session that has ended continues only after
+        /// <see cref="Reset"/>), InflationStalled, NotVerified, MemoryLimit, Busy, Internal.</exception>
+        /// <exception cref="OperationCanceledException">Cancelled by the caller.</exception>
         public unsafe Stage Step(
             int maxIterations = 0, int maxMilliseconds = 0, CancellationToken token = default(CancellationToken))
         {
@@ -64,14 +63,14 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// All that is left of the way: prepares where needed, then goes to the end. When it returns, the session is
+        /// Runs the session to its end: prepares where needed, then steps. When it returns, the session is
         /// <see cref="Stage.Done"/> and the result verified. State: as for <see cref="Prepare"/> or <see cref="Step"/>.
         /// </summary>
-        /// <param name="progress">Is told at most some twenty times a second, in this thread, and at last that the
-        /// session is done. What it throws ends this call; another one goes on from there.</param>
-        /// <param name="token">Cancelled: the session is asked to stop.</param>
+        /// <param name="progress">Called at most some twenty times a second, in this thread, and a last time when the
+        /// session is done. What it throws ends this call; another one continues from there.</param>
+        /// <param name="token">Cancelled: so is the session.</param>
         /// <exception cref="BespokeException">As for both.</exception>
-        /// <exception cref="OperationCanceledException">Somebody asked to stop.</exception>
+        /// <exception cref="OperationCanceledException">Cancelled by the caller.</exception>
         public void Run(
             IProgress<SessionProgress> progress = null, CancellationToken token = default(CancellationToken))
         {
@@ -89,13 +88,13 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The same as <see cref="Run"/> in a thread of its own. The task is cancelled where the token was, or where
-        /// somebody called <see cref="Cancel"/>; it fails with the exceptions of Run. The library works in threads of
-        /// its own: that of the task only waits.
+        /// The same as <see cref="Run"/> in a thread of its own. The task is cancelled where the token was, or by
+        /// <see cref="Cancel"/>; it fails with the exceptions of Run. The library works in threads of its own: that of
+        /// the task only waits.
         /// </summary>
-        /// <param name="progress">Is told at most some twenty times a second, in the thread of the task;
+        /// <param name="progress">Called at most some twenty times a second, in the thread of the task;
         /// <see cref="Progress{T}"/> takes it to the thread that it was made in.</param>
-        /// <param name="token">Cancelled: the session is asked to stop, at once also while it prepares.</param>
+        /// <param name="token">Cancelled: so is the session, at once also while it prepares.</param>
         /// <returns>The task. Until it has ended, other calls of this session find it busy.</returns>
         public async Task RunAsync(
             IProgress<SessionProgress> progress = null, CancellationToken token = default(CancellationToken))

@@ -49,8 +49,8 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// Takes the session back to <see cref="Stage.Setup"/>: inputs, spaces and options stay, all results and a
-        /// request to cancel are forgotten. It waits for work that a request to stop has left. State: any.
+        /// Takes the session back to <see cref="Stage.Setup"/>: inputs, coordinate systems and options stay, results
+        /// and a request to cancel are forgotten. It waits for work that a request to stop has left. State: any.
         /// </summary>
         public void Reset()
         {
@@ -58,7 +58,7 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The sentence of the last call with this session that failed; empty where none did. At any time, also while
+        /// The message of the last call with this session that failed; empty where none did. At any time, also while
         /// another call runs.
         /// </summary>
         public unsafe string LastMessage

@@ -23,21 +23,21 @@ namespace Bespoke
         }
 
         /// <summary>
-        /// The same as <see cref="Session.ReadProgress"/>. The last moment stays once the session is disposed of.
+        /// The same as <see cref="Session.ReadProgress"/>. Once the session is disposed of, the last progress stays.
         /// </summary>
-        /// <returns>One moment of the session, as of its last iteration.</returns>
+        /// <returns>Progress as of the last iteration.</returns>
         public unsafe SessionProgress ReadProgress()
         {
             NativeProgress native = new NativeProgress { struct_size = (uint)sizeof(NativeProgress) };
             Status status = Native.bespoke_control_read_progress(handle, &native);
             if (status != Status.Ok)
             {
-                throw new BespokeException(status, "The library does not tell the progress of the session.");
+                throw new BespokeException(status, "The library does not give the progress of the session.");
             }
             return new SessionProgress(&native);
         }
 
-        /// <summary>Frees the control; a second time does nothing. The session goes on.</summary>
+        /// <summary>Frees the control; a second time does nothing. The session runs on.</summary>
         public void Dispose()
         {
             handle.Dispose();

@@ -1,11 +1,11 @@
-// A session at one moment.
+// Progress of a session, a snapshot.
 using System.Collections.Generic;
 
 namespace Bespoke
 {
     /// <summary>
-    /// A session at one moment. Lengths are in the normalised space, in which the longest side of the skeleton's
-    /// bounding box is 2.
+    /// Progress of a session, a snapshot. Lengths are in the normalised space, in which the longest side of the
+    /// skeleton's bounding box is 2.
     /// </summary>
     public sealed class SessionProgress
     {
@@ -30,7 +30,7 @@ namespace Bespoke
             Energies = energies;
         }
 
-        /// <summary>Where the session is.</summary>
+        /// <summary>The stage of the session.</summary>
         public Stage Stage { get; }
 
         /// <summary>Iterations of this stage so far.</summary>
@@ -51,13 +51,13 @@ namespace Bespoke
         /// <summary>Contact pairs closer than <see cref="Options.Dhat"/>.</summary>
         public long ActiveContacts { get; }
 
-        /// <summary>Seconds in step 1 so far.</summary>
+        /// <summary>Seconds in prepare so far.</summary>
         public double PrepareSeconds { get; }
 
-        /// <summary>Seconds in step 2 so far.</summary>
+        /// <summary>Seconds in inflate so far.</summary>
         public double InflateSeconds { get; }
 
-        /// <summary>Seconds in step 3 so far.</summary>
+        /// <summary>Seconds in fit so far.</summary>
         public double FitSeconds { get; }
 
         /// <summary>Seconds in the verifier so far.</summary>

@@ -4,6 +4,7 @@ use std::ffi::c_void;
 use std::mem::offset_of;
 
 use bespoke::capi::control::{BespokeProgress, bespoke_session_read_progress};
+use bespoke::capi::coordinate_system::*;
 use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::options::*;

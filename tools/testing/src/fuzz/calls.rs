@@ -3,6 +3,7 @@
 use std::ptr::{null, null_mut};
 
 use bespoke::capi::control::*;
+use bespoke::capi::coordinate_system::*;
 use bespoke::capi::fit::*;
 use bespoke::capi::inputs::*;
 use bespoke::capi::layers::*;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::{files, read, root};
 
-/// The words of a name or of a text, with their lines: `SetSourceCoordinateSystem`, `SOURCE_SPACE` and "source space" hold the same two in
+/// The words of a name or of a text, with their lines: `SetSourceSpace`, `SOURCE_SPACE` and "source space" hold the same two in
 /// a row, but for their letters' case.
 fn words(text: &str) -> Vec<(String, usize)> {
     let mut words: Vec<(String, usize)> = Vec::new();
@@ -76,7 +76,7 @@ fn retired_names_are_found_in_any_spelling() {
         "## Retired names\n\nText with `code`.\n\n| retired | write |\n| --- | --- |\n| `source_space`, `let off`, `Finding` | `x` |\n\n## More\n\n| `y` |\n",
     );
     assert_eq!(names, ["source_space", "let off", "Finding"]);
-    let text = "session.SetSourceCoordinateSystem(s);\nSOURCE_SPACE source_spaces outsource_space\n/// the source\n/// space, let\toff\n\
+    let text = "session.SetSourceSpace(s);\nSOURCE_SPACE source_spaces outsource_space\n/// the source\n/// space, let\toff\n\
                 finding FindingKind";
     let found = uses(text, &names);
     assert_eq!(found, [(1, "source_space"), (2, "source_space"), (3, "source_space"), (4, "let off"), (5, "Finding")]);
