@@ -125,9 +125,9 @@ impl Problem {
         let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
-        let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
+        let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
         cancel.check()?;
-        enclosure::check(garment, &wire)?;
+        enclosure::check(garment, &segments)?;
         cancel.check()?;
 
         let place = |p: DVec3| target_normalization.normalise(p);
