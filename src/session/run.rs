@@ -165,7 +165,7 @@ impl Run {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state)?;
+            self.shortfalls = finish::finish(&self.problem, &mut self.objective, &mut self.state)?;
             self.newton.forget_values();
         }
         if self.objective.contact.update_exemptions(self.state.configuration())? {
