@@ -8,7 +8,7 @@ use super::Session;
 use super::inputs::{Inputs, Pin};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::weld::Weld;
-use crate::stage::setup::pin_targets::AskedPin;
+use crate::stage::setup::pin_targets::PinRequest;
 
 impl Session {
     /// Garment vertices to hold in places; replaces those before. Optional.
@@ -77,7 +77,7 @@ impl Inputs {
     }
 
     /// The pins, one for each welded vertex that has any; places in our space.
-    pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<AskedPin>> {
+    pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<PinRequest>> {
         let mut pins: Vec<(u32, &Pin)> =
             self.pins.iter().map(|pin| (weld.to_welded[pin.vertex as usize], pin)).collect();
         pins.sort_by_key(|&(welded, pin)| (welded, pin.vertex));
