@@ -11,10 +11,10 @@ use crate::input::weld::Weld;
 use crate::stage::setup::pin_targets::PinRequest;
 
 impl Session {
-    /// Garment vertices to hold in places; replaces those before. Optional.
+    /// Garment vertices to hold at targets; replaces those before. Optional.
     ///
     /// # Errors
-    /// `InvalidArgument` for a vertex given twice or a place that is not finite, `InvalidState`. Vertices are compared with
+    /// `InvalidArgument` for a vertex given twice or a target that is not finite, `InvalidState`. Vertices are compared with
     /// the garment's by `prepare`.
     pub fn set_pins(&mut self, pins: Vec<Pin>) -> Result<()> {
         self.setting("the pins")?;
@@ -51,7 +51,7 @@ impl Session {
         Ok(())
     }
 
-    /// Forgets all rigid groups.
+    /// Removes all rigid groups.
     ///
     /// # Errors
     /// `InvalidState`.
@@ -76,7 +76,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// The pins, one for each welded vertex that has any; places in our space.
+    /// The pins, one for each welded vertex that has any; targets in the internal coordinate system.
     pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<PinRequest>> {
         let mut pins: Vec<(u32, &Pin)> =
             self.pins.iter().map(|pin| (weld.to_welded[pin.vertex as usize], pin)).collect();
@@ -92,8 +92,8 @@ impl Inputs {
             }
         }
         pins.dedup_by_key(|pin| pin.0);
-        let ours = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
-        Ok(pins.into_iter().map(|(welded, pin)| (welded, ours(pin.place))).collect())
+        let internal = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
+        Ok(pins.into_iter().map(|(welded, pin)| (welded, internal(pin.place))).collect())
     }
 
     /// The rigid groups as lists of welded vertices.
