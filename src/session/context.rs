@@ -1,4 +1,4 @@
-//! What every job of a session brings along.
+//! What every job of a session is given.
 
 use std::sync::Arc;
 
@@ -6,13 +6,13 @@ use super::fault::Fault;
 use crate::control::Cancel;
 use crate::panics::PanicLog;
 
-/// What all work of a session has with it.
+/// What every job of a session is given.
 #[derive(Clone, Default)]
 pub(super) struct Context {
-    /// Stops it.
+    /// Cancels it.
     pub(super) stop: Cancel,
-    /// Hears of its panics.
+    /// Collects its panic messages.
     pub(super) panics: Arc<PanicLog>,
-    /// Where it is to panic.
+    /// Where it is to panic, in tests.
     pub(super) fault: Option<Fault>,
 }

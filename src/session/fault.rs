@@ -38,7 +38,7 @@ impl Fault {
 }
 
 impl Session {
-    /// From now on the session panics when it gets there.
+    /// Makes the session panic when it gets there.
     #[doc(hidden)]
     pub fn inject_fault(&mut self, fault: Fault) {
         self.fault = Some(fault);

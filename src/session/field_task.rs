@@ -20,7 +20,7 @@ pub(super) struct FieldTask {
 }
 
 impl FieldTask {
-    /// Begins to build it.
+    /// Begins to build the field.
     pub(super) fn start(avatar: Arc<TriangleMesh>, voxel: f64, threads: usize, context: &Context) -> Result<Self> {
         let (stop, panics, fault) = (context.stop.clone(), context.panics.clone(), context.fault);
         let cancel = stop.clone();
@@ -37,7 +37,8 @@ impl FieldTask {
         Ok(Self { handle: Some(handle), stop })
     }
 
-    /// Waits for the field, or for a cancel. A panic of its thread goes on in the caller.
+    /// Waits for the field, or for a cancel; returns it with the seconds that it took. A panic of its thread resumes in the
+    /// caller.
     pub(super) fn wait(&mut self) -> Result<(Field, f64)> {
         let Some(handle) = self.handle.take() else {
             return Err(Error::new(ErrorKind::Internal, "the distance field was taken twice"));
@@ -50,7 +51,7 @@ impl Drop for FieldTask {
     fn drop(&mut self) {
         self.stop.request();
         if let Some(handle) = self.handle.take() {
-            // Its result is of no use any more, an error neither.
+            // Neither its result nor its error is needed any more.
             drop(handle.join());
         }
     }

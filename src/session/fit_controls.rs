@@ -8,13 +8,13 @@ use super::Session;
 use super::inputs::{Inputs, Pin};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::weld::Weld;
-use crate::stage::setup::pin_targets::AskedPin;
+use crate::stage::setup::pin_targets::PinRequest;
 
 impl Session {
-    /// Garment vertices to hold in places; replaces those before. Optional.
+    /// Garment vertices to hold at targets; replaces those before. Optional.
     ///
     /// # Errors
-    /// `InvalidArgument` for a vertex given twice or a place that is not finite, `InvalidState`. Vertices are compared with
+    /// `InvalidArgument` for a vertex given twice or a target that is not finite, `InvalidState`. Vertices are compared with
     /// the garment's by `prepare`.
     pub fn set_pins(&mut self, pins: Vec<Pin>) -> Result<()> {
         self.setting("the pins")?;
@@ -51,7 +51,7 @@ impl Session {
         Ok(())
     }
 
-    /// Forgets all rigid groups.
+    /// Removes all rigid groups.
     ///
     /// # Errors
     /// `InvalidState`.
@@ -76,8 +76,8 @@ impl Inputs {
         Ok(())
     }
 
-    /// The pins, one for each welded vertex that has any; places in our space.
-    pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<AskedPin>> {
+    /// The pins, one for each welded vertex that has any; targets in the internal coordinate system.
+    pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<PinRequest>> {
         let mut pins: Vec<(u32, &Pin)> =
             self.pins.iter().map(|pin| (weld.to_welded[pin.vertex as usize], pin)).collect();
         pins.sort_by_key(|&(welded, pin)| (welded, pin.vertex));

@@ -1,4 +1,4 @@
-//! What a caller has set. Shared, so that work that goes on keeps what it needs.
+//! What a caller has set. Shared, so that a run keeps what it needs.
 
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub struct Pin {
     pub target: Option<DVec3>,
 }
 
-/// Everything that can be set, in the caller's own spaces.
+/// Everything that can be set, in the caller's own coordinate systems.
 #[derive(Clone, Default)]
 pub(super) struct Inputs {
     pub(super) garment: Option<(Arc<TriangleMesh>, Precision)>,
@@ -47,13 +47,14 @@ pub(super) struct Inputs {
 }
 
 impl Session {
-    pub(super) fn setting(&self, what: &str) -> Result<()> {
+    /// Refuses to set `name` after `prepare`.
+    pub(super) fn setting(&self, name: &str) -> Result<()> {
         if self.stage == Stage::Setup {
             return Ok(());
         }
         Err(Error::new(
             ErrorKind::InvalidState,
-            format!("{what} cannot be set after prepare; call reset first, which keeps the inputs"),
+            format!("{name} cannot be set after prepare; call reset first, which keeps the inputs"),
         ))
     }
 
@@ -95,7 +96,7 @@ impl Session {
         Ok(())
     }
 
-    /// Adds a garment that the avatar wears already, in the target space, such as the result of another session: from now on
+    /// Adds a garment that the avatar wears already, in the target space, such as the result of another session:
     /// it is treated as a part of the avatar, exactly as it is given. Layers are numbered from 0 in the order in which they
     /// are added, and stay with another avatar and after `reset`.
     ///
@@ -108,7 +109,7 @@ impl Session {
         Ok(())
     }
 
-    /// Takes all layers off.
+    /// Removes all layers.
     ///
     /// # Errors
     /// `InvalidState`.
@@ -222,7 +223,7 @@ impl Inputs {
         meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin
     }
 
-    /// The sizes that are known before anything is done.
+    /// The sizes that are known from the inputs.
     pub(super) fn sizes(&self) -> Sizes {
         let vertices = |mesh: &Arc<TriangleMesh>| mesh.positions.len();
         let triangles = |mesh: &Arc<TriangleMesh>| mesh.triangles.len();
@@ -233,8 +234,8 @@ impl Inputs {
         }
     }
 
-    /// Checks the inputs against each other and poses the problem, of the body as its caller has it. What is worth knowing
-    /// goes to `diagnostics`.
+    /// Checks the inputs against each other and poses the problem; returns it with the body as its caller has it. Adds to
+    /// `diagnostics`.
     ///
     /// # Errors
     /// `InvalidState` where an input is missing, those of [`Problem::new`].
@@ -311,8 +312,8 @@ fn skeleton_to_internal(space: &CoordinateSystem, skeleton: &Skeleton) -> Skelet
     }
 }
 
-pub(super) fn missing<T>(what: &str, call: &str) -> Result<T> {
-    Err(Error::new(ErrorKind::InvalidState, format!("{what} is missing: call {call} before prepare")))
+pub(super) fn missing<T>(name: &str, call: &str) -> Result<T> {
+    Err(Error::new(ErrorKind::InvalidState, format!("{name} is missing: call {call} before prepare")))
 }
 
 fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) -> Result<()> {

@@ -1,7 +1,7 @@
 //! One garment on its way to one avatar: the state machine that a caller sees.
 //!
-//! What takes long is done by jobs in the session's own threads, one after the other, which own what they work on. What
-//! can be read is kept apart from them: it is replaced after each iteration, and stays when a job is left.
+//! What takes long is done by jobs in the session's own threads, one after the other, which own what they work on. The
+//! snapshot that can be read is kept apart from them: it is replaced after each iteration, and stays when a job is abandoned.
 
 mod context;
 mod fault;
@@ -48,23 +48,23 @@ pub struct Budget {
 
 /// One retargeting: inputs, then `prepare`, then `step` or `run`, then results.
 ///
-/// A request to stop (see [`Session::control`]) ends the call that runs at once, whatever it is doing; work under way then
-/// comes to its end in the background. `reset` and dropping the session wait for that.
+/// A request to stop (see [`Session::control`]) ends the call that runs at once, whatever it is doing; its job is abandoned
+/// and ends in the background. `reset` and dropping the session wait for that.
 #[derive(Default)]
 pub struct Session {
     inputs: Inputs,
     control: Arc<Control>,
     /// Requests to stop that a call has answered.
     answered: AtomicU64,
-    /// At rest between two jobs; gone once one was left.
-    work: Option<Box<Run>>,
-    /// After `work`, which is dropped first.
+    /// Present between two jobs; gone once one was abandoned.
+    run: Option<Box<Run>>,
+    /// After `run`, which is dropped first.
     pool: Option<WorkerPool>,
     snapshot: Option<Snapshot>,
     stage: Stage,
     report: Report,
     diagnostics: Vec<Diagnostic>,
-    /// What the verifier says of the result in the precision that is not the garment's own.
+    /// The verification of the result in the precision that is not the garment's own.
     other_precision: Option<(Precision, Verification)>,
     panics: Arc<PanicLog>,
     fault: Option<Fault>,
@@ -76,7 +76,7 @@ impl Session {
         Self::default()
     }
 
-    /// Step 1: checks the inputs against each other, projects the avatar onto the skeleton, begins to build the distance
+    /// Stage PREPARE: checks the inputs against each other, projects the avatar onto the skeleton, begins to build the distance
     /// field.
     ///
     /// # Errors
@@ -98,29 +98,29 @@ impl Session {
         let pool = self.pool.insert(WorkerPool::new(threads, &self.panics)?);
         let job = move || {
             let mut diagnostics = Vec::new();
-            let work = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);
-            (work, diagnostics)
+            let run = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);
+            (run, diagnostics)
         };
-        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(work, diagnostics)| {
+        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(run, diagnostics)| {
             self.diagnostics = diagnostics;
-            work
+            run
         });
-        let work = match outcome {
-            Ok(work) => work,
+        let run = match outcome {
+            Ok(run) => run,
             Err(error) if error.kind == ErrorKind::Cancelled => return Err(self.answer(error)),
             Err(error) => {
                 self.pool = None;
                 return Err(error);
             }
         };
-        self.report = work.report.clone();
-        self.snapshot = Some(Snapshot::of(&work, self.inputs.target_coordinate_system));
-        self.work = Some(work);
+        self.report = run.report.clone();
+        self.snapshot = Some(Snapshot::of(&run, self.inputs.target_coordinate_system));
+        self.run = Some(run);
         self.enter(Stage::Prepared);
         Ok(())
     }
 
-    /// Remembers that a request to stop was answered, where `error` is that answer.
+    /// Records that a request to stop was answered, where `error` is that answer.
     fn answer(&self, error: Error) -> Error {
         if error.kind == ErrorKind::Cancelled {
             self.answered.store(self.control.requests(), Ordering::Relaxed);
@@ -169,39 +169,39 @@ impl Session {
         }
     }
 
-    /// One job: the work goes there and comes back.
+    /// One job: the run is moved to it and comes back.
     fn iterate_once(&mut self) -> Result<Stage> {
         if self.control.is_cancelled() {
             return Err(Cancelled.into());
         }
-        let (Some(mut work), Some(pool)) = (self.work.take(), &self.pool) else {
-            return Err(Error::new(ErrorKind::Internal, "there is no work in a running session"));
+        let (Some(mut run), Some(pool)) = (self.run.take(), &self.pool) else {
+            return Err(Error::new(ErrorKind::Internal, "there is no run in a session under way"));
         };
-        let stop = work.context.stop.clone();
+        let stop = run.context.stop.clone();
         let control = &self.control;
-        let (mut work, outcome) = pool.run(
+        let (mut run, outcome) = pool.run(
             || control.is_cancelled(),
             &stop,
             move || {
-                let outcome = work.iterate();
-                (work, outcome)
+                let outcome = run.iterate();
+                (run, outcome)
             },
         )?;
-        self.report = work.report.clone();
-        if let Some(view) = &mut self.snapshot {
-            view.follow(&work);
+        self.report = run.report.clone();
+        if let Some(snapshot) = &mut self.snapshot {
+            snapshot.update(&run);
         }
         if let Err(error) = &outcome
             && error.kind == ErrorKind::InflationStalled
         {
-            self.diagnostics.append(&mut work.shortfalls);
+            self.diagnostics.append(&mut run.shortfalls);
         }
-        self.work = Some(work);
+        self.run = Some(run);
         outcome
     }
 
-    /// The exact verifier has the last word, on the values as the caller will read them. Where it objects, the fit goes on
-    /// with wider distances, a few times.
+    /// The exact verifier decides, on the values as the caller will read them. If it finds an intersection, the fit goes on
+    /// with wider contact distances, a few times.
     fn finish(&mut self) -> Result<Stage> {
         let clock = Instant::now();
         let precision = self.inputs.garment.as_ref().map_or(Precision::F32, |g| g.1);
@@ -211,8 +211,8 @@ impl Session {
         let counted = verdict.counted;
         self.report.verification = Some(counted);
         if !counted.is_clean() {
-            if let Some(work) = &mut self.work
-                && work.widen()
+            if let Some(run) = &mut self.run
+                && run.widen()
             {
                 self.enter(Stage::Fit);
                 return Ok(Stage::Fit);
@@ -220,7 +220,7 @@ impl Session {
             self.diagnostics.extend(verdict.diagnostics());
             return Err(not_verified(&counted));
         }
-        self.diagnostics.extend(self.work.iter_mut().flat_map(|work| std::mem::take(&mut work.shortfalls)));
+        self.diagnostics.extend(self.run.iter_mut().flat_map(|run| std::mem::take(&mut run.shortfalls)));
         let (clock, other) = (Instant::now(), precision.other());
         self.other_precision = Some((other, self.verify_as_read(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
@@ -239,8 +239,8 @@ impl Session {
         self.step(Budget::default())
     }
 
-    /// What is worth knowing about the inputs, since prepare, about the result, and about what holds the garment where the
-    /// inflation stalled; in the caller's indices.
+    /// Diagnostics about the inputs, since prepare, about the result, and about what holds the garment where the inflation
+    /// stalled; in the caller's indices.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
@@ -263,9 +263,9 @@ impl Session {
     fn enter(&mut self, stage: Stage) {
         self.stage = stage;
         let mut progress = Progress { stage, ..Progress::default() };
-        if let Some(view) = &self.snapshot {
-            progress.t = view.t;
-            progress.iteration = view.iteration;
+        if let Some(snapshot) = &self.snapshot {
+            progress.t = snapshot.t;
+            progress.iteration = snapshot.iteration;
             let report = &self.report;
             progress.gradient_norm = report.gradient_norm;
             progress.min_distance = report.min_distance_self.min(report.min_distance_avatar);
@@ -281,7 +281,7 @@ impl Session {
         self.control.publish(&progress);
     }
 
-    /// Hears of the panics of the session's threads.
+    /// Collects the panic messages of the session's threads.
     #[cfg(feature = "capi")]
     pub(crate) fn panics(&self) -> Arc<PanicLog> {
         self.panics.clone()
@@ -338,29 +338,29 @@ impl Session {
     /// `InvalidState` before `prepare`, `Cancelled` by a request that no call has answered yet; the stage stays.
     pub fn verify(&self, precision: Precision) -> Result<Verification> {
         let answered = self.answered.load(Ordering::Relaxed);
-        let judged = self.verify_as_read(precision, || self.control.requests() > answered);
-        judged.map(|verdict| verdict.counted).map_err(|error| self.answer(error))
+        let verified = self.verify_as_read(precision, || self.control.requests() > answered);
+        verified.map(|verdict| verdict.counted).map_err(|error| self.answer(error))
     }
 
     fn verify_as_read(&self, precision: Precision, should_stop: impl Fn() -> bool) -> Result<Verdict> {
-        let (view, Some(pool)) = (self.readable()?, &self.pool) else {
+        let (snapshot, Some(pool)) = (self.readable()?, &self.pool) else {
             return Err(Error::new(ErrorKind::Internal, "there are no threads in a prepared session"));
         };
         if should_stop() {
             return Err(Cancelled.into());
         }
-        let (view, stop, fault) = (view.clone(), Cancel::new(), self.fault);
+        let (snapshot, stop, fault) = (snapshot.clone(), Cancel::new(), self.fault);
         let cancel = stop.clone();
         let job = move || {
             Fault::Verify.at(fault);
-            view.verify_as_read(precision, &cancel)
+            snapshot.verify_as_read(precision, &cancel)
         };
         pool.run(should_stop, &stop, job)?
     }
 
-    /// Back to where inputs can be set; the inputs stay. Waits for work that a request to stop has left.
+    /// Back to where inputs can be set; the inputs stay. Waits for a job that a request to stop has abandoned.
     pub fn reset(&mut self) {
-        self.work = None;
+        self.run = None;
         if let Some(pool) = self.pool.take() {
             pool.drain();
         }

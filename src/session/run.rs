@@ -1,4 +1,4 @@
-//! What exists between `prepare` and `reset`: the problem, its present state, and the step of the paper under way.
+//! What exists between `prepare` and `reset`: the problem, its present state, and the stage under way.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -7,7 +7,7 @@ use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
 use super::inputs::Inputs;
-use crate::control::Stage;
+use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
 use crate::input::diagnostic::Diagnostic;
@@ -23,7 +23,7 @@ use crate::stage::inflate::Inflation;
 use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
 
-/// How often the fit goes on with wider distances where rounding has broken its result.
+/// How often the fit goes on with wider contact distances where rounding has made its result intersect.
 const MAX_DISTANCE_DOUBLINGS: u32 = 2;
 
 /// What exists between `prepare` and `reset`.
@@ -39,13 +39,13 @@ pub(super) struct Run {
     field: FieldTask,
     /// Pairs of garment triangles that intersected at the start.
     pub(super) initial_intersections: Arc<[[u32; 2]]>,
-    /// How often the distances were widened.
-    widened: u32,
-    /// The distances are to be widened.
-    is_narrow: bool,
+    /// How often the contact distances were doubled.
+    doublings: u32,
+    /// They are to be doubled before the next iteration.
+    must_widen: bool,
     /// What was measured so far.
     pub(super) report: Report,
-    /// Step 1 began then.
+    /// When `prepare` began.
     begun: Instant,
     /// Bytes of the inputs and the problem.
     held: u64,
@@ -58,15 +58,15 @@ pub(super) struct Run {
     pub(super) context: Context,
 }
 
-/// The step of the paper that is under way.
+/// The stage that is under way.
 enum Step {
     Inflate(Inflation),
     Fit(FitStage),
 }
 
 impl Run {
-    /// Step 1: poses the problem of `inputs`, begins to build the distance field with so many threads, and sets up Step 2.
-    /// What is worth knowing goes to `diagnostics`, also where it fails.
+    /// Stage PREPARE: poses the problem of `inputs`, begins to build the distance field with so many threads, and sets up the
+    /// inflation. Adds to `diagnostics`, also where it fails.
     pub(super) fn prepare(
         inputs: &Inputs,
         threads: usize,
@@ -75,62 +75,44 @@ impl Run {
     ) -> Result<Self> {
         let stop = &context.stop;
         Fault::Prepare.at(context.fault);
-        let clock = Instant::now();
-        let limit = MemoryLimit::new(inputs.options.memory_limit);
-        let held = inputs.memory();
-        let sizes = inputs.sizes();
-        limit.reserving(held).check(&sizes.estimate())?;
-        let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
-        stop.check()?;
-        let expected = Field::estimate(&problem.avatar, inputs.options.voxel_size)?;
-        let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field: expected, ..sizes };
-        limit.reserving(held).check(&sizes.estimate())?;
-        let field = FieldTask::start(problem.avatar.clone(), inputs.options.voxel_size, threads, &context)?;
+        let begun = Instant::now();
+        let options = inputs.options.clone();
+        let limit = MemoryLimit::new(options.memory_limit);
+        let (problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
+        let field = FieldTask::start(problem.avatar.clone(), options.voxel_size, threads, &context)?;
         let state = State { x: problem.rest.clone(), t: 0.0 };
-        let mut objective = problem.inflation_objective(&inputs.options, stop, diagnostics)?;
+        let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
-        let held = held + problem.memory();
+        let held = inputs.memory() + problem.memory();
         let budget = limit.reserving(held + expected + objective.memory());
         let mut newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
-        let mut report = Report {
-            garment_size: [problem.rest.len(), problem.triangles.len()],
-            avatar_size: body.avatar_size(),
-            projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
-            min_separation: objective.contact.min_separation(),
-            initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
-            threads,
-            ..Report::default()
-        };
-        report.prepare.collect(&mut newton, &mut objective, clock);
-        let (problem, step) = (Arc::new(problem), Step::Inflate(Inflation::default()));
-        let initial_intersections = objective.contact.exempt_pairs().triangle_pairs().into();
-        let options = inputs.options.clone();
-        let (widened, is_narrow) = (0, false);
-        let mut work = Self {
+        let mut report = initial_report(&problem, &body, &objective, threads);
+        report.prepare.collect(&mut newton, &mut objective, begun);
+        let mut run = Self {
             options,
-            problem,
+            problem: Arc::new(problem),
             body: Arc::new(body),
             state,
+            initial_intersections: objective.contact.exempt_pairs().triangle_pairs().into(),
             objective,
             newton,
-            step,
+            step: Step::Inflate(Inflation::default()),
             field,
             held,
             expected,
             distance: None,
-            initial_intersections,
-            widened,
-            is_narrow,
+            doublings: 0,
+            must_widen: false,
             report,
-            begun: clock,
+            begun,
             shortfalls: Vec::new(),
             context,
         };
-        work.check_memory()?;
-        Ok(work)
+        run.check_memory()?;
+        Ok(run)
     }
 
-    /// Iterations of the step under way.
+    /// Iterations of the stage under way.
     pub(super) fn iterations(&self) -> u32 {
         match &self.step {
             Step::Inflate(s) => s.iterations,
@@ -143,7 +125,7 @@ impl Run {
         Fault::Iteration.at(self.context.fault);
         Fault::Worker.at(self.context.fault);
         let clock = Instant::now();
-        if std::mem::take(&mut self.is_narrow) {
+        if std::mem::take(&mut self.must_widen) {
             self.objective.contact.double_distances();
             self.newton.forget_values();
             self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
@@ -165,7 +147,7 @@ impl Run {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = finish::close(&self.problem, &mut self.objective, &mut self.state)?;
+            self.shortfalls = finish::finish(&self.problem, &mut self.objective, &mut self.state)?;
             self.newton.forget_values();
         }
         if self.objective.contact.update_exemptions(self.state.configuration())? {
@@ -174,7 +156,7 @@ impl Run {
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
         part.iterations += 1;
         part.collect(&mut self.newton, &mut self.objective, clock);
-        self.describe();
+        self.update_report();
         self.check_memory()?;
         match (stage, ended) {
             (_, false) => Ok(stage),
@@ -187,7 +169,7 @@ impl Run {
         }
     }
 
-    /// Where the inflation has stalled, finds what holds the garment, and points to it in the message.
+    /// Where the inflation has stalled, finds what holds the garment, and points to the diagnostics in the message.
     fn explained(&mut self, mut error: Error) -> Error {
         if error.kind == ErrorKind::InflationStalled {
             let at = self.state.configuration();
@@ -199,11 +181,11 @@ impl Run {
         error
     }
 
-    /// Step 3 is to go on with wider distances. False where that was done often enough.
+    /// Makes the fit go on with wider contact distances. False where that was done often enough.
     pub(super) fn widen(&mut self) -> bool {
-        self.is_narrow = self.widened < MAX_DISTANCE_DOUBLINGS;
-        self.widened += 1;
-        self.is_narrow
+        self.must_widen = self.doublings < MAX_DISTANCE_DOUBLINGS;
+        self.doublings += 1;
+        self.must_widen
     }
 
     fn begin_fit(&mut self) -> Result<()> {
@@ -232,12 +214,12 @@ impl Run {
         self.distance.as_ref().map_or(self.expected, |field| field.memory() + field.closest_point().memory())
     }
 
-    /// What objective and solver may take.
+    /// The memory that is left for objective and solver.
     fn remaining_budget(&self) -> MemoryLimit {
         MemoryLimit::new(self.options.memory_limit).reserving(self.held + self.field_memory())
     }
 
-    /// Reports what is held, and refuses to go on beyond the limit.
+    /// Reports the memory that is held, and refuses to go on beyond the limit.
     fn check_memory(&mut self) -> Result<()> {
         let (contacts, system) = (self.objective.memory(), self.newton.memory());
         self.report.memory = self.held + self.field_memory() + contacts + system;
@@ -254,7 +236,7 @@ impl Run {
         Ok(())
     }
 
-    fn describe(&mut self) {
+    fn update_report(&mut self) {
         let report = &mut self.report;
         let at = self.state.configuration();
         let contact = self.objective.contact.activity(at);
@@ -275,18 +257,50 @@ impl Run {
     }
 }
 
-fn check_limit(iterations: u32, options: &Options, what: &str, t: f64) -> Result<()> {
+/// The problem of `inputs`, the body, and the bytes that the distance field is expected to take. Refuses early what will
+/// exceed `limit`.
+fn pose(
+    inputs: &Inputs,
+    limit: MemoryLimit,
+    stop: &Cancel,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<(Problem, Body, u64)> {
+    let left = limit.reserving(inputs.memory());
+    let sizes = inputs.sizes();
+    left.check(&sizes.estimate())?;
+    let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
+    stop.check()?;
+    let field = Field::estimate(&problem.avatar, inputs.options.voxel_size)?;
+    let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field, ..sizes };
+    left.check(&sizes.estimate())?;
+    Ok((problem, body, field))
+}
+
+/// The report before the first iteration.
+fn initial_report(problem: &Problem, body: &Body, objective: &Objective, threads: usize) -> Report {
+    Report {
+        garment_size: [problem.rest.len(), problem.triangles.len()],
+        avatar_size: body.avatar_size(),
+        projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
+        min_separation: objective.contact.min_separation(),
+        initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
+        threads,
+        ..Report::default()
+    }
+}
+
+fn check_limit(iterations: u32, options: &Options, name: &str, t: f64) -> Result<()> {
     if iterations < options.max_iterations {
         return Ok(());
     }
     Err(Error::new(
         ErrorKind::InflationStalled,
-        format!("the {what} did not end in {iterations} iterations: t is {t:.4}; raise max_iterations"),
+        format!("the {name} did not end in {iterations} iterations: t is {t:.4}; raise max_iterations"),
     ))
 }
 
 impl StageReport {
-    /// Adds the work of solver and objective that no stage has, and the time since `clock`.
+    /// Adds what solver and objective have counted since the last call, and the time since `clock`.
     fn collect(&mut self, newton: &mut Newton, objective: &mut Objective, clock: Instant) {
         self.seconds += clock.elapsed().as_secs_f64();
         let counters = std::mem::take(&mut newton.counters);

@@ -1,4 +1,4 @@
-//! What a caller can read: the last accepted iterate, apart from the work that goes on.
+//! What a caller can read: the last accepted iterate, apart from the run that goes on.
 
 use std::sync::Arc;
 
@@ -15,13 +15,13 @@ use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::precision::Precision;
 use crate::stage::setup::problem::Problem;
 
-/// The last accepted iterate, with all that it takes to hand it out in the caller's space.
+/// The last accepted iterate, with all that it takes to return it in the caller's coordinate system.
 #[derive(Clone)]
 pub(super) struct Snapshot {
     problem: Arc<Problem>,
     /// As the caller gave it.
     body: Arc<Body>,
-    space: CoordinateSystem,
+    coordinate_system: CoordinateSystem,
     /// Pairs of garment triangles that intersected at the start.
     initial_intersections: Arc<[[u32; 2]]>,
     /// Welded garment vertices in the normalised space.
@@ -33,24 +33,24 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// What `work` has reached. The target is in `space`.
-    pub(super) fn of(work: &Run, space: CoordinateSystem) -> Self {
+    /// The present iterate of `run`. The target is in `coordinate_system`.
+    pub(super) fn of(run: &Run, coordinate_system: CoordinateSystem) -> Self {
         Self {
-            problem: work.problem.clone(),
-            body: work.body.clone(),
-            space,
-            initial_intersections: work.initial_intersections.clone(),
-            x: work.state.x.clone(),
-            t: work.state.t,
-            iteration: work.iterations(),
+            problem: run.problem.clone(),
+            body: run.body.clone(),
+            coordinate_system,
+            initial_intersections: run.initial_intersections.clone(),
+            x: run.state.x.clone(),
+            t: run.state.t,
+            iteration: run.iterations(),
         }
     }
 
-    /// Follows `work` to what it has reached now.
-    pub(super) fn follow(&mut self, work: &Run) {
-        self.x.clone_from(&work.state.x);
-        self.t = work.state.t;
-        self.iteration = work.iterations();
+    /// Updates it to the present iterate of `run`.
+    pub(super) fn update(&mut self, run: &Run) {
+        self.x.clone_from(&run.state.x);
+        self.t = run.state.t;
+        self.iteration = run.iterations();
     }
 
     pub(super) fn garment_positions(&self) -> Vec<DVec3> {
@@ -60,7 +60,7 @@ impl Snapshot {
 
     pub(super) fn avatar_positions(&self) -> Vec<DVec3> {
         if self.t >= 1.0 {
-            // To the bit as it came, not through the normalised space and back.
+            // As it was set, to the bit, not through the normalised space and back.
             return self.body.avatar_positions().to_vec();
         }
         let between = self.problem.projected.shrunk.iter().zip(&self.problem.avatar.positions);
@@ -75,10 +75,10 @@ impl Snapshot {
     }
 
     fn restored(&self, p: DVec3) -> DVec3 {
-        self.space.position_from_internal(self.problem.target_normalization.restore(p))
+        self.coordinate_system.position_from_internal(self.problem.target_normalization.restore(p))
     }
 
-    /// Judges the garment as it is read in `precision`.
+    /// Verifies the garment as it is read in `precision`.
     pub(super) fn verify_as_read(&self, precision: Precision, cancel: &Cancel) -> Result<Verdict> {
         let positions = self.x.iter().map(|&p| precision.round(self.restored(p))).collect();
         let garment = TriangleMesh { positions, triangles: self.problem.triangles.clone() };

@@ -1,4 +1,4 @@
-//! What the exact verifier says of a garment as its caller would read it, against what it was at the start.
+//! The result of the exact verifier for a garment as its caller would read it, compared with the start.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::input::weld::Weld;
 use crate::report::Verification;
 use crate::verify::intersections_with_cancel;
 
-/// Counts, and the pairs of triangles that must not be there, in the caller's indices.
+/// Counts, and the pairs of triangles that must not intersect, in the caller's indices.
 pub(super) struct Verdict {
     pub(super) counted: Verification,
     /// Pairs of garment triangles that did not intersect at the start.
@@ -22,8 +22,8 @@ pub(super) struct Verdict {
 }
 
 impl Verdict {
-    /// Judges the welded `garment`, of which the pairs of triangles in `initial_intersections`, in ascending order, intersected at the
-    /// start.
+    /// Verifies the welded `garment`, of which the pairs of triangles in `initial_intersections`, in ascending order,
+    /// intersected at the start.
     ///
     /// # Errors
     /// `InvalidMesh` where a coordinate is not finite, `Cancelled`.
@@ -51,7 +51,7 @@ impl Verdict {
         })
     }
 
-    /// The pairs that must not be there.
+    /// The pairs that must not intersect.
     pub(super) fn diagnostics(&self) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         Diagnostic::list(&mut diagnostics, &self.own, |&triangles| Diagnostic::ResultSelfIntersection { triangles });

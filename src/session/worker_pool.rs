@@ -1,8 +1,8 @@
-//! Run that is done in threads of the session's own, so that a caller who asks to stop never waits for a kernel.
+//! The session's own threads, in which all jobs run, so that a caller who cancels never waits for a kernel.
 //!
-//! The caller's thread only waits: for the result, or for a request to stop. In the latter case it leaves at once, and
-//! the job, which owns all that it works on, ends in the background at its next checkpoint. Whoever goes on with the
-//! session, or ends it, waits for that.
+//! The caller's thread only waits: for the result, or for a request to stop. In the latter case it abandons the job and
+//! returns at once; the job, which owns all that it works on, ends in the background at its next checkpoint. A reset or
+//! drop of the session waits for that.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,23 +15,23 @@ use crate::control::{Cancel, Cancelled};
 use crate::error::{Error, ErrorKind, Result};
 use crate::panics::{PanicLog, resume_on_caller, with_panic_log};
 
-/// How often a waiting caller looks for a request to stop.
+/// How often a waiting caller checks for a request to stop.
 const POLL: Duration = Duration::from_millis(2);
 
 type Panic = Box<dyn Any + Send>;
 
-/// Threads of one session. Dropping it waits for them, so that none is left when a host unloads the library.
+/// Threads of one session. Dropping it joins them, so that none is running when a host unloads the library.
 pub(super) struct WorkerPool {
     /// Taken when dropped.
     threads: Option<rayon::ThreadPool>,
     handles: Vec<JoinHandle<()>>,
-    /// Jobs that were left to end by themselves: each sends the panic that ended it, or hangs up.
-    left: Mutex<Vec<Receiver<Panic>>>,
+    /// Abandoned jobs, which end by themselves: each sends the panic that ended it, or disconnects.
+    abandoned: Mutex<Vec<Receiver<Panic>>>,
     panics: Arc<PanicLog>,
 }
 
 impl WorkerPool {
-    /// A pool of `count` threads, of whose panics `panics` hears.
+    /// A pool of `count` threads, whose panic messages `panics` collects.
     ///
     /// # Errors
     /// `Internal` where the system has no more threads.
@@ -47,42 +47,42 @@ impl WorkerPool {
             })
             .build()
             .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")))?;
-        Ok(Self { threads: Some(threads), handles, left: Mutex::default(), panics: panics.clone() })
+        Ok(Self { threads: Some(threads), handles, abandoned: Mutex::default(), panics: panics.clone() })
     }
 
-    /// Does `work` in the pool and returns what it gives. As soon as `should_stop` says so, `stop`, which `work` looks at,
-    /// is set and the job is left; what it still gives is dropped where it ran. A panic goes on in the caller.
+    /// Runs `job` in the pool and returns its result. As soon as `should_stop` is true, `stop`, which the job checks, is set
+    /// and the job is abandoned; its result is then dropped where it ran. A panic resumes in the caller.
     ///
     /// # Errors
-    /// `Cancelled` where the job was left.
+    /// `Cancelled` where the job was abandoned.
     pub(super) fn run<T: Send + 'static>(
         &self,
         should_stop: impl Fn() -> bool,
         stop: &Cancel,
-        work: impl FnOnce() -> T + Send + 'static,
+        job: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T> {
-        // Without a buffer: what nobody takes goes back to the job, which may take its time to free it.
-        let (give, take) = sync_channel(0);
-        let (fail, end) = channel::<Panic>();
+        // Without a buffer: a result that nobody receives is dropped in the job's thread, however long that takes.
+        let (sender, receiver) = sync_channel(0);
+        let (panic_sender, panic_receiver) = channel::<Panic>();
         let Some(threads) = &self.threads else {
             return Err(Error::new(ErrorKind::Internal, "the session's threads have ended"));
         };
         threads.spawn(move || {
-            let done = catch_unwind(AssertUnwindSafe(move || drop(give.send(work()))));
+            let done = catch_unwind(AssertUnwindSafe(move || drop(sender.send(job()))));
             if let Err(panic) = done {
-                drop(fail.send(panic));
+                drop(panic_sender.send(panic));
             }
         });
         loop {
-            match take.recv_timeout(POLL) {
+            match receiver.recv_timeout(POLL) {
                 Ok(value) => return Ok(value),
                 Err(RecvTimeoutError::Timeout) if should_stop() => {
                     stop.request();
-                    self.left.lock().unwrap_or_else(PoisonError::into_inner).push(end);
+                    self.abandoned.lock().unwrap_or_else(PoisonError::into_inner).push(panic_receiver);
                     return Err(Cancelled.into());
                 }
                 Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => match end.recv() {
+                Err(RecvTimeoutError::Disconnected) => match panic_receiver.recv() {
                     Ok(panic) => resume_on_caller(&self.panics, panic),
                     Err(_) => {
                         return Err(Error::new(ErrorKind::Internal, "a job of the session ended without a result"));
@@ -92,11 +92,11 @@ impl WorkerPool {
         }
     }
 
-    /// Waits for the jobs that were left. The panic that ended one goes on in the caller.
+    /// Waits for the abandoned jobs. The panic that ended one resumes in the caller.
     pub(super) fn drain(&self) {
-        let left = std::mem::take(&mut *self.left.lock().unwrap_or_else(PoisonError::into_inner));
-        for job in left {
-            if let Ok(panic) = job.recv() {
+        let abandoned = std::mem::take(&mut *self.abandoned.lock().unwrap_or_else(PoisonError::into_inner));
+        for panic_receiver in abandoned {
+            if let Ok(panic) = panic_receiver.recv() {
                 resume_on_caller(&self.panics, panic);
             }
         }
@@ -105,10 +105,10 @@ impl WorkerPool {
 
 impl Drop for WorkerPool {
     fn drop(&mut self) {
-        // The threads end once all that was given to them is done.
+        // The threads end once all their jobs are done.
         drop(self.threads.take());
         for handle in self.handles.drain(..) {
-            // Panics were handled in the jobs.
+            // Panics were caught in the jobs.
             drop(handle.join());
         }
     }

@@ -1,4 +1,4 @@
-//! What holds the garment where the inflation ended before its time.
+//! What holds the garment where the inflation stalled.
 //!
 //! A contact resists the inflation where the barrier's energy rises with t. The contacts that resist are grouped by the part
 //! of the avatar that they belong to; and where a contact of another part, or of the other side of the same one, pushes the
@@ -19,8 +19,8 @@ use crate::input::body::Body;
 use crate::input::diagnostic::{AvatarPart, Bone, Diagnostic};
 
 /// Diagnostics of one blockage, at most.
-const MOST: usize = 8;
-/// Contacts that resist most: those that are looked at.
+const MAX_DIAGNOSTICS: usize = 8;
+/// Contacts that resist most: those that are examined.
 const ANCHORS: usize = 1024;
 /// Contacts that push most: those that may be on the other side of the garment.
 const PARTNERS: usize = 4096;
@@ -35,11 +35,11 @@ const NEAR: f64 = 2.0;
 const FAINT: f64 = 0.01;
 /// The same for a part that pushes from one side only, as a share of all: every limb that wears the garment resists a little.
 const FAINT_ALONE: f64 = 0.1;
-/// Pairs of contacts of a group that are looked at at full size.
+/// Pairs of contacts of a group that are examined at full size.
 const PAIRS: usize = 8;
 
-/// What holds the garment at `at`, the strongest first; nothing where no contact resists the inflation. The pairs of
-/// `objective` are found anew.
+/// What holds the garment at `at`, the strongest first; nothing where no contact resists the inflation. The candidate
+/// pairs of `objective` are rebuilt.
 pub fn find(problem: &Problem, body: &Body, objective: &mut Objective, at: Configuration<'_>) -> Vec<Diagnostic> {
     objective.contact.rebuild_candidates(at);
     let barrier = objective.contact.barrier();
@@ -53,7 +53,8 @@ pub fn find(problem: &Problem, body: &Body, objective: &mut Objective, at: Confi
     let strongest = |groups: &[Group]| groups.first().map_or(0.0, |group| group.resistance);
     let (most_squeezed, most) = (strongest(&squeezed), strongest(&squeezed).max(strongest(&held)));
     let all: f64 = squeezed.iter().chain(&held).map(|group| group.resistance).sum();
-    let squeezed = squeezed.iter().take(MOST).map(|group| (reporter.squeezed(group, &full), group.resistance));
+    let squeezed =
+        squeezed.iter().take(MAX_DIAGNOSTICS).map(|group| (reporter.squeezed(group, &full), group.resistance));
     // Parts that touch come first, however little they resist: there, no option can help.
     let touches = |d: &Diagnostic| matches!(d, Diagnostic::InflationSqueezed { gap: None, .. });
     let clear = squeezed.filter(|(d, resistance)| touches(d) || *resistance >= FAINT * most);
@@ -61,7 +62,7 @@ pub fn find(problem: &Problem, body: &Body, objective: &mut Objective, at: Confi
     found.sort_by_key(|d| !touches(d));
     let alone = held.iter().filter(|g| g.resistance > most_squeezed && g.resistance >= FAINT_ALONE * all);
     found.extend(alone.map(|group| reporter.held(group)));
-    found.truncate(MOST);
+    found.truncate(MAX_DIAGNOSTICS);
     found
 }
 
@@ -104,8 +105,8 @@ impl Contact {
             && -across.dot(there) > BEYOND * other.distance()
     }
 
-    /// Whether `other`, of another part, pushes back on a triangle beside its own, on the other side of the same sheet.
-    fn is_opposed_beside(&self, other: &Self, cloth: &[[u32; 3]]) -> bool {
+    /// Whether `other`, of another part, pushes back on a neighbouring triangle, on the other side of the same sheet.
+    fn is_opposed_on_neighbour(&self, other: &Self, cloth: &[[u32; 3]]) -> bool {
         let corners = &cloth[other.garment as usize];
         self.part != other.part
             && self.direction().dot(other.direction()) < OPPOSITE
@@ -114,7 +115,7 @@ impl Contact {
     }
 }
 
-/// Sums what a contact does.
+/// Sums the force of a contact and its resistance to t.
 #[derive(Default)]
 struct Push {
     force: DVec3,
@@ -132,8 +133,8 @@ impl Sink for Push {
 fn contacts(problem: &Problem, full: &FullSize<'_>, barrier: &Barrier, at: Configuration<'_>) -> Vec<Contact> {
     let bodies: &Bodies = barrier.bodies();
     let count = bodies.garment_count() as u32;
-    let cloth = Incidence::new(bodies.garment_count(), &problem.triangles);
-    let avatar = Incidence::new(problem.projected.start.len(), &problem.projected.triangles);
+    let cloth = VertexTriangles::new(bodies.garment_count(), &problem.triangles);
+    let avatar = VertexTriangles::new(problem.projected.start.len(), &problem.projected.triangles);
     let dhat = barrier.settings().dhat(CollisionGroup::Avatar);
     let mut contacts = Vec::new();
     for range in barrier.candidates().ranges(0..barrier.len()).filter(|range| range.group == CollisionGroup::Avatar) {
@@ -188,12 +189,12 @@ fn sides(pair_type: PairType, pair: [u32; 4], garment_count: u32) -> [Range<usiz
 }
 
 /// The triangles at each vertex.
-struct Incidence {
+struct VertexTriangles {
     ends: Vec<u32>,
     triangles: Vec<u32>,
 }
 
-impl Incidence {
+impl VertexTriangles {
     fn new(vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let mut ends = vec![0; vertices + 1];
         triangles.iter().flatten().for_each(|&v| ends[v as usize + 1] += 1);
@@ -240,11 +241,11 @@ fn groups(cloth: &[[u32; 3]], contacts: &[Contact], near: f64) -> (Vec<Group>, V
     let mut held: BTreeMap<Part, Group> = BTreeMap::new();
     for k in strongest(|contact| contact.resistance, ANCHORS) {
         let anchor = &contacts[k];
-        // Straight across, or else on a triangle beside it; those that push harder come first.
+        // Straight across, or else on a neighbouring triangle; those that push harder come first.
         let others = || partners.iter().copied().filter(|&j| contacts[j].piece != anchor.piece);
         let partner = others()
             .find(|&j| anchor.is_opposed_across(&contacts[j], near))
-            .or_else(|| others().find(|&j| anchor.is_opposed_beside(&contacts[j], cloth)));
+            .or_else(|| others().find(|&j| anchor.is_opposed_on_neighbour(&contacts[j], cloth)));
         let group = match partner {
             Some(j) => {
                 let (a, b) = (anchor.part, contacts[j].part);

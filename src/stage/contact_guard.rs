@@ -17,13 +17,12 @@ use crate::memory::MemoryLimit;
 use crate::solver::profile::Profile;
 use crate::verify::intersecting;
 
-/// Where something is nearer than the minimum separation, the min_separation becomes this fraction of its distance.
+/// Where something is nearer than the minimum separation, that becomes this fraction of its distance.
 const SEPARATION_SHARE: f64 = 0.25;
 
-/// What is searched at first is as long as this multiple of what was free of the last step, and at least
-/// [`SHORTEST_LOOK`] of it.
-const LOOK_AHEAD: f64 = 2.5;
-const SHORTEST_LOOK: f64 = 0.05;
+/// The part of a step that is searched first, in multiples of the feasible fraction of the step before, and at least.
+const SEARCH_AHEAD: f64 = 2.5;
+const MIN_SEARCH: f64 = 0.05;
 
 /// The barrier term and all that keeps it valid: the pairs, the step length, the separation.
 pub struct ContactGuard {
@@ -33,7 +32,7 @@ pub struct ContactGuard {
     /// The motion of the last search for pairs.
     motion: Motion,
     /// The part of the next step that is searched at first.
-    look_ahead: f64,
+    first_search: f64,
     distances: ContactDistances,
     cancel: Cancel,
     /// Time in contact since it was last taken.
@@ -41,8 +40,8 @@ pub struct ContactGuard {
 }
 
 impl ContactGuard {
-    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by [`Self::rebuild_candidates`], and keep to
-    /// `limit`.
+    /// The contact of `bodies`, with the barrier of the inflation. The pairs are found by
+    /// [`Self::rebuild_candidates`], within `limit`.
     pub fn new(bodies: Arc<Bodies>, distances: ContactDistances, limit: MemoryLimit, cancel: Cancel) -> Self {
         let settings = BarrierSettings {
             dhat_self: distances.dhat_self,
@@ -54,7 +53,7 @@ impl ContactGuard {
             barrier: Barrier::new(bodies.clone(), settings),
             broad_phase: BroadPhase::new(&bodies),
             motion: Motion::default(),
-            look_ahead: 1.0,
+            first_search: 1.0,
             bodies,
             distances,
             cancel,
@@ -69,13 +68,13 @@ impl ContactGuard {
         &self.barrier
     }
 
-    /// From now on keeps to `most` bytes of pairs.
-    pub fn limit_pairs(&mut self, most: MemoryLimit) {
+    /// Bounds the bytes of the pairs by what is left of `budget`.
+    pub fn limit_pairs(&mut self, budget: MemoryLimit) {
         // A pair is in the piece that found it and in the whole set; vectors grow by doubling.
-        self.broad_phase.set_most(most.room_for(4 * size_of::<[u32; 4]>()));
+        self.broad_phase.set_most(budget.room_for(4 * size_of::<[u32; 4]>()));
     }
 
-    /// Whether the last search for pairs ended for want of room. What was computed since is worth nothing.
+    /// Whether the last search for pairs ended because the memory limit was reached. What was computed since is void.
     pub fn exceeds_pair_budget(&self) -> bool {
         self.broad_phase.is_incomplete()
     }
@@ -97,20 +96,21 @@ impl ContactGuard {
         self.keep_near_candidates(1.0);
     }
 
-    /// Settles at `at` for the first time: the pairs of garment triangles in `initial_intersections` intersect there, and are let off
-    /// together with what touches within rounding. Lowers the min_separation below all that is guarded.
+    /// Begins at `at`, where the pairs of garment triangles in `initial_intersections` intersect: they are exempted until they
+    /// separate, together with what touches within rounding. Lowers the minimum separation below the distances of all active
+    /// pairs.
     pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
         self.exempt_intersecting(at, initial_intersections.to_vec(), |_, _| true);
         self.update_min_separation(at, [0.0; 2]);
     }
 
-    /// Goes on from `previous`, the contact of the same garment: with its exempt and its min_separation.
+    /// Goes on from `previous`, the contact of the same garment: with its exempt pairs and its minimum separation.
     pub fn inherit_state(&mut self, previous: &Self) {
         self.broad_phase.set_exempt_pairs(previous.broad_phase.exempt_pairs().clone());
         self.set_min_separations(previous.min_separations());
     }
 
-    /// Pairs of garment triangles that hold a guarded pair which touches within rounding.
+    /// Pairs of garment triangles with an active pair of primitives that touches within rounding.
     fn touching(&self, at: Configuration<'_>) -> Vec<[u32; 2]> {
         let near = self.barrier.nearer_than(TOUCHING, at).into_iter();
         let own =
@@ -118,18 +118,18 @@ impl ContactGuard {
         triangle_pairs_of(&self.bodies.garment.surface, &own.collect::<Vec<_>>())
     }
 
-    /// What has come apart is guarded from now on, and the min_separations follow the smallest distances, up to that of the distances. To be
-    /// called after each accepted step. True where the barrier has changed.
+    /// Exempt pairs that have separated become active, and the minimum separation follows the smallest distance, up to that
+    /// which the distances ask for. To be called after each accepted step. True where the barrier has changed.
     ///
     /// # Errors
     /// `InvalidMesh` where a vertex is not finite.
     pub fn update_exemptions(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.min_separations();
-        let released = self.reinstate_separated(at)?;
-        if released || before[0] < self.distances.min_separation || !self.exempt_pairs().is_empty() {
+        let reinstated = self.reinstate_separated(at)?;
+        if reinstated || before[0] < self.distances.min_separation || !self.exempt_pairs().is_empty() {
             self.update_min_separation(at, before);
         }
-        Ok(released || self.min_separations() != before)
+        Ok(reinstated || self.min_separations() != before)
     }
 
     fn reinstate_separated(&mut self, at: Configuration<'_>) -> Result<bool> {
@@ -144,12 +144,12 @@ impl ContactGuard {
             return Ok(false);
         }
         let before = before.clone();
-        // What is apart by no more than rounding stays let off, and nothing is let off anew.
+        // What is apart by no more than rounding stays exempt, and nothing becomes exempt anew.
         self.exempt_intersecting(at, pairs, |s, t| before.contains(s, t));
         Ok(self.exempt_pairs().triangle_pairs().len() < before.triangle_pairs().len())
     }
 
-    /// Makes a exempt of `pairs` and of those triangles that touch within rounding at `at` and `may` join them.
+    /// Exempts `pairs`, and those pairs of triangles that touch within rounding at `at` and `may` join them.
     fn exempt_intersecting(&mut self, at: Configuration<'_>, mut pairs: Vec<[u32; 2]>, may: impl Fn(u32, u32) -> bool) {
         loop {
             self.broad_phase.set_exempt_pairs(ExemptPairs::new(&self.bodies.garment.surface, &pairs));
@@ -164,8 +164,8 @@ impl ContactGuard {
         }
     }
 
-    /// Sets the min_separations as high as the distances ask for and what is guarded at `at` allows; but not below `before`, which was
-    /// below all distances, unless something newly guarded is nearer than that.
+    /// Sets the minimum separations as high as the distances ask for and the active pairs at `at` allow; but not below `before`,
+    /// which was below all distances, unless a pair that became active is nearer than that.
     fn update_min_separation(&mut self, at: Configuration<'_>, before: [f64; 2]) {
         let near = self.barrier.activity(at);
         let nearest = [near.min_distance_self.min(near.min_distance_avatar), near.min_distance_intersecting];
@@ -193,12 +193,12 @@ impl ContactGuard {
         self.distances
     }
 
-    /// The distance that no pair falls below, but for the initial_intersections ones.
+    /// The distance that no pair falls below, but for pairs of primitives of triangles that intersected at the start.
     pub fn min_separation(&self) -> f64 {
         self.barrier.settings().min_separation
     }
 
-    /// That, and the same for the initial_intersections pairs.
+    /// That, and the same for the pairs which it leaves out.
     fn min_separations(&self) -> [f64; 2] {
         let settings = self.barrier.settings();
         [settings.min_separation, settings.min_separation_intersecting]
@@ -211,7 +211,7 @@ impl ContactGuard {
         }
     }
 
-    /// The garment triangles that still pass through each other.
+    /// The pairs of garment triangles that are still exempt.
     pub fn exempt_pairs(&self) -> &ExemptPairs {
         self.broad_phase.exempt_pairs()
     }
@@ -221,17 +221,17 @@ impl ContactGuard {
         self.barrier.set_settings(BarrierSettings { dhat_avatar, ..*self.barrier.settings() });
     }
 
-    /// Makes the border of the linear system that of a rates barrier (see [`Barrier::set_barrier_path`]), or that of t.
+    /// Makes the border of the linear system that of the barrier's parameter (see [`Barrier::set_barrier_path`]), or that of t.
     pub fn set_barrier_path(&mut self, rates: Option<BarrierPathRates>) {
         self.barrier.set_barrier_path(rates);
     }
 
     /// Makes the pairs valid along the whole step (`dx`, `dt`) from `at`, and returns the largest fraction of it, at most
-    /// `longest`, along which nothing intersects and no distance falls below the minimum separation. `None` where the pairs
-    /// have no room: see [`Self::exceeds_pair_budget`].
+    /// `longest`, along which nothing intersects and no distance falls below the minimum separation. `None` where the
+    /// pairs exceed their budget: see [`Self::exceeds_pair_budget`].
     ///
     /// # Errors
-    /// [`Cancelled`]; the token is looked at after each search for pairs and in the end.
+    /// [`Cancelled`]; the token is checked after each search for pairs and in the end.
     pub fn max_feasible_step(
         &mut self,
         at: Configuration<'_>,
@@ -240,8 +240,8 @@ impl ContactGuard {
         longest: f64,
     ) -> Result<Option<f64>, Cancelled> {
         self.motion.set(&self.bodies, at, Some(&Step { dx, dt }));
-        // The pairs that only the far part of a long step meets are many, and mostly the step ends before.
-        let mut part = longest.min(self.look_ahead);
+        // The pairs that only the far part of a long step meets are many, and mostly the step ends before it.
+        let mut part = longest.min(self.first_search);
         loop {
             self.find_candidates(part);
             self.cancel.check()?;
@@ -250,20 +250,20 @@ impl ContactGuard {
             }
             let settings = self.barrier.settings();
             let clock = Instant::now();
-            let free =
+            let feasible =
                 ccd::max_step(&self.motion, self.barrier.candidates(), |group| settings.min_separation(group), part);
             self.profile.ccd += clock.elapsed();
-            if free < part || part >= longest {
-                self.look_ahead = (LOOK_AHEAD * free).clamp(SHORTEST_LOOK, 1.0);
-                self.keep_near_candidates(free);
+            if feasible < part || part >= longest {
+                self.first_search = (SEARCH_AHEAD * feasible).clamp(MIN_SEARCH, 1.0);
+                self.keep_near_candidates(feasible);
                 self.cancel.check()?;
-                return Ok(Some(free));
+                return Ok(Some(feasible));
             }
             part = longest;
         }
     }
 
-    /// What is in contact at `at`, which must lie within the last step that was admitted.
+    /// What is in contact at `at`, which must lie within the feasible part of the last step.
     pub fn activity(&self, at: Configuration<'_>) -> Activity {
         self.barrier.activity(at)
     }
@@ -291,7 +291,7 @@ impl ContactGuard {
         self.profile.broad_phase += clock.elapsed();
     }
 
-    /// Leaves of the pairs those that come within their d-hat during the first `part` of the motion.
+    /// Keeps of the pairs those that come within their d-hat during the first `part` of the motion.
     fn keep_near_candidates(&mut self, part: f64) {
         let settings = *self.barrier.settings();
         self.barrier.candidates_mut().retain_near(&self.motion, part, |group| settings.dhat(group));

@@ -1,6 +1,6 @@
-//! Step 3: the garment settles on the avatar at its full size (section 3.6, Eq. 7).
+//! Fit: the garment is drawn to the avatar at its full size (section 3.6, Eq. 7).
 //!
-//! The barrier begins as wide as Step 2 left it, and softer: under a stiff one, a garment that is still far from its
+//! The barrier begins as wide as the inflation left it, and softer: under a stiff one, a garment that is still far from its
 //! balance has no room for a step. Then it becomes narrow and stiff along a path in a parameter s,
 //!
 //! ```text
@@ -9,7 +9,7 @@
 //!
 //! on which one factorisation gives the answer `dx = p0 + ds p1` of the garment to an advance of s. The pairs in contact
 //! move with the barrier and stay in contact. (Narrowed at once, the barrier loses them, and finds each again by
-//! running into it.) Newton's method at s = 1 has the last word.
+//! running into it.) Newton's method at s = 1 converges to the result.
 
 use crate::energy::barrier::BarrierPathRates;
 use crate::error::Result;
@@ -20,20 +20,20 @@ use super::objective::Objective;
 
 /// The iterations that must pass the test one after the other.
 const CONVERGED_STEPS: u32 = 2;
-/// An objective below this is none: the garment is as it was designed, and every fraction of the objective is rounding.
+/// An objective below this counts as zero: the garment is as it was designed, and every fraction of the objective is rounding.
 const NO_OBJECTIVE: f64 = 1e-9;
-/// The weight of the barrier at s = 0 as a fraction of Step 2's.
+/// The weight of the barrier at s = 0 as a fraction of the inflation's.
 const SOFTNESS: f64 = 0.1;
 /// The path begins where the squared Newton decrement is below this fraction of the objective, or after so many steps.
 const RELAXED: f64 = 0.02;
 const MAX_RELAX_STEPS: u32 = 12;
-/// The first advance along the path, and the largest.
+/// The first continuation step in s, and the largest.
 const FIRST_ADVANCE: f64 = 0.25;
 const LARGEST_ADVANCE: f64 = 0.5;
-/// An advance that would be shorter than this is none: the rest of the path is jumped.
+/// Where an advance would be shorter than this, the rest of the path is skipped.
 const SMALLEST_ADVANCE: f64 = 1e-3;
 
-/// The state of the descent.
+/// The state of the fit.
 pub struct FitStage {
     phase: Phase,
     /// Iterations so far.
@@ -41,9 +41,9 @@ pub struct FitStage {
 }
 
 enum Phase {
-    /// Newton's method with the barrier at s = 0, for so many steps.
+    /// Newton's method with the barrier at s = 0; so many steps were taken.
     Relax(u32),
-    /// Along the path.
+    /// Continuation in s.
     Continue { s: f64, advance: f64 },
     /// Newton's method with the barrier at s = 1; so many steps have passed the test.
     Converge(u32),
@@ -78,7 +78,7 @@ impl Path {
 }
 
 impl FitStage {
-    /// Begins where Step 2 ended.
+    /// Begins where the inflation ended.
     pub fn begin(objective: &mut Objective, state: &State, options: &Options) -> Self {
         Path::new(objective, options).set(0.0, objective, state);
         Self { phase: Phase::Relax(0), iterations: 0 }

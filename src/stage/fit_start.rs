@@ -16,8 +16,8 @@ use crate::options::Options;
 use crate::sdf::Field;
 
 impl Problem {
-    /// The objective of Step 3: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
-    /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the step, `x`, and
+    /// The objective of the fit: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
+    /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the fit, `x`, and
     /// then kept, for a measure that follows the garment would pay for shrinking it. Where the source body is known, each
     /// point aims at the clearance that it had there, without regard to the side; both bodies are measured in units of
     /// their skeletons.

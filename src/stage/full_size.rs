@@ -13,15 +13,15 @@ use crate::input::body::Body;
 use crate::input::weld::weld_vertices;
 use crate::verify::intersections;
 
-/// How far beside a surface its two sides are looked at.
-const BESIDE: f64 = 1e-6;
+/// How far off a surface its two sides are tested.
+const SIDE_OFFSET: f64 = 1e-6;
 /// A point whose winding number is farther from 0 than this is inside the body.
 const INSIDE: f64 = 0.5;
 /// The share that another part has in the winding number where it is this part that a point lies in. Parts are open where
 /// the next bone begins, so that it is not 1.
 const SHARE: f64 = 0.25;
-/// Pairs whose triangles may lie inside the body as a whole that are looked at.
-const BURIED: usize = 3;
+/// Pairs whose triangles are tested for lying inside the body as a whole.
+const OVERLAP_PAIRS: usize = 3;
 
 /// What moves with one bone and hangs together: the bone, and the number of the connected piece.
 pub type Part = (Option<u32>, u32);
@@ -140,15 +140,15 @@ impl<'a> FullSize<'a> {
     /// parts have grown into each other. For an avatar that is closed, or almost.
     fn overlap(&self, pairs: &[Pair]) -> bool {
         let sides = |&Pair { triangles: [s, t], parts: [a, b], .. }: &Pair| [(s, a, b), (t, b, a)];
-        let sides: Vec<(u32, Part, Part)> = pairs.iter().take(BURIED).flat_map(sides).collect();
+        let sides: Vec<(u32, Part, Part)> = pairs.iter().take(OVERLAP_PAIRS).flat_map(sides).collect();
         let avatar: Vec<u32> = (0..self.avatar_triangles as u32).collect();
         sides.par_iter().any(|&(t, own, other)| {
             let [a, b, c] = self.corners(t);
             let (centre, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize_or_zero());
             let is_inside = |p: DVec3| self.winding(p, &avatar).abs() > INSIDE;
             normal != DVec3::ZERO
-                && is_inside(centre + BESIDE * normal)
-                && is_inside(centre - BESIDE * normal)
+                && is_inside(centre + SIDE_OFFSET * normal)
+                && is_inside(centre - SIDE_OFFSET * normal)
                 && (own == other || self.winding(centre, &self.triangles_of(other)).abs() > SHARE)
         })
     }

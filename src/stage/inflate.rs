@@ -1,10 +1,10 @@
-//! Step 2: the avatar grows from the skeleton to its own shape while the garment gives way (section 3.5).
+//! Inflation: the avatar grows from the skeleton to its own shape while the garment gives way (section 3.5).
 //!
 //! The paper drives t to 1 with an augmented Lagrangian. Here t is first the parameter of a path: one factorisation gives
-//! the garment's answer `dx = p0 + dt p1` to a chosen advance dt, p0 being the Newton correction at fixed t. The drive is
-//! then never weighed against the barrier, and needs no weight. Where contact cuts the advance short, Newton steps at
-//! fixed t bring the garment back to its balance. Where that does not help either, the garment is wedged, and the
-//! augmented Lagrangian takes over: it lets t go back as well as forth.
+//! the garment's answer `dx = p0 + dt p1` to a chosen advance dt, p0 being the Newton correction at fixed t. No penalty
+//! is then weighed against the barrier, and none has to be chosen. Where contact cuts the continuation step short, Newton
+//! steps at fixed t bring the garment back to its balance (corrector). Where that does not help either, the continuation has
+//! stalled, and the augmented Lagrangian takes over: it lets t go back as well as forth.
 
 use crate::energy::inflation::Inflation as Lagrangian;
 use crate::error::{Error, ErrorKind, Result};
@@ -12,27 +12,27 @@ use crate::solver::newton::{Newton, State};
 
 use super::objective::Objective;
 
-/// The first advance of t, and the largest.
+/// The first continuation step in t, and the largest.
 const FIRST_ADVANCE: f64 = 0.05;
 const LARGEST_ADVANCE: f64 = 0.2;
-/// An advance that would be shorter than this is no advance.
+/// Below this the continuation has stalled.
 const SMALLEST_ADVANCE: f64 = 1e-6;
-/// Below this fraction of an accepted step, the garment is brought back to balance.
+/// Where contact allows less than this fraction of an advance, the garment is brought back to balance.
 const SHORT_ADVANCE: f64 = 0.1;
-/// Newton steps at fixed t after a short_advances advance.
+/// Newton steps at fixed t after such a short advance.
 const CORRECTIONS: u32 = 3;
-/// Cramped advances without a free one between them, after which the garment counts as wedged.
+/// Short advances without a full one between them, after which the continuation counts as stalled.
 const MAX_SHORT_ADVANCES: u32 = 12;
-/// The jump to t = 1 is tried from here on: further away its swept volume is large and its hope small.
+/// The step to t = 1 in one is tried from here on: from farther away it rarely succeeds and is expensive.
 const FULL_INFLATION_FROM: f64 = 0.7;
-/// Steps of the augmented Lagrangian before its multipliers are updated, at most.
+/// Newton steps of the augmented Lagrangian before multiplier and penalty are updated, at most.
 const INNER_STEPS: u32 = 12;
 /// An inner solve ends where the squared Newton decrement is below this fraction of the objective.
 const INNER_TOLERANCE: f64 = 0.01;
 /// Penalty at which the augmented Lagrangian gives up: thirty doublings.
 const MAX_PENALTY: f64 = 1e9;
 
-/// The state of Step 2.
+/// The state of the inflation.
 pub struct Inflation {
     form: Form,
     /// Iterations so far.
@@ -74,7 +74,7 @@ impl Inflation {
         Ok(true)
     }
 
-    /// One advance along the path.
+    /// One step along the path in t.
     fn continuation_step(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
         let Form::Path { advance, corrections, short_advances } = &mut self.form else { return Ok(()) };
         let taken = newton.continue_t(objective, state, advance.min(1.0 - state.t))?;
@@ -89,7 +89,7 @@ impl Inflation {
             *corrections = CORRECTIONS;
         }
         if *advance < SMALLEST_ADVANCE || *short_advances > MAX_SHORT_ADVANCES {
-            // A drive as strong as the resistance that stopped the path.
+            // A multiplier as strong as the resistance that stopped the path.
             let multiplier = newton.t_gradient().max(0.0);
             objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));
             newton.forget_values();
@@ -113,8 +113,8 @@ impl Inflation {
             return Ok(());
         }
         *inner = 0;
-        let Some(mut drive) = objective.inflation().copied() else { return Ok(()) };
-        if drive.penalty() > MAX_PENALTY {
+        let Some(mut lagrangian) = objective.inflation().copied() else { return Ok(()) };
+        if lagrangian.penalty() > MAX_PENALTY {
             return Err(Error::new(
                 ErrorKind::InflationStalled,
                 format!(
@@ -124,21 +124,21 @@ impl Inflation {
                 ),
             ));
         }
-        drive.set_multiplier(drive.multiplier() + drive.penalty() * (1.0 - state.t));
-        drive.set_penalty(2.0 * drive.penalty());
-        objective.set_inflation(Some(drive));
+        lagrangian.set_multiplier(lagrangian.multiplier() + lagrangian.penalty() * (1.0 - state.t));
+        lagrangian.set_penalty(2.0 * lagrangian.penalty());
+        objective.set_inflation(Some(lagrangian));
         newton.forget_values();
         Ok(())
     }
 }
 
-/// Jumps to t = 1 with the garment at rest, where nothing is in the way.
+/// Sets t to 1 with the garment at rest, where nothing is in the way.
 fn try_full_inflation(objective: &mut Objective, state: &mut State) -> Result<bool> {
     if state.t < FULL_INFLATION_FROM {
         return Ok(false);
     }
     let feasible = objective.max_feasible_inflation(state.configuration(), 1.0 - state.t)?;
-    // For want of memory it is not tried.
+    // Where the memory does not suffice it is not tried.
     let free = feasible.is_some_and(|fraction| fraction >= 1.0);
     if free {
         state.t = 1.0;

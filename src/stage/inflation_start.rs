@@ -1,4 +1,4 @@
-//! The objective with which the inflation begins, and what is told of a garment that touches itself or the shrunk avatar.
+//! The objective with which the inflation begins, and diagnostics of a garment that touches itself or the shrunk avatar.
 
 use super::objective::Objective;
 use super::setup::contact_distances::TOUCHING;
@@ -10,9 +10,9 @@ use crate::input::diagnostic::Diagnostic;
 use crate::options::Options;
 
 impl Problem {
-    /// The objective of Step 2, the avatar moving with t, settled at its beginning. Its minimum separation is lower than the
-    /// option's where the garment is nearer to itself or the skeleton than that; its exempt holds the triangles that
-    /// intersect or touch at the start.
+    /// The objective of the inflation, the avatar moving with t, with the contacts at t = 0. Its minimum separation is lower
+    /// than the option's where the garment is nearer to itself or the skeleton than that; its exempt pairs are the triangles
+    /// that intersect or touch at the start.
     ///
     /// # Errors
     /// `NotEnclosed` where the distance to the shrunk avatar is lost in rounding; if the options are strict,
@@ -34,7 +34,7 @@ impl Problem {
         let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
         objective.contact.initialise(at, &self.initial_intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
-        report_tangle(self, initial_intersections, options.strict, diagnostics);
+        report_initial_intersections(self, initial_intersections, options.strict, diagnostics);
         if options.strict && !initial_intersections.is_empty() {
             return Err(intersects_itself(self, initial_intersections));
         }
@@ -68,8 +68,8 @@ impl Problem {
     }
 }
 
-/// The garment's triangles that intersect before anything has moved.
-fn report_tangle(
+/// Reports the garment's triangles that intersect before anything has moved.
+fn report_initial_intersections(
     problem: &Problem,
     initial_intersections: &[[u32; 2]],
     strict: bool,

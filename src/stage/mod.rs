@@ -1,4 +1,4 @@
-//! The three steps of the paper: which energies, which weights, when it is done.
+//! The stages PREPARE, INFLATE and FIT, the three steps of the paper: which energies, which weights, when each is done.
 
 pub mod blockage;
 pub mod contact_guard;

@@ -20,7 +20,7 @@ use crate::options::Options;
 use crate::solver::Term;
 use crate::solver::newton::Model;
 
-/// Weight of the rigid groups' term: stiff beside the surface term's 1, and yet loose enough to turn in steps of some degrees.
+/// Weight of the rigid groups' term: stiff beside the surface term's 1, and yet soft enough to turn by some degrees in a step.
 const RIGIDITY: f64 = 10.0;
 
 /// Energies with their weights, and contact.
@@ -28,7 +28,7 @@ pub struct Objective {
     shape: Arc<Shape>,
     fit: Option<Fit>,
     inflation: Option<Inflation>,
-    /// The barrier, and what keeps it valid.
+    /// The barrier, its candidate pairs and CCD.
     pub contact: ContactGuard,
     weights: Options,
     barrier_weight: f64,
@@ -76,14 +76,14 @@ impl Objective {
         &self.shape.pins
     }
 
-    /// The drive on t, where there is one.
+    /// The multiplier and penalty of t, while the augmented Lagrangian runs.
     pub fn inflation(&self) -> Option<&Inflation> {
         self.inflation.as_ref()
     }
 
-    /// Sets or removes the drive on t.
-    pub fn set_inflation(&mut self, drive: Option<Inflation>) {
-        self.inflation = drive;
+    /// Sets or removes the multiplier and penalty of t.
+    pub fn set_inflation(&mut self, inflation: Option<Inflation>) {
+        self.inflation = inflation;
     }
 
     /// The largest fraction of the avatar's motion by `dt` that a resting garment allows, by
@@ -116,8 +116,8 @@ impl Model for Objective {
         if !shape.rigid.is_empty() {
             terms.push(Term { energy: &shape.rigid, weight: RIGIDITY });
         }
-        if let Some(drive) = &self.inflation {
-            terms.push(Term { energy: drive, weight: 1.0 });
+        if let Some(inflation) = &self.inflation {
+            terms.push(Term { energy: inflation, weight: 1.0 });
         }
         if let Some(fit) = &self.fit {
             terms.push(Term { energy: fit, weight: w.fit_weight });

@@ -23,7 +23,7 @@ fn coordinate() -> BoxedStrategy<f64> {
     .boxed()
 }
 
-/// Coordinates that are accepted, so that the way into the library is longer.
+/// Coordinates that are accepted, so that they get farther into the library.
 fn number() -> BoxedStrategy<f64> {
     prop_oneof![
         30 => -2.0..2.0,
@@ -132,7 +132,7 @@ proptest! {
     #![proptest_config(config(200))]
 
     #[test]
-    fn bad_meshes_are_told(seed in 0u64..8, bad in bad(), precise in any::<bool>()) {
+    fn bad_meshes_are_reported(seed in 0u64..8, bad in bad(), precise in any::<bool>()) {
         let mut scene = Scene::new(&Recipe::sound(seed));
         scene.options = Options { threads: 1, voxel_size: 0.04, max_iterations: 8, ..Options::default() };
         scene.precision = if precise { Precision::F64 } else { Precision::F32 };

@@ -1,8 +1,8 @@
 //! Properties of random retargets and random meshes. A failure is kept as a seed in `regressions.txt` beside this file.
 
 mod bad_meshes;
-mod judge;
 mod outcomes;
+mod step_verifier;
 mod steps;
 
 use proptest::prelude::*;

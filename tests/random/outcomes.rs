@@ -152,7 +152,7 @@ proptest! {
     }
 }
 
-/// A body thinner than the source's, in proportion, and a garment that need not fit it: nothing to do, and Step 3 sees that
+/// A body thinner than the source's, in proportion, and a garment that need not fit it: nothing to do, and the fit finds that
 /// there is nothing to do.
 #[test]
 fn a_fit_without_cost_converges() {

@@ -10,14 +10,14 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{config, flawed, sound};
-use crate::judge::Judge;
+use crate::step_verifier::StepVerifier;
 use testing::Random;
 use testing::scene::{Recipe, Scene};
 
-/// Steps of a scene of any kind that are looked at: most scenes need fewer.
+/// Steps of a scene of any kind that are verified: most scenes need fewer.
 const MOST: u32 = 150;
 
-/// Steps one iteration at a time, each judged, to the end or to `most` of them; the session as it is then.
+/// Steps one iteration at a time, each verified, to the end or to `most` of them; the session as it is then.
 fn step_by_step(scene: &Scene, most: u32) -> Result<(Session, Option<ErrorKind>), String> {
     walk(scene, scene.session().map_err(|e| e.message)?, most)
 }
@@ -27,14 +27,15 @@ fn walk(scene: &Scene, mut session: Session, most: u32) -> Result<(Session, Opti
     if let Err(error) = session.prepare() {
         return Ok((session, Some(error.kind)));
     }
-    let judge = Judge::new(scene).map_err(|e| format!("the session prepares what the problem refuses: {e}"))?;
-    judge.look(&session)?;
+    let verifier =
+        StepVerifier::new(scene).map_err(|e| format!("the session prepares what the problem refuses: {e}"))?;
+    verifier.verify_step(&session)?;
     for _ in 0..most {
         let reached = session.step(Budget { iterations: 1, milliseconds: 0 });
-        judge.look(&session)?;
+        verifier.verify_step(&session)?;
         match reached {
             Ok(Stage::Done) => {
-                judge.look_at_result(&session)?;
+                verifier.verify_result(&session)?;
                 return Ok((session, None));
             }
             Ok(_) => {}
@@ -92,7 +93,7 @@ proptest! {
         let mut session = scene.session().unwrap();
         control(&mut session, &scene, &mut Random::new(recipe.seed)).unwrap();
         let (_, error) = walk(&scene, session, MOST).map_err(TestCaseError::fail)?;
-        // Pins that pull the garment into the body may wedge it, and are allowed nothing worse.
+        // Pins that pull the garment into the body may make the inflation stall, and are allowed nothing worse.
         prop_assert!(matches!(error, None | Some(ErrorKind::InflationStalled)), "{:?}", error);
     }
 
@@ -104,13 +105,13 @@ proptest! {
     }
 }
 
-/// The judge itself: it must see what a step must not do.
+/// The step verifier itself: it must find what a step must not do.
 #[test]
-fn the_judge_sees_a_garment_through_itself_and_through_the_body() {
+fn a_garment_through_itself_and_through_the_body_is_found() {
     let scene = Scene::new(&Recipe::sound(1));
     let mut session = scene.session().unwrap();
     session.prepare().unwrap();
-    assert_eq!(Judge::new(&scene).unwrap().look(&session), Ok(()));
+    assert_eq!(StepVerifier::new(&scene).unwrap().verify_step(&session), Ok(()));
     // Two vertices have changed their numbers, which makes a clean garment, but not with the positions of the first.
     let mut other = scene.clone();
     let last = other.garment.positions.len() as u32 - 1;
@@ -125,7 +126,7 @@ fn the_judge_sees_a_garment_through_itself_and_through_the_body() {
         }
     };
     other.garment.triangles.iter_mut().for_each(|t| *t = t.map(swapped));
-    let message = Judge::new(&other).unwrap().look(&session).unwrap_err();
+    let message = StepVerifier::new(&other).unwrap().verify_step(&session).unwrap_err();
     assert!(message.contains("garment triangles"), "{message}");
     // The result, and a blade through its middle.
     session.run().unwrap();
@@ -136,7 +137,7 @@ fn the_judge_sees_a_garment_through_itself_and_through_the_body() {
     let first = other.avatar.positions.len() as u32;
     other.avatar.positions.extend([DVec3::ONE, DVec3::new(-1.0, 1.0, -1.0), -DVec3::ONE].map(|d| middle + reach * d));
     other.avatar.triangles.push([first, first + 1, first + 2]);
-    let judge = Judge { scene: &other, ..Judge::new(&scene).unwrap() };
-    let message = judge.look(&session).unwrap_err();
+    let verifier = StepVerifier { scene: &other, ..StepVerifier::new(&scene).unwrap() };
+    let message = verifier.verify_step(&session).unwrap_err();
     assert!(message.contains("garment and avatar triangles"), "{message}");
 }

@@ -66,7 +66,7 @@ pairs! {
     jumpsuit_on_child: "jumpsuit_dense" on "child",
 }
 
-/// So stiff and wide a barrier wedges the path at t = 0.8; the augmented Lagrangian gets the garment free.
+/// With so stiff and wide a barrier the continuation stalls at t = 0.8; the augmented Lagrangian gets the garment free.
 #[test]
 fn a_wedged_garment_gets_free() {
     dress("jumpsuit_dense", "Goblin", Options { inflation_barrier_weight: 1e8, ..Options::default() });

@@ -99,7 +99,7 @@ fn squeezed(diagnostic: &Diagnostic) -> (u32, [AvatarPart; 2], Option<f64>) {
 
 /// The boxes overlap at full size, and the sleeve around one of them is between the two.
 #[test]
-fn a_garment_between_parts_that_overlap_is_told_so() {
+fn a_garment_between_parts_that_overlap_is_reported_so() {
     let mut session = two_boxes(-0.1, Options::default());
     let (found, message) = stalled(&mut session);
     assert!(message.contains("inflation_dhat") || message.contains("max_iterations"), "{message}");
@@ -112,7 +112,7 @@ fn a_garment_between_parts_that_overlap_is_told_so() {
     let cloth = tube(-0.5, 0.5, |_, _| 0.3, 12, 20, false);
     let mut body = block([-0.5, -0.4, -0.9], [0.5, 0.4, 0.9]);
     body.triangles.extend(body.triangles.clone().iter().map(|t| t.map(|v| v + 8)));
-    // Each pushes against the triangle, or against one beside it.
+    // Each pushes against the triangle, or against a neighbour of it.
     let own = cloth.triangles[garment as usize];
     let beside: Vec<u32> = (0..cloth.triangles.len() as u32)
         .filter(|&t| cloth.triangles[t as usize].iter().any(|v| own.contains(v)))
@@ -130,7 +130,7 @@ fn a_garment_between_parts_that_overlap_is_told_so() {
 
 /// The boxes leave a gap, and only too few iterations are allowed.
 #[test]
-fn a_garment_between_parts_that_are_apart_is_told_the_gap() {
+fn a_garment_between_parts_that_are_apart_is_reported_with_the_gap() {
     let mut session = two_boxes(0.012, Options::default());
     session.prepare().unwrap();
     // As many iterations as it takes until the garment is in the gap.

@@ -43,7 +43,7 @@ fn on_the_thin_arm(options: Options) -> Session {
 
 #[test]
 fn an_offset_is_kept_from_both_sides() {
-    // The sleeve was designed 0.1 off the thin arm: a smaller offset draws it in, a larger one drives it out.
+    // The sleeve was designed 0.1 off the thin arm: a smaller offset draws it in, a larger one pushes it out.
     for offset in [0.04, 0.2] {
         let x = dressed(&mut on_the_thin_arm(Options { offset, fit_weight: 300.0, ..Options::default() }));
         let away = clearances(&x, &thin_arm());
@@ -130,7 +130,7 @@ fn pins_hold_their_places() {
 }
 
 #[test]
-fn a_pin_inside_the_body_is_told() {
+fn a_pin_inside_the_body_is_reported() {
     let mut session = session(1.0, DVec3::ZERO);
     let inside = DVec3::new(0.0, 0.0, 0.1);
     session.set_pins(vec![Pin { vertex: 170, target: Some(inside) }]).unwrap();

@@ -73,8 +73,8 @@ fn with_panel() -> TriangleMesh {
     garment
 }
 
-/// Every pair that intersects at the start is told and let off; no other ever joins them, step by step, and the number of
-/// those that are left never rises.
+/// Every pair that intersects at the start is reported and exempt; no other ever joins them, step by step, and the number of
+/// exempt pairs never rises.
 #[test]
 fn what_intersects_from_the_start_never_gets_more() {
     for garment in [lined(), with_panel()] {
@@ -98,7 +98,7 @@ fn what_intersects_from_the_start_never_gets_more() {
     }
 }
 
-/// What has come apart is guarded at once: it may not go back.
+/// What has separated is active at once: it may not go back.
 #[test]
 fn what_has_come_apart_stays_apart() {
     let count = 9;

@@ -54,7 +54,7 @@ fn places(mesh: &TriangleMesh) -> Vec<DVec3> {
 /// Nothing of `outer` is between `inner` and `body`.
 fn is_over(outer: &TriangleMesh, inner: &TriangleMesh, body: &TriangleMesh) {
     let tree = ClosestPoint::new(body);
-    // The nearest point of the body is not what lies beneath where the way to it leads through the layer once more, as from
+    // The nearest point of the body is not what lies beneath where the segment to it leads through the layer once more, as from
     // the trunk to an arm.
     let mut ways: Vec<[DVec3; 2]> = places(inner)
         .into_iter()
@@ -111,7 +111,7 @@ fn a_sleeve_over_a_sleeve_lies_outside_it_everywhere() {
 }
 
 #[test]
-fn three_layers_in_another_space_and_unit() {
+fn three_layers_in_another_coordinate_system_and_unit() {
     let space = CoordinateSystem {
         right: Axis::NegativeY,
         up: Axis::PositiveZ,
@@ -149,7 +149,7 @@ fn three_layers_in_another_space_and_unit() {
     for k in 1..3 {
         (0..k).for_each(|inner| is_over(&layers[1][k], &layers[1][inner], &body));
     }
-    // The same as without a space, to within the tolerance of the fit.
+    // The same as without a coordinate system, to within the tolerance of the fit.
     for (here, there) in layers[0].iter().zip(&layers[1]) {
         for (p, q) in here.positions.iter().zip(&there.positions) {
             assert!(p.distance(space.position_to_internal(*q)) < 0.01, "{p} {}", space.position_to_internal(*q));
@@ -198,7 +198,7 @@ fn the_avatar_that_is_read_and_counted_is_the_avatar_alone() {
 }
 
 #[test]
-fn layers_are_checked_and_counted_before_the_work() {
+fn layers_are_checked_and_counted_before_the_run() {
     let mut session = session(1.0, DVec3::ZERO);
     session.add_layer(first_layer()).unwrap();
     let mut bad = sleeve();
@@ -231,7 +231,7 @@ fn an_avatar_with_skin_weights_takes_layers_without() {
 }
 
 #[test]
-fn a_layer_that_pokes_through_is_named() {
+fn a_layer_that_penetrates_is_named() {
     let mut session = session(1.0, DVec3::ZERO);
     // Closed around the middle of the arm: what reaches out of it at both ends cannot be put inside.
     session.set_garment(tube(-0.6, 0.6, |_, _| 0.3, 16, 16, true), Precision::F32).unwrap();
@@ -245,9 +245,10 @@ fn a_layer_that_pokes_through_is_named() {
     let long = tube(-1.1, 1.1, |_, _| 0.25, 14, 12, false);
     session.add_layer(long.clone()).unwrap();
     assert_eq!(session.prepare().unwrap_err().kind, ErrorKind::NotEnclosed);
-    let pokes: Vec<_> = session.diagnostics().iter().filter(|f| f.kind() == DiagnosticKind::AvatarPenetrates).collect();
-    assert!(!pokes.is_empty());
-    for diagnostic in pokes {
+    let penetrations: Vec<_> =
+        session.diagnostics().iter().filter(|f| f.kind() == DiagnosticKind::AvatarPenetrates).collect();
+    assert!(!penetrations.is_empty());
+    for diagnostic in penetrations {
         let element = *diagnostic.elements().last().unwrap();
         assert_eq!(element.subject, Subject::Layer(1), "{diagnostic}");
         assert!((element.index as usize) < long.triangles.len());

@@ -22,7 +22,7 @@ fn bits(session: &Session) -> Vec<[u64; 3]> {
 }
 
 #[test]
-fn a_mesh_too_large_for_the_limit_is_refused_before_the_work() {
+fn a_mesh_too_large_for_the_limit_is_refused_before_the_run() {
     let mut session = limited(1_000_000);
     let error = session.prepare().unwrap_err();
     assert_eq!(error.kind, ErrorKind::MemoryLimit);
@@ -72,7 +72,7 @@ fn pairs_beyond_the_limit_end_the_session() {
     assert!(real.iter().any(|what| error.message.contains(what)), "not from sizes: {error}");
 }
 
-/// The field of such an avatar has no room for its voxels: said at once, not when Step 3 begins.
+/// The field of such an avatar exceeds the limit by its voxels: reported at once, not when the fit begins.
 #[test]
 fn an_avatar_too_large_for_the_voxels_is_refused_by_prepare() {
     let mut session = Session::new();

@@ -1,4 +1,4 @@
-//! Real garments moved and turned against their skeletons: the bones poke through, and the result is clean all the same.
+//! Real garments moved and turned against their skeletons: the bones penetrate them, and the result is clean all the same.
 
 use bespoke::control::Stage;
 use bespoke::geometry::mesh::TriangleMesh;

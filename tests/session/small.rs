@@ -1,4 +1,4 @@
-//! A sleeve on an arm: small enough to look at every step.
+//! A sleeve on an arm: small enough to verify every step.
 
 use std::sync::Arc;
 
@@ -132,7 +132,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
     Problem::new(&inputs, &Options::default(), &Cancel::new(), &mut Vec::new()).unwrap()
 }
 
-/// The promise of Step 2, looked at by the judge after every step: garment and avatar at t, and the garment itself.
+/// The guarantee of the inflation, checked by the verifier after every step: garment and avatar at t, and the garment itself.
 #[test]
 fn no_iterate_of_the_inflation_intersects() {
     let (garment, options, mut diagnostics) = (sleeve(), Options::default(), Vec::new());
@@ -215,9 +215,9 @@ fn a_garment_far_beside_its_skeleton_is_refused() {
     }
 }
 
-/// Two layers nearer than the minimum separation: the min_separation gives way, the promise does not.
+/// Two layers nearer than the minimum separation: that becomes smaller, and the guarantee holds.
 #[test]
-fn layers_nearer_than_the_floor_stay_apart() {
+fn layers_nearer_than_the_minimum_separation_stay_apart() {
     let mut garment = sleeve();
     let count = garment.positions.len() as u32;
     let outer = tube(-0.6, 0.7, |z, _| 0.300004 + 0.03 * (12.0 * z).sin(), 16, 20, false);

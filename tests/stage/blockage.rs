@@ -63,7 +63,7 @@ struct Case {
 }
 
 impl Case {
-    /// What is said of the garment where it is, and at t, after a look at what no case should miss.
+    /// The diagnostics of the garment where it is, and at t, after a check of what no case may miss.
     fn found(&self) -> Vec<Diagnostic> {
         let turned = |mesh: &TriangleMesh| TriangleMesh {
             positions: mesh.positions.iter().map(|&p| self.turn * p).collect(),
@@ -149,7 +149,7 @@ fn bones(parts: &[AvatarPart; 2]) -> [u32; 2] {
 }
 
 /// A garment in the gap of two boxes that grow towards each other, of all sizes and finenesses, wherever they are: both are
-/// named, and it is said that they touch if they do at full size, by an exact look at the whole boxes.
+/// named, and they are reported to touch if they do at full size, by an exact test of the whole boxes.
 #[test]
 fn both_sides_are_named_and_whether_they_touch() {
     let mut random = Random::new(7);

@@ -12,7 +12,7 @@ fn source() -> Skeleton {
     skeleton(&[DVec3::ZERO, DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.0)])
 }
 
-/// Two triangles beside the first bone, one beside the second.
+/// Two triangles near the first bone, one near the second.
 fn garment() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut rest = vec![
         DVec3::new(0.2, 0.0, 0.3),

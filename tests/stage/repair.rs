@@ -1,4 +1,4 @@
-//! Where the shrunk avatar pokes through the garment: what is resolved, what is refused, and what is said about it.
+//! Where the shrunk avatar penetrates the garment: what is repaired, what is refused, and what is reported about it.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -93,15 +93,15 @@ impl Case {
         Problem::new(&inputs, &Options::default(), &Cancel::new(), diagnostics)
     }
 
-    fn shrunk_pokes(&self) -> bool {
+    fn shrunk_penetrates(&self) -> bool {
         let projected = project(&self.avatar, &self.target, &self.source, None);
         let shrunk = TriangleMesh { positions: projected.start, triangles: projected.triangles };
         intersections(&self.garment, Some(&shrunk), 1).unwrap().count > 0
     }
 
-    /// Resolved: a clean start with some room, warnings that name bones, and a session that ends with a clean result.
-    fn is_resolved(&self) -> Vec<Diagnostic> {
-        assert!(self.shrunk_pokes(), "the case pokes through to begin with");
+    /// Repaired: a clean start with some room, warnings that name bones, and a session that ends with a clean result.
+    fn is_repaired(&self) -> Vec<Diagnostic> {
+        assert!(self.shrunk_penetrates(), "the avatar penetrates to begin with");
         let mut diagnostics = Vec::new();
         let problem = self.problem(&mut diagnostics).unwrap();
         assert!(!diagnostics.is_empty());
@@ -152,7 +152,7 @@ impl Case {
             assert!((garment.index as usize) < self.garment.triangles.len());
             assert!((avatar.index as usize) < self.avatar.triangles.len());
         }
-        assert_eq!(diagnostics.is_empty(), !self.shrunk_pokes());
+        assert_eq!(diagnostics.is_empty(), !self.shrunk_penetrates());
         error.message
     }
 }
@@ -188,12 +188,12 @@ fn bones(diagnostics: &[Diagnostic]) -> Vec<u32> {
     diagnostics.iter().filter_map(bone).collect()
 }
 
-/// The hand goes on beyond its bone and out of a closed mitten: that part is pulled back along the bone.
+/// The hand goes on beyond its bone and out of a closed mitten: that part is retracted along the bone.
 #[test]
 fn fingers_beyond_a_closed_mitten() {
     let garment = tube([-0.5, 1.05], |z| DVec3::new(0.0, 0.0, z), |_| 0.25, [20, 16], [false, true]);
     let case = Case { garment, source: straight_arm(), avatar: body(1.3), target: straight_arm() };
-    let diagnostics = case.is_resolved();
+    let diagnostics = case.is_repaired();
     assert_eq!(bones(&diagnostics), [1]);
     assert!(
         diagnostics[0].to_string().contains("pulled back") && !diagnostics[0].to_string().contains("aside"),
@@ -205,14 +205,14 @@ fn fingers_beyond_a_closed_mitten() {
     assert!((1.0..1.05).contains(&tip), "just inside the closed end: {tip}");
 }
 
-/// Finger bones beyond a closed sleeve: all that lies beyond it is pulled back.
+/// Finger bones beyond a closed sleeve: all that lies beyond it is retracted.
 #[test]
 fn finger_bones_beyond_a_closed_sleeve() {
     let mut hand = chain(&[[0.0, 0.0, -1.0], [0.0; 3], [0.0, 0.0, 0.75], [0.04, 0.0, 0.9], [-0.04, 0.0, 0.9]]);
     hand.bones = vec![[0, 1], [1, 2], [2, 3], [2, 4]];
     let garment = tube([-0.6, 0.7], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [18, 16], [false, true]);
     let case = Case { garment, source: hand.clone(), avatar: body(1.0), target: hand };
-    assert_eq!(bones(&case.is_resolved()), [1, 2, 3]);
+    assert_eq!(bones(&case.is_repaired()), [1, 2, 3]);
 }
 
 /// A sleeve that bows to one side: the bones leave it and come back in.
@@ -223,7 +223,7 @@ fn a_sleeve_that_bows_to_the_side() {
         let garment = tube([-0.7, 0.9], centre, |_| 0.2, [32, 18], [false; 2]);
         let avatar = tube([-1.1, 1.15], |z| DVec3::new(0.0, 0.0, z), |_| 0.12, [20, 14], [true; 2]);
         let case = Case { garment, source: straight_arm(), avatar, target: straight_arm() };
-        let diagnostics = case.is_resolved();
+        let diagnostics = case.is_repaired();
         assert_eq!(bones(&diagnostics), [1]);
         assert!(diagnostics[0].to_string().contains("aside"), "{}", diagnostics[0]);
     }
@@ -235,7 +235,7 @@ fn an_elbow_outside_its_sleeve() {
     let bent = chain(&[[0.0, 0.0, -1.0], [0.3, 0.05, 0.0], [0.0, 0.0, 1.0]]);
     let garment = tube([-0.75, 0.75], |z| DVec3::new(0.0, 0.0, z), |_| 0.24, [28, 18], [false; 2]);
     let case = Case { garment, source: bent, avatar: body(1.1), target: straight_arm() };
-    let diagnostics = case.is_resolved();
+    let diagnostics = case.is_repaired();
     assert_eq!(bones(&diagnostics), [0, 1]);
     let problem = case.problem(&mut Vec::new()).unwrap();
     let elbow = problem.projected.shrunk.iter().filter(|p| p.z.abs() < 0.02).map(|p| p.x).fold(0.0, f64::max);
@@ -266,11 +266,11 @@ fn a_dent_within_a_cycle_of_bones() {
     garment.positions[nearest] = DVec3::new(0.0, -0.15, -0.1);
     let avatar = tube([-1.1, 1.1], |z| DVec3::new(0.0, 0.0, z), |_| 0.55, [3, 8], [true; 2]);
     let case = Case { garment, source: pelvis.clone(), avatar, target: pelvis };
-    let diagnostics = case.is_resolved();
+    let diagnostics = case.is_repaired();
     assert!(diagnostics.iter().any(|f| f.to_string().contains("cycle")), "{diagnostics:?}");
 }
 
-/// A sheet across the arm like a wall, so wide that there is no way around it.
+/// A sheet across the arm like a wall, so wide that no path goes around it.
 #[test]
 fn a_wall_across_a_bone_is_refused() {
     let positions = [[-3.0, -3.0, 0.5], [3.0, -3.0, 0.52], [0.0, 4.0, 0.48]].map(DVec3::from).to_vec();
@@ -280,7 +280,7 @@ fn a_wall_across_a_bone_is_refused() {
     assert!(message.contains("between joints 1 and 2") && message.contains("triangles 0 (1 in all)"), "{message}");
 }
 
-/// Closed at both ends: most of the arm is outside, and to pull all of it back would dress nothing.
+/// Closed at both ends: most of the arm is outside, and to retract all of it would dress nothing.
 #[test]
 fn a_garment_closed_around_the_middle_of_an_arm_is_refused() {
     let garment = tube([-0.6, 0.6], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [16, 16], [true; 2]);
@@ -289,21 +289,21 @@ fn a_garment_closed_around_the_middle_of_an_arm_is_refused() {
     assert!(message.contains("between joints 0 and 1"), "{message}");
 }
 
-/// Beside its skeleton by half its width and more: nothing pokes, and yet the garment is around nothing.
+/// Beside its skeleton by half its width and more: nothing penetrates, and yet the garment encloses nothing.
 #[test]
 fn a_garment_beside_its_skeleton_is_refused() {
     for away in [0.31, 0.4, 0.9] {
         let garment = tube([-0.6, 0.6], |z| DVec3::new(away, 0.0, z), |_| 0.3, [16, 24], [false; 2]);
         let case = Case { garment, source: straight_arm(), avatar: body(1.1), target: straight_arm() };
-        assert!(case.is_refused().contains("beside the source skeleton"));
+        assert!(case.is_refused().contains("does not enclose the source skeleton"));
     }
     // Above the arm, though on the line of its last bone.
     let garment = tube([1.6, 2.4], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [16, 24], [false; 2]);
     let case = Case { garment, source: straight_arm(), avatar: body(1.1), target: straight_arm() };
-    assert!(case.is_refused().contains("beside the source skeleton"));
+    assert!(case.is_refused().contains("does not enclose the source skeleton"));
 }
 
-/// What does not poke stays as it was, to the bit.
+/// What does not penetrate stays as it was, to the bit.
 #[test]
 fn a_start_that_is_clean_is_left_alone() {
     let garment = tube([-0.6, 0.7], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [18, 16], [false; 2]);

@@ -1,20 +1,21 @@
-//! The gap that survives the rounding of the result to the coordinates in which it is read.
+//! Contact distances: minimum separation and d-hat, wide enough for the quantisation of the result.
 //!
-//! Rounding moves each vertex by at most a `quantisation`. Two primitives that are more than two shifts apart are then apart
-//! after rounding as well: along the straight way of their vertices to the rounded places, their distance falls by two
-//! shifts at most. So a minimum separation above two shifts makes the promise survive.
+//! Rounding the result to the coordinates in which it is read moves each vertex by at most a quantisation error. Two
+//! primitives that are more than two such errors apart are then apart after rounding as well: along the segments from their
+//! vertices to the rounded ones, their distance falls by two errors at most. So a minimum separation above two errors keeps
+//! the result free of intersections.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::options::Options;
 
-/// The min_separation in shifts: the two that are needed, and half as much again.
+/// The minimum separation in quantisation errors: the two that are needed, and half as much again.
 const SEPARATION_IN_ERRORS: f64 = 3.0;
-/// The min_separation as a part of d-hat, at most: the barrier needs room above it.
+/// The minimum separation as a share of d-hat, at most: the barrier needs a range above it.
 const SEPARATION_IN_DHAT: f64 = 0.25;
-/// The garment's distance to itself as a part of its median edge, at most: neighbours are not to repel each other.
+/// d-hat of the garment towards itself as a share of its median edge, at most: neighbours are not to repel each other.
 const DHAT_SELF_IN_EDGES: f64 = 0.25;
-/// A quantisation above this, in a space in which the skeleton is 2 long, leaves no room for a fit.
+/// A quantisation error above this, in a space in which the skeleton is 2 long, is too coarse for any fit.
 const MAX_QUANTISATION_ERROR: f64 = 0.01;
 
 /// A distance below this is lost in the rounding of coordinates of order 1: it counts as touching.
@@ -40,9 +41,9 @@ impl ContactDistances {
         Self { dhat_self: dhat, dhat, inflation_dhat, min_separation }
     }
 
-    /// ContactDistances that survive a rounding which moves no coordinate by more than `error`; the same where they are wide enough.
-    /// `garment` is the garment at rest. Where it is so fine that its neighbouring parts would repel each other, its gap to
-    /// itself stays narrower than that, and only the verifier can tell.
+    /// Distances that are wide enough for a rounding which moves no coordinate by more than `error`; the same where they are
+    /// already. `garment` is the garment at rest. Where it is so fine that its neighbouring parts would repel each other, the
+    /// minimum separation to itself stays below that, and only the verifier can decide.
     ///
     /// # Errors
     /// `InvalidMesh` where the coordinates are too coarse for any fit.

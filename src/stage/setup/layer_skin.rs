@@ -26,6 +26,6 @@ pub fn skin_with_layers<'a>(skin: &'a SkinWeights, body: &Body) -> Cow<'a, SkinW
         let triangle = avatar.triangles[closest.triangle as usize];
         Some((triangle, barycentric(closest.point, triangle.map(|v| avatar.positions[v as usize]))))
     };
-    let places: Vec<_> = body.layer_positions().par_iter().map(beneath).collect();
-    Cow::Owned(skin.extended(&places))
+    let points: Vec<_> = body.layer_positions().par_iter().map(beneath).collect();
+    Cow::Owned(skin.extended(&points))
 }

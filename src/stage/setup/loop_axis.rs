@@ -1,4 +1,4 @@
-//! Which bones a boundary loop follows.
+//! The axis of each boundary loop: which bones it follows.
 //!
 //! A cuff follows the closest bone that passes through it. A hem around both legs has no bone of its own:
 //! where several bones cross the loop's plane inside the loop's hull, it follows their mean.
@@ -114,7 +114,7 @@ impl Opening {
     }
 
     /// True where `p`, on the loop's plane, is inside the convex hull of the loop projected to that plane: seen
-    /// from there, the loop's points leave no gap of half a turn or more.
+    /// from there, the loop's points leave no angle of half a turn or more uncovered.
     fn hull_contains(&self, p: DVec3) -> bool {
         let (u, v) = self.normal.any_orthonormal_pair();
         let angle_of = |q: &DVec3| (*q - p).dot(v).atan2((*q - p).dot(u));

@@ -31,7 +31,7 @@ const HOSTS: usize = 32;
 /// A host triangle whose doubled area is below this share of its longest edge squared is too thin to hold anything.
 const THIN: f64 = 1e-2;
 
-/// The area around a vertex counts as at least this fraction of the mean square of the edges there: a piece of wire or
+/// The area around a vertex counts as at least this fraction of the mean square of the edges there: a piece of single edges or
 /// of slivers is held too.
 const LEAST_AREA: f64 = 1e-2;
 
@@ -88,14 +88,14 @@ struct Host {
 
 /// Where a vertex of a piece would be held.
 #[derive(Clone, Copy)]
-struct Place {
+struct Anchor {
     distance: f64,
     triangle: u32,
 }
 
-/// A host for a piece: where on it each vertex would be held, how far it reaches, and how far the piece is away on the whole.
+/// A host for a piece: where on it each vertex would be held, how far it reaches, and the mean distance of the piece.
 struct Match {
-    places: Vec<Place>,
+    anchors: Vec<Anchor>,
     reach: f64,
     distance: f64,
 }
@@ -132,7 +132,7 @@ impl LoosePieces {
     }
 }
 
-/// The connected parts, wires included, in the order of their lowest vertices.
+/// The connected parts, triangles without area included, in the order of their lowest vertices.
 fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
     let links = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
     let (labels, count) = label_pieces(rest.len(), links);
@@ -190,12 +190,12 @@ fn hosts(rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Vec<Host> 
         if !pieces.iter().any(|other| may_hold(piece, other)) {
             return None;
         }
-        let fat = |&&t: &&u32| {
+        let is_usable = |&&t: &&u32| {
             let [a, b, c] = triangles[t as usize].map(|v| rest[v as usize]);
             let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             (b - a).cross(c - a).length() > THIN * longest
         };
-        let usable: Vec<u32> = piece.triangles.iter().filter(fat).copied().collect();
+        let usable: Vec<u32> = piece.triangles.iter().filter(is_usable).copied().collect();
         // The tree sees the vertices of its own triangles only.
         let mut mesh = TriangleMesh::default();
         for (k, &t) in (0u32..).zip(&usable) {
@@ -212,7 +212,7 @@ fn reach(host: &Piece, piece: &Piece) -> f64 {
     (NEAR * host.size()).min(piece.size())
 }
 
-/// The rule, as far as areas and bounding boxes tell. A piece is never its own host.
+/// The rule, as far as areas and bounding boxes decide it. A piece is never its own host.
 fn may_hold(host: &Piece, piece: &Piece) -> bool {
     host.area > 0.0 && piece.area <= SMALL * host.area && host.gap(piece) <= reach(host, piece)
 }
@@ -237,42 +237,42 @@ fn hold(
         }
     }
     let Some(best) = best else { return (Vec::new(), None) };
-    let near = piece.vertices.iter().zip(&best.places).filter(|(_, place)| place.distance <= best.reach);
+    let near = piece.vertices.iter().zip(&best.anchors).filter(|(_, anchor)| anchor.distance <= best.reach);
     let holds = near
-        .map(|(&v, place)| Hold {
+        .map(|(&v, anchor)| Hold {
             vertex: v,
-            triangle: triangles[place.triangle as usize],
-            distance: place.distance,
+            triangle: triangles[anchor.triangle as usize],
+            distance: anchor.distance,
             area: areas[v as usize],
         })
         .collect();
-    let nearest = best.places.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
-    let loose = piece.triangles.first().zip(nearest).map(|(&triangle, place)| LoosePiece {
+    let nearest = best.anchors.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
+    let loose = piece.triangles.first().zip(nearest).map(|(&triangle, anchor)| LoosePiece {
         vertices: piece.vertices.clone(),
         triangle,
-        host: place.triangle,
-        distance: place.distance,
+        host: anchor.triangle,
+        distance: anchor.distance,
     });
     (holds, loose)
 }
 
-/// The way `host` would hold `piece`; none where too much of the piece is out of reach.
+/// How `host` would hold `piece`; none where too much of the piece is out of reach.
 fn match_host(piece: &Piece, body: &Piece, host: &Host, rest: &[DVec3], areas: &[f64]) -> Option<Match> {
     let reach = reach(body, piece);
-    let places: Vec<Place> = piece
+    let anchors: Vec<Anchor> = piece
         .vertices
         .iter()
         .map(|&v| host.tree.closest(rest[v as usize]))
-        .map(|found| found.map(|c| Place { distance: c.distance, triangle: host.triangles[c.triangle as usize] }))
+        .map(|found| found.map(|c| Anchor { distance: c.distance, triangle: host.triangles[c.triangle as usize] }))
         .collect::<Option<_>>()?;
     let (mut all, mut near, mut moment) = (0.0, 0.0, 0.0);
-    for (&v, place) in piece.vertices.iter().zip(&places) {
+    for (&v, anchor) in piece.vertices.iter().zip(&anchors) {
         let area = areas[v as usize];
         all += area;
-        if place.distance <= reach {
+        if anchor.distance <= reach {
             near += area;
-            moment += area * place.distance;
+            moment += area * anchor.distance;
         }
     }
-    (near > 0.0 && near >= MOST * all).then(|| Match { places, reach, distance: moment / near })
+    (near > 0.0 && near >= MOST * all).then(|| Match { anchors, reach, distance: moment / near })
 }

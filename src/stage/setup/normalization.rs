@@ -18,13 +18,13 @@ pub struct Normalization {
 }
 
 impl Normalization {
-    /// The frame in which the mean of the skeleton's joints is 0 and the longest side of their box is [`SIDE`].
-    /// `what` names the skeleton in errors.
+    /// The space in which the mean of the skeleton's joints is 0 and the longest side of their box is [`SIDE`].
+    /// `name` is the skeleton's in errors.
     ///
     /// # Errors
     /// `InvalidSkeleton` where all the joints are in one place.
-    pub fn of(skeleton: &Skeleton, what: &str) -> Result<Self> {
-        let scale = SIDE / skeleton.longest_side(what)?;
+    pub fn of(skeleton: &Skeleton, name: &str) -> Result<Self> {
+        let scale = SIDE / skeleton.longest_side(name)?;
         Ok(Self { origin: skeleton.mean_joint(), scale })
     }
 

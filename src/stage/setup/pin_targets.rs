@@ -1,13 +1,13 @@
-//! Where pinned vertices are to be.
+//! The targets of pinned vertices.
 //!
-//! A caller may name the place. Where none is named, a vertex is carried along with the bone beside it: with A, B the ends of
+//! A caller may give the target. Where none is given, a vertex is carried along with the nearest bone: with A, B the ends of
 //! that bone on the source skeleton, A', B' on the target's, and R the least rotation that turns B - A to where B' - A' points,
 //!
 //! ```text
 //! p(1) = A' + w (B' - A') + R (p - A - w (B - A)),   w = (p - A) . (B - A) / |B - A|^2
 //! ```
 //!
-//! so that its place along the bone and its distance from it stay, and on the same skeleton it stays where it is.
+//! so that its parameter along the bone and its distance from it stay, and on the same skeleton it stays where it is.
 
 use glam::{DQuat, DVec3};
 
@@ -16,20 +16,20 @@ use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, label_pieces};
 use crate::input::skeleton::Skeleton;
 
-/// A vertex to pin, and its place in the normalised space where the caller has named one.
-pub type AskedPin = (u32, Option<DVec3>);
+/// A vertex to pin, and its target in the normalised space where the caller has given one.
+pub type PinRequest = (u32, Option<DVec3>);
 
 /// The pins of `asked`, at most one a vertex, for a garment with vertices `rest` and `triangles`. Neighbours that are carried
 /// follow one bone: that which is nearest to the mean of them.
 pub fn resolve(
     rest: &[DVec3],
     triangles: &[[u32; 3]],
-    asked: &[AskedPin],
+    asked: &[PinRequest],
     source: &Skeleton,
     target: &Skeleton,
 ) -> Vec<Pin> {
     let mut is_carried = vec![false; rest.len()];
-    asked.iter().filter(|(_, place)| place.is_none()).for_each(|&(v, _)| is_carried[v as usize] = true);
+    asked.iter().filter(|(_, target)| target.is_none()).for_each(|&(v, _)| is_carried[v as usize] = true);
     let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let links = sides.filter(|edge| edge.iter().all(|&v| is_carried[v as usize]));
     let (labels, count) = label_pieces(rest.len(), links);
@@ -40,9 +40,9 @@ pub fn resolve(
         *number += 1.0;
     }
     let bones: Vec<[u32; 2]> = sums.iter().map(|&(sum, number)| nearest_bone(source, sum / number)).collect();
-    let pin = |&(vertex, place): &AskedPin| {
+    let pin = |&(vertex, given): &PinRequest| {
         let start = rest[vertex as usize];
-        let end = place.unwrap_or_else(|| {
+        let end = given.unwrap_or_else(|| {
             let bone = match labels[vertex as usize] {
                 // A carried vertex without a carried neighbour.
                 NO_PIECE => nearest_bone(source, start),

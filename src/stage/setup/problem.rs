@@ -1,4 +1,4 @@
-//! The inputs in the normalised space, and all that both steps derive from them once.
+//! The inputs in the normalised space, and all that is derived from them once, for inflation and fit.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::contact_distances::ContactDistances;
 use super::fit_region::fit_region;
 use super::layer_skin::skin_with_layers;
 use super::normalization::Normalization;
-use super::pin_targets::AskedPin;
+use super::pin_targets::PinRequest;
 use super::shape::Shape;
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
@@ -26,14 +26,14 @@ use crate::stage::start::projection::{ProjectedAvatar, project};
 use crate::stage::start::{enclosure, repair};
 use crate::verify::intersections_with_cancel;
 
-/// The largest offset that can be meant, in the normalised space. A larger one is one in another unit.
-const MOST_OFFSET: f64 = 1.0;
+/// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
+const MAX_OFFSET: f64 = 1.0;
 
-/// What a caller handed in, in the caller's own spaces.
+/// What a caller handed in, in the internal coordinate system but not yet normalised.
 pub struct Inputs<'a> {
     /// The garment, around the source skeleton, welded.
     pub garment: &'a TriangleMesh,
-    /// The way from the welded garment's indices to the caller's.
+    /// Maps between the welded garment's indices and the caller's.
     pub weld: Arc<Weld>,
     /// The skeleton that the garment was designed on.
     pub source_skeleton: &'a Skeleton,
@@ -47,11 +47,11 @@ pub struct Inputs<'a> {
     pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each welded vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
-    /// Pinned welded vertices, and their places in the target's space where named.
-    pub pins: &'a [AskedPin],
+    /// Pinned welded vertices, and their targets in the target's space where given.
+    pub pins: &'a [PinRequest],
     /// Lists of welded vertices that stay rigid, each vertex in one at most.
     pub rigid_groups: &'a [Vec<u32>],
-    /// The clearance to aim at beside the designed one, in the target's space.
+    /// The clearance to aim at in addition to the designed one, in the target's space.
     pub offset: f64,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's space.
     pub coordinate_error: f64,
@@ -67,7 +67,7 @@ pub struct Problem {
     pub rest: Vec<DVec3>,
     /// Its triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// The way to the caller's indices.
+    /// Maps to the caller's indices.
     pub weld: Arc<Weld>,
     /// The avatar with its layers at full size, their own vertices and triangles.
     pub avatar: Arc<TriangleMesh>,
@@ -81,7 +81,7 @@ pub struct Problem {
     pub fit_weights: Vec<f64>,
     /// The body that the garment was designed on.
     pub source_body: Option<ClosestPoint>,
-    /// The clearance to aim at beside the designed one.
+    /// The clearance to aim at in addition to the designed one.
     pub offset: f64,
     /// Pairs of garment triangles that intersect at the start, the lower index first.
     pub initial_intersections: Vec<[u32; 2]>,
@@ -90,13 +90,12 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Normalises, projects the avatar, and sets up the shape terms. What is worth knowing goes to `diagnostics`, in the
-    /// caller's indices.
+    /// Normalises, projects the avatar, and sets up the shape terms. Adds to `diagnostics`, in the caller's indices.
     ///
     /// # Errors
     /// `InvalidSkeleton` for a skeleton without size, `InvalidArgument` for an offset beyond it, `InvalidMesh` where the
-    /// coordinates of the result are too coarse, `NotEnclosed` where the garment lies beside the skeleton or the shrunk
-    /// avatar pokes through it and cannot be led around it, `Cancelled`.
+    /// coordinates of the result are too coarse, `NotEnclosed` where the garment does not enclose the skeleton, or
+    /// the shrunk avatar penetrates it and no path around it was found, `Cancelled`.
     pub fn new(
         inputs: &Inputs<'_>,
         options: &Options,
@@ -125,13 +124,13 @@ impl Problem {
         let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
-        let wire = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
+        let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
         cancel.check()?;
-        enclosure::check(garment, &wire)?;
+        enclosure::check(garment, &segments)?;
         cancel.check()?;
 
-        let place = |p: DVec3| target_normalization.normalise(p);
-        let asked: Vec<AskedPin> = inputs.pins.iter().map(|&(v, p)| (v, p.map(place))).collect();
+        let normalised_target = |p: DVec3| target_normalization.normalise(p);
+        let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
         let (shape, loose) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
         diagnostics.extend(loose.diagnostics(|t| inputs.weld.triangle_of[t as usize]));
         let source_body = inputs.source_avatar.map(|mesh| {
@@ -200,7 +199,7 @@ impl Normalised {
         let source_normalization = Normalization::of(inputs.source_skeleton, "source skeleton")?;
         let target_normalization = Normalization::of(inputs.target_skeleton, "target skeleton")?;
         let offset = inputs.offset * target_normalization.scale;
-        if offset > MOST_OFFSET {
+        if offset > MAX_OFFSET {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
                 format!(
@@ -210,15 +209,15 @@ impl Normalised {
                 ),
             ));
         }
-        let skeleton = |frame: &Normalization, s: &Skeleton| Skeleton {
-            joints: frame.normalise_all(&s.joints),
+        let skeleton = |normalization: &Normalization, s: &Skeleton| Skeleton {
+            joints: normalization.normalise_all(&s.joints),
             bones: inputs.source_skeleton.bones.clone(),
         };
         let mut avatar = TriangleMesh {
             positions: target_normalization.normalise_all(&inputs.avatar.mesh.positions),
             triangles: inputs.avatar.mesh.triangles.clone(),
         };
-        gather_unused(&mut avatar);
+        collapse_unused(&mut avatar);
         Ok(Self {
             source: skeleton(&source_normalization, inputs.source_skeleton),
             target: skeleton(&target_normalization, inputs.target_skeleton),
@@ -234,13 +233,13 @@ impl Normalised {
     }
 }
 
-/// Moves vertices that no triangle uses to one that is used: they are no part of the body, wherever they are.
-fn gather_unused(mesh: &mut TriangleMesh) {
+/// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.
+fn collapse_unused(mesh: &mut TriangleMesh) {
     let mut used = vec![false; mesh.positions.len()];
     mesh.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
     let Some(&first) = mesh.triangles.iter().flatten().next() else { return };
-    let place = mesh.positions[first as usize];
+    let target = mesh.positions[first as usize];
     for (p, _) in mesh.positions.iter_mut().zip(used).filter(|(_, used)| !used) {
-        *p = place;
+        *p = target;
     }
 }

@@ -2,7 +2,7 @@
 
 use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
-use super::pin_targets::{self, AskedPin};
+use super::pin_targets::{self, PinRequest};
 use crate::energy::attachment::Attachment;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
@@ -18,7 +18,7 @@ use crate::options::Options;
 pub struct Shape {
     /// Surface shape (Eq. 2).
     pub surface: Surface,
-    /// Loose pieces on the piece beside them.
+    /// Loose pieces, held to their hosts.
     pub attachment: Attachment,
     /// Curvature of the boundary curves (Eq. 5).
     pub curvature: Curvature,
@@ -26,9 +26,9 @@ pub struct Shape {
     pub torsion: Torsion,
     /// Position of the boundary curves along their bones (Eq. 3).
     pub position: Position,
-    /// Vertices that a caller wants in given places.
+    /// Pinned vertices.
     pub pins: Pins,
-    /// Groups that keep shape and size.
+    /// Rigid groups.
     pub rigid: Rigid,
 }
 
@@ -39,7 +39,7 @@ impl Shape {
         garment: &TriangleMesh,
         source: &Skeleton,
         target: &Skeleton,
-        pins: &[AskedPin],
+        pins: &[PinRequest],
         rigid_groups: &[Vec<u32>],
         options: &Options,
     ) -> (Self, LoosePieces) {

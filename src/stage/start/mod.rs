@@ -1,5 +1,5 @@
 //! The start (section 3.3 of the paper): the avatar projected onto the source skeleton, inside the garment. Where the
-//! skeleton itself leaves the garment, it is bent or retracted.
+//! skeleton itself leaves the garment, it is bent around it or retracted.
 
 pub mod bent_skeleton;
 pub mod enclosure;

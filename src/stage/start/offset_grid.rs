@@ -1,4 +1,4 @@
-//! Lattices of offsets, and those that are near to one of them.
+//! Grids of offsets, and a uniform-grid neighbour search among them.
 
 use glam::{DVec3, IVec3};
 
@@ -22,16 +22,16 @@ fn shortest(
     points: impl Iterator<Item = IVec3>,
     reach: f64,
     count: usize,
-    place: impl Fn(IVec3) -> DVec3,
+    offset: impl Fn(IVec3) -> DVec3,
 ) -> Vec<DVec3> {
     let mut inside: Vec<IVec3> = points.filter(|p| f64::from(p.length_squared()) <= reach * reach).collect();
     inside.sort_by_key(|p| (p.length_squared(), p.x, p.y, p.z));
     inside.truncate(count.max(1));
-    inside.into_iter().map(place).collect()
+    inside.into_iter().map(offset).collect()
 }
 
-/// Offsets sorted into cubes.
-pub struct Cells {
+/// Offsets sorted into the cubes of a uniform grid, for neighbour search.
+pub struct UniformGrid {
     low: DVec3,
     size: f64,
     counts: [usize; 3],
@@ -40,25 +40,25 @@ pub struct Cells {
     items: Vec<u32>,
 }
 
-impl Cells {
+impl UniformGrid {
     /// Sorts `offsets` into cubes of `size`.
     pub fn new(offsets: &[DVec3], size: f64) -> Self {
         let low = offsets.iter().copied().fold(DVec3::ZERO, DVec3::min);
         let high = offsets.iter().copied().fold(DVec3::ZERO, DVec3::max);
         let counts = ((high - low) / size).to_array().map(|n| n as usize + 1);
-        let mut cells =
+        let mut grid =
             Self { low, size, counts, first: vec![0; counts.iter().product::<usize>() + 1], items: Vec::new() };
         let mut order: Vec<(usize, u32)> =
-            offsets.iter().zip(0..).map(|(&o, i)| (cells.index(cells.cell(o)), i)).collect();
+            offsets.iter().zip(0..).map(|(&o, i)| (grid.index(grid.cell(o)), i)).collect();
         order.sort_unstable();
         for &(cell, _) in &order {
-            cells.first[cell + 1] += 1;
+            grid.first[cell + 1] += 1;
         }
-        for cell in 1..cells.first.len() {
-            cells.first[cell] += cells.first[cell - 1];
+        for cell in 1..grid.first.len() {
+            grid.first[cell] += grid.first[cell - 1];
         }
-        cells.items = order.into_iter().map(|(_, i)| i).collect();
-        cells
+        grid.items = order.into_iter().map(|(_, i)| i).collect();
+        grid
     }
 
     fn cell(&self, offset: DVec3) -> [i64; 3] {
@@ -71,7 +71,7 @@ impl Cells {
     }
 
     /// Calls `visit` with each offset within one cube's size of `offset`, and with some that are further away.
-    pub fn near(&self, offset: DVec3, mut visit: impl FnMut(usize)) {
+    pub fn for_each_near(&self, offset: DVec3, mut visit: impl FnMut(usize)) {
         let centre = self.cell(offset);
         let range = |axis: usize| (centre[axis] - 1).max(0)..=(centre[axis] + 1).min(self.counts[axis] as i64 - 1);
         for z in range(2) {

@@ -1,4 +1,4 @@
-//! Step 1: the target avatar, shrunk onto its skeleton and placed on the source skeleton inside the garment
+//! Projection: the target avatar, shrunk onto its skeleton and placed on the source skeleton inside the garment
 //! (section 3.3 of the paper).
 //!
 //! Each vertex goes to the nearest point of the bone it belongs to. A triangle whose corners lie on different bones is
@@ -122,7 +122,7 @@ fn attach(graph: &BoneGraph, skeleton: &Skeleton, p: DVec3, joint: Option<u32>) 
 }
 
 /// The parameter on the source skeleton. It is that on the target; but beyond the end of a bone that is many times longer
-/// or shorter on one of them, the way beyond is scaled with the body and not with that bone.
+/// or shorter on one of them, the length beyond is scaled with the body and not with that bone.
 fn on_source(parameter: f64, bone: u32, target: &Skeleton, source: &Skeleton) -> f64 {
     let inside = parameter.clamp(0.0, 1.0);
     let length = |s: &Skeleton| {
@@ -137,7 +137,7 @@ fn on_source(parameter: f64, bone: u32, target: &Skeleton, source: &Skeleton) ->
     inside + (parameter - inside) * (on_target / on_source) * scale
 }
 
-/// A bone whose lengths in the two skeletons differ by more than this factor says nothing about what lies beyond its end.
+/// A bone whose lengths in the two skeletons differ by more than this factor tells nothing of what lies beyond its end.
 const ODD_BONE: f64 = 4.0;
 
 /// The corner at `joint`, the `k`-th of `count` equal parts along the edge from `a` to `b`.

@@ -1,13 +1,13 @@
-//! What is done where the avatar, shrunk onto the source skeleton, pokes through the garment.
+//! Repair of the start where the avatar, shrunk onto the source skeleton, penetrates the garment.
 //!
-//! The guarantee of Step 2 needs a start without contact, and nothing else of it. So the skeleton is bent into a wire that
-//! stays clear of the garment: aside where a bone leaves through a wall, back where it ends beyond a closed end. Whether it
-//! does is the judge's decision alone.
+//! The guarantee of the inflation needs a start without contact, and nothing else of it. So the skeleton is bent until it
+//! stays clear of the garment: displaced where a bone leaves through a wall, retracted where it ends beyond a closed end.
+//! Whether it is clear is the exact verifier's decision alone.
 
 use glam::DVec3;
 
 use super::enclosure;
-use super::path_search::{Route, Scene, Search, around};
+use super::path_search::{PathSearch, SearchSettings, SkeletonPath, enclosing_planes};
 use super::projection::ProjectedAvatar;
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -19,35 +19,35 @@ use crate::input::diagnostic_text::at_bone;
 use crate::input::skeleton::{Location, Skeleton};
 use crate::verify::intersections_with_cancel;
 
-/// What is tried, one after the other, until nothing between joints has to be pulled back: finely and near, then far, and
+/// What is tried, one after the other, until nothing between joints has to be retracted: finely and near, then far, and
 /// last with hardly any clearance.
-const ROUNDS: [Search; 3] = [
-    Search { radius: 0.12, spacing: 0.012, clearance: 2.5e-3 },
-    Search { radius: 0.32, spacing: 0.015, clearance: 2e-3 },
-    Search { radius: 0.08, spacing: 0.008, clearance: 2e-4 },
+const ROUNDS: [SearchSettings; 3] = [
+    SearchSettings { radius: 0.12, spacing: 0.012, clearance: 2.5e-3 },
+    SearchSettings { radius: 0.32, spacing: 0.015, clearance: 2e-3 },
+    SearchSettings { radius: 0.08, spacing: 0.008, clearance: 2e-4 },
 ];
-/// No more than this share of the bones' length is pulled back: what hangs on the rest would not be dressed.
-const MOST_PULLED: f64 = 0.2;
-/// The garment must be around the wire for this share of it.
-const MOSTLY: f64 = 0.85;
-/// A wire with more joints than this is not tried: the table of ways between them grows with its square.
-const MOST_JOINTS: usize = 8192;
+/// No more than this share of the bones' length is retracted: what hangs on the rest would not be dressed.
+const MAX_RETRACTED: f64 = 0.2;
+/// The garment must enclose the bent skeleton for this share of it.
+const MIN_ENCLOSED_SHARE: f64 = 0.85;
+/// A bent skeleton with more joints than this is not tried: the table of paths between them grows with its square.
+const MAX_JOINTS: usize = 8192;
 /// Joints that may be the root, those nearest to the garment's middle.
 const ROOTS: usize = 64;
 /// Garment triangles that an error names.
 const NAMED: usize = 8;
 /// Diagnostics of one error, at most.
-const MOST_DIAGNOSTICS: usize = 64;
+const MAX_DIAGNOSTICS: usize = 64;
 
 /// A garment triangle that the shrunk avatar passes through, the bone, and the triangle of the avatar or a layer.
-struct Poke {
+struct Penetration {
     garment: u32,
     bone: Option<u32>,
     avatar: u32,
 }
 
 /// Moves the start of `projected`, of `avatar` and on `source`, clear of the garment where it is not, and adds what was done
-/// to `diagnostics`. Returns the lines that the start lies on. `callers` has the caller's index of each garment triangle.
+/// to `diagnostics`. Returns the segments that the start lies on. `callers` has the caller's index of each garment triangle.
 ///
 /// # Errors
 /// `NotEnclosed` where that cannot be done, naming bone and triangles, which are also added to `diagnostics`; `Cancelled`.
@@ -60,71 +60,73 @@ pub fn resolve(
     cancel: &Cancel,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Vec<[DVec3; 2]>> {
-    let mut pokes = find(garment, projected, cancel)?;
-    pokes.iter_mut().for_each(|poke| poke.garment = callers[poke.garment as usize]);
+    let mut penetrations = find_penetrations(garment, projected, cancel)?;
+    penetrations.iter_mut().for_each(|penetration| penetration.garment = callers[penetration.garment as usize]);
     let extents = extents(projected, source);
-    if pokes.is_empty() {
-        let line = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
-        return Ok(extents.iter().zip(0..).map(line).collect());
+    if penetrations.is_empty() {
+        let segment = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
+        return Ok(extents.iter().zip(0..).map(segment).collect());
     }
-    let Some((route, start)) = search(garment, &avatar.mesh, projected, source, &pokes, cancel)? else {
-        diagnostics.extend(pokes.iter().take(MOST_DIAGNOSTICS).map(|poke| refusal_of(poke, source, avatar)));
-        return Err(refusal(&pokes, source));
+    let Some((path, start)) = search_path(garment, &avatar.mesh, projected, source, &penetrations, cancel)? else {
+        diagnostics.extend(
+            penetrations.iter().take(MAX_DIAGNOSTICS).map(|penetration| refusal_of(penetration, source, avatar)),
+        );
+        return Err(refusal(&penetrations, source));
     };
-    diagnostics.extend(repairs(&pokes, &route, source));
+    diagnostics.extend(repairs(&penetrations, &path, source));
     *projected = start;
-    Ok(route.wire.lines(&extents))
+    Ok(path.bent.segments(&extents))
 }
 
-fn find(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Poke>> {
+fn find_penetrations(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Penetration>> {
     let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
     let found = intersections_with_cancel(garment, Some(&shrunk), usize::MAX, cancel)?;
-    let poke = |&[garment, piece]: &[u32; 2]| Poke {
+    let penetration = |&[garment, piece]: &[u32; 2]| Penetration {
         garment,
         bone: projected.bones[piece as usize],
         avatar: projected.origins[piece as usize],
     };
-    Ok(found.pairs.iter().map(poke).collect())
+    Ok(found.pairs.iter().map(penetration).collect())
 }
 
-/// The first wire that pulls no bone back, or else the one that pulls back least.
-fn search(
+/// The first path that retracts no bone, or else the one that retracts least.
+fn search_path(
     garment: &TriangleMesh,
     avatar: &TriangleMesh,
     projected: &ProjectedAvatar,
     source: &Skeleton,
-    pokes: &[Poke],
+    penetrations: &[Penetration],
     cancel: &Cancel,
-) -> Result<Option<(Route, ProjectedAvatar)>> {
+) -> Result<Option<(SkeletonPath, ProjectedAvatar)>> {
     let root = choose_root(garment, source);
     let cut = cycles(source, root);
-    let scene = Scene {
+    let search = PathSearch {
         garment,
         tree: ClosestPoint::new(garment),
         source,
         extents: extents(projected, source),
-        sought: beside_pokes(pokes, source),
+        prefer_enclosed: near_penetrations(penetrations, source),
     };
     let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
-    let mut best: Option<(f64, Route, ProjectedAvatar)> = None;
-    for search in &ROUNDS {
-        let Some(route) = scene.route(root, &cut, search, cancel)? else { continue };
-        let pulled: f64 = route.pulled.iter().map(|p| p[0]).sum();
-        let better = best.as_ref().is_none_or(|(least, ..)| pulled < *least);
-        if !better || pulled > MOST_PULLED * whole || route.wire.skeleton.joints.len() > MOST_JOINTS {
+    let mut best: Option<(f64, SkeletonPath, ProjectedAvatar)> = None;
+    for settings in &ROUNDS {
+        let Some(path) = search.find(root, &cut, settings, cancel)? else { continue };
+        let retracted: f64 = path.retracted.iter().map(|p| p[0]).sum();
+        let better = best.as_ref().is_none_or(|(least, ..)| retracted < *least);
+        if !better || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS {
             continue;
         }
-        let start = route.wire.carry(avatar, projected);
-        if find(garment, &start, cancel)?.is_empty()
-            && enclosure::share_around(garment, &route.wire.lines(&scene.extents)) >= MOSTLY
+        let start = path.bent.reproject(avatar, projected);
+        if find_penetrations(garment, &start, cancel)?.is_empty()
+            && enclosure::enclosed_share(garment, &path.bent.segments(&search.extents)) >= MIN_ENCLOSED_SHARE
         {
-            best = Some((pulled, route, start));
-            if pulled == 0.0 {
+            best = Some((retracted, path, start));
+            if retracted == 0.0 {
                 break;
             }
         }
     }
-    Ok(best.map(|(_, route, start)| (route, start)))
+    Ok(best.map(|(_, path, start)| (path, start)))
 }
 
 fn length(source: &Skeleton, ends: [u32; 2]) -> f64 {
@@ -132,7 +134,7 @@ fn length(source: &Skeleton, ends: [u32; 2]) -> f64 {
     a.distance(b)
 }
 
-/// The joint that the garment is around most, and among equals the one nearest to its middle.
+/// The joint that the garment encloses in most planes, and among equals the one nearest to its middle.
 fn choose_root(garment: &TriangleMesh, source: &Skeleton) -> u32 {
     let corners = || garment.triangles.iter().flatten().map(|&v| garment.positions[v as usize]);
     let middle = corners().sum::<DVec3>() / corners().count().max(1) as f64;
@@ -142,7 +144,7 @@ fn choose_root(garment: &TriangleMesh, source: &Skeleton) -> u32 {
         distance(a).total_cmp(&distance(b))
     });
     joints.truncate(ROOTS);
-    let score = |&j: &u32| around(garment, source.joints[j as usize]);
+    let score = |&j: &u32| enclosing_planes(garment, source.joints[j as usize]);
     // The last of equals in the reversed order is the nearest.
     joints.into_iter().rev().max_by_key(score).unwrap_or(0)
 }
@@ -183,19 +185,19 @@ fn extents(projected: &ProjectedAvatar, source: &Skeleton) -> Vec<[f64; 2]> {
     extents
 }
 
-/// Bones that poke, and those that share a joint with them.
-fn beside_pokes(pokes: &[Poke], source: &Skeleton) -> Vec<bool> {
+/// Bones that penetrate, and those that share a joint with them.
+fn near_penetrations(penetrations: &[Penetration], source: &Skeleton) -> Vec<bool> {
     let mut joints = vec![false; source.joints.len()];
-    for bone in pokes.iter().filter_map(|p| p.bone) {
+    for bone in penetrations.iter().filter_map(|p| p.bone) {
         source.bones[bone as usize].iter().for_each(|&j| joints[j as usize] = true);
     }
     source.bones.iter().map(|ends| ends.iter().any(|&j| joints[j as usize])).collect()
 }
 
 /// What was done, bone by bone; last what was done to cycles.
-fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Diagnostic> {
+fn repairs(penetrations: &[Penetration], path: &SkeletonPath, source: &Skeleton) -> Vec<Diagnostic> {
     let through = |bone: Option<u32>| {
-        let mut triangles: Vec<u32> = pokes.iter().filter(|p| p.bone == bone).map(|p| p.garment).collect();
+        let mut triangles: Vec<u32> = penetrations.iter().filter(|p| p.bone == bone).map(|p| p.garment).collect();
         triangles.sort_unstable();
         triangles.dedup();
         triangles.truncate(3);
@@ -204,11 +206,11 @@ fn repairs(pokes: &[Poke], route: &Route, source: &Skeleton) -> Vec<Diagnostic> 
     let mut diagnostics = Vec::new();
     for bone in (0..source.bones.len() as u32).map(|index| bone_of(index, source)) {
         let triangles = through(Some(bone.index));
-        let [between, beyond] = route.pulled[bone.index as usize];
+        let [between, beyond] = path.retracted[bone.index as usize];
         if triangles.is_empty() && between == 0.0 {
             continue;
         }
-        let aside = route.offsets[bone.index as usize];
+        let aside = path.displacements[bone.index as usize];
         diagnostics.push(Diagnostic::BoneMoved { bone, triangles, aside, between, beyond });
     }
     let triangles = through(None);
@@ -222,16 +224,16 @@ fn bone_of(index: u32, source: &Skeleton) -> Bone {
     Bone { index, joints: source.bones[index as usize] }
 }
 
-fn refusal_of(poke: &Poke, source: &Skeleton, avatar: &Body) -> Diagnostic {
+fn refusal_of(penetration: &Penetration, source: &Skeleton, avatar: &Body) -> Diagnostic {
     Diagnostic::AvatarPenetrates {
-        garment: poke.garment,
-        bone: poke.bone.map(|bone| bone_of(bone, source)),
-        avatar: avatar.triangle(poke.avatar),
+        garment: penetration.garment,
+        bone: penetration.bone.map(|bone| bone_of(bone, source)),
+        avatar: avatar.triangle(penetration.avatar),
     }
 }
 
-fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {
-    let mut triangles: Vec<u32> = pokes.iter().map(|p| p.garment).collect();
+fn refusal(penetrations: &[Penetration], source: &Skeleton) -> Error {
+    let mut triangles: Vec<u32> = penetrations.iter().map(|p| p.garment).collect();
     triangles.sort_unstable();
     triangles.dedup();
     let count = triangles.len();
@@ -239,10 +241,10 @@ fn refusal(pokes: &[Poke], source: &Skeleton) -> Error {
     Error::new(
         ErrorKind::NotEnclosed,
         format!(
-            "garment: the avatar, shrunk onto the source skeleton, pokes through it {}: through garment triangles \
+            "garment: the avatar, shrunk onto the source skeleton, penetrates it {}: at garment triangles \
              {}{} ({count} in all), and no way around them was found; move the garment or the skeleton so that the garment \
              is around its bones",
-            at_bone(pokes.first().and_then(|p| p.bone).map(|bone| source.bones[bone as usize])),
+            at_bone(penetrations.first().and_then(|p| p.bone).map(|bone| source.bones[bone as usize])),
             named.join(", "),
             if count > named.len() { ", ..." } else { "" },
         ),

@@ -1,4 +1,4 @@
-//! A plane cut through the garment, and whether it goes around a point of that plane.
+//! A planar cross-section of the garment, and whether it encloses a point of its plane.
 
 use glam::{DVec2, DVec3};
 
@@ -6,8 +6,8 @@ use crate::geometry::mesh::TriangleMesh;
 
 /// Directions around a point, one bit each.
 const DIRECTIONS: u32 = 64;
-/// The garment is around a point where no gap between the directions in which it is seen is wider than this: below half a
-/// turn, which is the narrowest gap for a point beside something convex. A cape still passes.
+/// A section encloses a point where no gap in its angular coverage is wider than this many directions: below half a turn,
+/// which is the narrowest gap for a point outside of something convex. A cape still passes.
 const WIDEST_GAP: u32 = 28;
 
 /// The curve in which a plane cuts the garment.
@@ -48,21 +48,21 @@ impl Section {
         [self.u, self.v]
     }
 
-    /// Whether the garment is around `p`, which lies in the plane.
-    pub fn is_around(&self, p: DVec3) -> bool {
-        let place = DVec2::new((p - self.origin).dot(self.u), (p - self.origin).dot(self.v));
-        let mut seen = 0u64;
+    /// Whether the garment encloses `p`, which lies in the plane: a test of the angles under which its curve is seen from there.
+    pub fn encloses(&self, p: DVec3) -> bool {
+        let centre = DVec2::new((p - self.origin).dot(self.u), (p - self.origin).dot(self.v));
+        let mut covered = 0u64;
         for &[a, b] in &self.segments {
-            let (a, b) = (a - place, b - place);
+            let (a, b) = (a - centre, b - centre);
             let turn = a.perp_dot(b);
             let (from, to) = if turn >= 0.0 { (direction(a), direction(b)) } else { (direction(b), direction(a)) };
             // Fewer than half of all directions: a segment is never seen under more than half a turn.
             let width = (to + DIRECTIONS - from) % DIRECTIONS;
             let bits = if width >= DIRECTIONS / 2 { 1 } else { (2u64 << width) - 1 };
-            seen |= bits.rotate_left(from);
+            covered |= bits.rotate_left(from);
         }
-        let mut empty = !seen;
-        if seen == 0 {
+        let mut empty = !covered;
+        if covered == 0 {
             return false;
         }
         // Each round takes one direction off every gap.

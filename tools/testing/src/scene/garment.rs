@@ -11,31 +11,31 @@ use super::skeleton::distance_to_segment;
 use super::{below, between, chance};
 use crate::Random;
 
-/// A limb beside the garment keeps this many times its thickness between its bone and the garment.
+/// A limb outside of the garment keeps this many times its thickness between its bone and the garment.
 const ROOM: f64 = 1.5;
 
-/// The way along bones that a tube follows, with the bones that it is around.
-struct Way {
+/// The centre line along bones that a tube follows, with the bones that it encloses.
+struct CentreLine {
     points: Vec<DVec3>,
     bones: Vec<usize>,
-    /// Whether the way begins, or ends, at a joint with a single bone.
+    /// Whether the line begins, or ends, at a joint with a single bone.
     leaf: [bool; 2],
-    /// Grows along the way as a skirt does.
+    /// Grows along the line as a skirt does.
     flare: f64,
 }
 
 /// A garment that is clean and has room.
 pub fn around(random: &mut Random, skeleton: &Skeleton, bodies: &Bodies) -> TriangleMesh {
     for attempt in 0..60 {
-        let way = match below(random, 4) {
+        let line = match below(random, 4) {
             _ if attempt >= 40 => one_bone(random, skeleton),
             0 => one_bone(random, skeleton),
             1 => skirt(random, skeleton).unwrap_or_else(|| chain(random, skeleton)),
             _ => chain(random, skeleton),
         };
-        let mut mesh = tube(random, &way);
-        cut_openings(&mut mesh, &way, skeleton, bodies);
-        if (40..=600).contains(&mesh.positions.len()) && is_sound(&mesh, &way, skeleton, bodies) {
+        let mut mesh = tube(random, &line);
+        cut_openings(&mut mesh, &line, skeleton, bodies);
+        if (40..=600).contains(&mesh.positions.len()) && is_sound(&mesh, &line, skeleton, bodies) {
             return mesh;
         }
     }
@@ -45,49 +45,54 @@ pub fn around(random: &mut Random, skeleton: &Skeleton, bodies: &Bodies) -> Tria
     let (bone, ends) = bones.max_by(|a, b| length(a.1).total_cmp(&length(b.1))).expect("a skeleton has a bone");
     let [a, b] = ends.map(|j| skeleton.joints[j as usize]);
     let points = vec![a.lerp(b, 0.4), a.lerp(b, 0.6)];
-    let way = Way { points, bones: vec![bone], leaf: [false; 2], flare: 0.0 };
-    rings(&way, 0.05, 12, 5, [false; 2])
+    let line = CentreLine { points, bones: vec![bone], leaf: [false; 2], flare: 0.0 };
+    rings(&line, 0.05, 12, 5, [false; 2])
 }
 
 fn degree(skeleton: &Skeleton, joint: u32) -> usize {
     skeleton.bones.iter().filter(|b| b.contains(&joint)).count()
 }
 
-fn one_bone(random: &mut Random, skeleton: &Skeleton) -> Way {
+fn one_bone(random: &mut Random, skeleton: &Skeleton) -> CentreLine {
     let bone = below(random, skeleton.bones.len());
     let ends = skeleton.bones[bone];
     let points = ends.map(|j| skeleton.joints[j as usize]).to_vec();
-    Way { points, bones: vec![bone], leaf: ends.map(|j| degree(skeleton, j) == 1), flare: between(random, -0.2, 0.4) }
+    CentreLine {
+        points,
+        bones: vec![bone],
+        leaf: ends.map(|j| degree(skeleton, j) == 1),
+        flare: between(random, -0.2, 0.4),
+    }
 }
 
 /// From a joint along two to four bones, as they follow each other.
-fn chain(random: &mut Random, skeleton: &Skeleton) -> Way {
+fn chain(random: &mut Random, skeleton: &Skeleton) -> CentreLine {
     let mut bone = below(random, skeleton.bones.len());
     let mut joint = skeleton.bones[bone][below(random, 2)];
     let first = joint;
-    let mut way =
-        Way { points: vec![skeleton.joints[joint as usize]], bones: Vec::new(), leaf: [false; 2], flare: 0.0 };
+    let mut line =
+        CentreLine { points: vec![skeleton.joints[joint as usize]], bones: Vec::new(), leaf: [false; 2], flare: 0.0 };
     let longest = 2 + below(random, 3);
     loop {
         let [a, b] = skeleton.bones[bone];
         joint = if a == joint { b } else { a };
-        way.points.push(skeleton.joints[joint as usize]);
-        way.bones.push(bone);
+        line.points.push(skeleton.joints[joint as usize]);
+        line.bones.push(bone);
         let onward: Vec<usize> = (0..skeleton.bones.len())
-            .filter(|k| !way.bones.contains(k) && skeleton.bones[*k].contains(&joint))
+            .filter(|k| !line.bones.contains(k) && skeleton.bones[*k].contains(&joint))
             .collect();
-        if onward.is_empty() || way.bones.len() == longest {
+        if onward.is_empty() || line.bones.len() == longest {
             break;
         }
         bone = onward[below(random, onward.len())];
     }
-    way.leaf = [first, joint].map(|j| degree(skeleton, j) == 1);
-    way.flare = between(random, -0.2, 0.4);
-    way
+    line.leaf = [first, joint].map(|j| degree(skeleton, j) == 1);
+    line.flare = between(random, -0.2, 0.4);
+    line
 }
 
 /// From a joint along the mean of two or more bones that spread from it.
-fn skirt(random: &mut Random, skeleton: &Skeleton) -> Option<Way> {
+fn skirt(random: &mut Random, skeleton: &Skeleton) -> Option<CentreLine> {
     let joint = below(random, skeleton.joints.len()) as u32;
     let waist = skeleton.joints[joint as usize];
     let legs: Vec<(usize, DVec3)> = (skeleton.bones.iter().enumerate())
@@ -107,30 +112,35 @@ fn skirt(random: &mut Random, skeleton: &Skeleton) -> Option<Way> {
     let spread = |leg: &DVec3| (leg - axis * leg.dot(axis)).length() / leg.dot(axis);
     let widest = together.iter().map(|(_, leg)| spread(leg)).fold(0.0, f64::max);
     let points = vec![waist - 0.15 * axis, waist + axis * between(random, 0.5, 0.8) * shortest];
-    Some(Way { points, bones: together.iter().map(|(k, _)| *k).collect(), leaf: [false; 2], flare: 10.0 * widest })
+    Some(CentreLine {
+        points,
+        bones: together.iter().map(|(k, _)| *k).collect(),
+        leaf: [false; 2],
+        flare: 10.0 * widest,
+    })
 }
 
-fn tube(random: &mut Random, way: &Way) -> TriangleMesh {
-    let length: f64 = way.points.windows(2).map(|w| w[0].distance(w[1])).sum();
-    let skirt = way.flare > 1.0;
-    let mut from = if skirt || way.leaf[0] { 0.0 } else { between(random, 0.05, 0.4) };
+fn tube(random: &mut Random, line: &CentreLine) -> TriangleMesh {
+    let length: f64 = line.points.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let skirt = line.flare > 1.0;
+    let mut from = if skirt || line.leaf[0] { 0.0 } else { between(random, 0.05, 0.4) };
     let mut to = if skirt { 1.0 } else { between(random, 0.55, 0.95) };
     let radius = between(random, 0.06, 0.22).min(0.4 * length);
     let mut capped = [false; 2];
     for end in 0..2 {
-        if way.leaf[end] && chance(random, 0.35) {
+        if line.leaf[end] && chance(random, 0.35) {
             capped[end] = true;
             // Beyond the end of the bone, and of the body around it.
             *[&mut from, &mut to][end] = if end == 0 { -0.3 / length } else { 1.0 + 0.3 / length };
         }
     }
-    if way.leaf[0] && !capped[0] {
+    if line.leaf[0] && !capped[0] {
         from = between(random, 0.05, 0.4);
     }
     let sides = 8 + below(random, 17);
     let count = between(random, 60.0, 560.0) as usize / sides;
     let points = [from, to].map(|s| s * length);
-    let trimmed = Way { points: trim(&way.points, points), bones: way.bones.clone(), ..*way };
+    let trimmed = CentreLine { points: trim(&line.points, points), bones: line.bones.clone(), ..*line };
     rings(&trimmed, radius, sides, count.clamp(4, 30), capped)
 }
 
@@ -161,16 +171,16 @@ fn at(points: &[DVec3], mut arc: f64) -> DVec3 {
     points[0]
 }
 
-/// Rings of vertices around the way, rounded at its corners; caps of two narrower rings and a tip.
-fn rings(way: &Way, radius: f64, sides: usize, count: usize, capped: [bool; 2]) -> TriangleMesh {
-    let length: f64 = way.points.windows(2).map(|w| w[0].distance(w[1])).sum();
+/// Rings of vertices around the line, rounded at its corners; caps of two narrower rings and a tip.
+fn rings(line: &CentreLine, radius: f64, sides: usize, count: usize, capped: [bool; 2]) -> TriangleMesh {
+    let length: f64 = line.points.windows(2).map(|w| w[0].distance(w[1])).sum();
     let smooth = 1.2 * radius;
-    let centre = |arc: f64| (-3..=3).map(|k| at(&way.points, arc + smooth * f64::from(k) / 3.0)).sum::<DVec3>() / 7.0;
+    let centre = |arc: f64| (-3..=3).map(|k| at(&line.points, arc + smooth * f64::from(k) / 3.0)).sum::<DVec3>() / 7.0;
     let flare = |share: f64| {
-        if way.flare > 1.0 {
-            radius + 1.2 * way.flare / 10.0 * share * length
+        if line.flare > 1.0 {
+            radius + 1.2 * line.flare / 10.0 * share * length
         } else {
-            radius * (1.0 + way.flare * share)
+            radius * (1.0 + line.flare * share)
         }
     };
     // Arc, and radius as a share of the tube's there.
@@ -221,16 +231,16 @@ fn rings(way: &Way, radius: f64, sides: usize, count: usize, capped: [bool; 2]) 
     mesh
 }
 
-/// Takes away the triangles about the bones that leave the tube, and all but the largest piece of what is left.
-fn cut_openings(mesh: &mut TriangleMesh, way: &Way, skeleton: &Skeleton, bodies: &Bodies) {
-    let near = |p: DVec3| beside(p, way, skeleton, bodies).is_some();
+/// Removes the triangles about the bones that leave the tube, and all but the largest piece of the rest.
+fn cut_openings(mesh: &mut TriangleMesh, line: &CentreLine, skeleton: &Skeleton, bodies: &Bodies) {
+    let near = |p: DVec3| nearby_limb(p, line, skeleton, bodies).is_some();
     mesh.triangles.retain(|t| !t.iter().any(|&v| near(mesh.positions[v as usize])));
     keep_largest_piece(mesh);
 }
 
 /// A bone that the garment is not around, and that is too near to `p`.
-fn beside(p: DVec3, way: &Way, skeleton: &Skeleton, bodies: &Bodies) -> Option<usize> {
-    (0..skeleton.bones.len()).filter(|k| !way.bones.contains(k)).find(|&k| {
+fn nearby_limb(p: DVec3, line: &CentreLine, skeleton: &Skeleton, bodies: &Bodies) -> Option<usize> {
+    (0..skeleton.bones.len()).filter(|k| !line.bones.contains(k)).find(|&k| {
         let [a, b] = skeleton.bones[k].map(|j| skeleton.joints[j as usize]);
         distance_to_segment(p, a, b) < ROOM * bodies.source_radii[k]
     })
@@ -271,8 +281,8 @@ fn compact(mesh: &mut TriangleMesh) {
     mesh.positions = kept;
 }
 
-/// Clean, clear of the skeleton's line and of what lies beyond its leaves, and with room for the limbs beside it.
-fn is_sound(mesh: &TriangleMesh, way: &Way, skeleton: &Skeleton, bodies: &Bodies) -> bool {
+/// Clean, clear of the skeleton's line and of what lies beyond its leaves, and with room for the limbs outside of it.
+fn is_sound(mesh: &TriangleMesh, line: &CentreLine, skeleton: &Skeleton, bodies: &Bodies) -> bool {
     let mut lines = TriangleMesh::default();
     for (k, bone) in skeleton.bones.iter().enumerate() {
         let [a, b] = bone.map(|j| skeleton.joints[j as usize]);
@@ -288,7 +298,7 @@ fn is_sound(mesh: &TriangleMesh, way: &Way, skeleton: &Skeleton, bodies: &Bodies
             .all(|t| distance_to_segment(*p, lines.positions[t[0] as usize], lines.positions[t[1] as usize]) > 0.02)
     };
     mesh.positions.iter().all(far)
-        && mesh.positions.iter().all(|&p| beside(p, way, skeleton, bodies).is_none())
+        && mesh.positions.iter().all(|&p| nearby_limb(p, line, skeleton, bodies).is_none())
         && clear(None)
         && clear(Some(&lines))
         && size(skeleton) > 0.0

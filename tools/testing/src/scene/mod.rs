@@ -1,4 +1,4 @@
-//! Random small retargets, each told by its recipe alone: skeletons, a body, a garment, spaces, precision and options.
+//! Random small retargets, each determined by its recipe alone: skeletons, a body, a garment, spaces, precision and options.
 //!
 //! A scene without flaws is *sound*: the garment is clean, lies around bones of the source skeleton and leaves room for the
 //! limbs beside them, so that a result must come out. Flaws make it anything that a caller may hand in.

@@ -1,4 +1,4 @@
-//! The exact verifier looks at a session after every step.
+//! The exact verifier, applied to a session after every step.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use testing::scene::Scene;
 type Pairs = BTreeSet<[u32; 2]>;
 
 /// Knows which pairs of triangles intersect at the start, or touch but for rounding; no other pair ever may.
-pub struct Judge<'a> {
+pub struct StepVerifier<'a> {
     pub scene: &'a Scene,
     pub problem: Problem,
     pub garment: Pairs,
@@ -40,31 +40,31 @@ fn distance(mesh: &TriangleMesh, pair: [u32; 2]) -> f64 {
     nearest
 }
 
-impl<'a> Judge<'a> {
+impl<'a> StepVerifier<'a> {
     /// # Errors
     /// Where the session refuses the scene in `prepare`.
     pub fn new(scene: &'a Scene) -> Result<Self> {
         let problem = scene.problem()?;
-        let mut judge = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
-        let start = judge.source_positions();
-        let objective = judge.problem.inflation_objective(&scene.options, &Cancel::new(), &mut Vec::new())?;
+        let mut verifier = Self { scene, problem, garment: pairs(&scene.garment, None), avatar: Pairs::new() };
+        let start = verifier.source_positions();
+        let objective = verifier.problem.inflation_objective(&scene.options, &Cancel::new(), &mut Vec::new())?;
         for &pair in objective.contact.exempt_pairs().triangle_pairs() {
-            let pair = pair.map(|t| judge.problem.weld.triangle_of[t as usize]);
+            let pair = pair.map(|t| verifier.problem.weld.triangle_of[t as usize]);
             let touches = distance(&start, pair) < 2e-12;
-            assert!(judge.garment.contains(&pair) || touches, "triangles {pair:?} are let off, but are apart");
-            judge.garment.insert(pair);
+            assert!(verifier.garment.contains(&pair) || touches, "triangles {pair:?} are exempt, but are apart");
+            verifier.garment.insert(pair);
         }
-        judge.avatar = judge.against_avatar(start, 0.0);
-        Ok(judge)
+        verifier.avatar = verifier.against_avatar(start, 0.0);
+        Ok(verifier)
     }
 
     /// The garment as designed, normalised.
     fn source_positions(&self) -> TriangleMesh {
-        let ours = |&p| {
+        let normalised = |&p| {
             self.problem.source_normalization.normalise(self.scene.source_coordinate_system.position_to_internal(p))
         };
         TriangleMesh {
-            positions: self.scene.garment.positions.iter().map(ours).collect(),
+            positions: self.scene.garment.positions.iter().map(normalised).collect(),
             triangles: self.scene.garment.triangles.clone(),
         }
     }
@@ -80,39 +80,39 @@ impl<'a> Judge<'a> {
         pairs(&garment, Some(&body))
     }
 
-    /// The garment as it is now against itself and the avatar at its present t: a sentence where a new pair intersects.
-    pub fn look(&self, session: &Session) -> std::result::Result<(), String> {
+    /// The garment as it is now against itself and the avatar at its present t: a message where a new pair intersects.
+    pub fn verify_step(&self, session: &Session) -> std::result::Result<(), String> {
         let positions = session.garment_positions().map_err(|e| format!("not readable: {e}"))?;
         let now = TriangleMesh { positions, triangles: self.scene.garment.triangles.clone() };
         let t = session.report().t;
-        let place = format!("{:?} at t = {t}", session.stage());
+        let at = format!("{:?} at t = {t}", session.stage());
         let new: Vec<_> = pairs(&now, None).difference(&self.garment).copied().collect();
         if !new.is_empty() {
-            return Err(format!("{place}: garment triangles {new:?} intersect, which did not at the start"));
+            return Err(format!("{at}: garment triangles {new:?} intersect, which did not at the start"));
         }
         let new: Vec<_> = if t < 1.0 {
-            let ours = |&p| {
+            let normalised = |&p| {
                 self.problem.target_normalization.normalise(self.scene.target_coordinate_system.position_to_internal(p))
             };
-            let garment = TriangleMesh { positions: now.positions.iter().map(ours).collect(), ..now };
+            let garment = TriangleMesh { positions: now.positions.iter().map(normalised).collect(), ..now };
             self.against_avatar(garment, t).difference(&self.avatar).copied().collect()
         } else {
             pairs(&now, Some(&self.scene.avatar)).into_iter().collect()
         };
-        if new.is_empty() { Ok(()) } else { Err(format!("{place}: garment and avatar triangles {new:?} intersect")) }
+        if new.is_empty() { Ok(()) } else { Err(format!("{at}: garment and avatar triangles {new:?} intersect")) }
     }
 
     /// The result as a caller reads it.
-    pub fn look_at_result(&self, session: &Session) -> std::result::Result<(), String> {
+    pub fn verify_result(&self, session: &Session) -> std::result::Result<(), String> {
         assert_eq!(session.stage(), Stage::Done);
         let round = |p| self.scene.precision.round(p);
         let positions = session.garment_positions().map_err(|e| e.message)?.into_iter().map(round).collect();
         let result = TriangleMesh { positions, triangles: self.scene.garment.triangles.clone() };
         let new: Vec<_> = pairs(&result, None).difference(&self.garment).copied().collect();
-        let poking = pairs(&result, Some(&self.scene.avatar));
-        if new.is_empty() && poking.is_empty() {
+        let penetrating = pairs(&result, Some(&self.scene.avatar));
+        if new.is_empty() && penetrating.is_empty() {
             return Ok(());
         }
-        Err(format!("the result intersects: garment {new:?}, garment and avatar {poking:?}"))
+        Err(format!("the result intersects: garment {new:?}, garment and avatar {penetrating:?}"))
     }
 }
