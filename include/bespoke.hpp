@@ -1308,7 +1308,7 @@ public:
     /// on.
     /// `on_progress`: called with a `const Progress &` as often, on this thread, and once more with DONE. It may return
     /// nothing, or false to stop. It may throw, which leaves the session where it is; it must not destroy or move it.
-    /// Whoever stops it, the run fails with CANCELLED as after cancel(): the request stays until reset().
+    /// However it is stopped, the run fails with CANCELLED as after cancel(): the request stays until reset().
     template <class Token, class OnProgress, class = std::enable_if_t<detail::is_stop_token<Token>>,
               class = std::enable_if_t<detail::is_progress_callable<OnProgress>>>
     Result<void> run(const Token &token, OnProgress &&on_progress) {

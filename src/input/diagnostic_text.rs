@@ -50,11 +50,17 @@ impl Display for Diagnostic {
                 };
                 write!(f, "garment: triangles {s} and {t} {how} before anything has moved, {fate}")
             }
-            Self::NearContact { to_itself, to_avatar, min_separation, .. } => write!(
-                f,
-                "garment: at the start it is within {to_itself:.1e} of itself and {to_avatar:.1e} of the shrunk avatar, so that \
-                 the minimum separation begins at {min_separation:.1e} and rises as they part"
-            ),
+            Self::NearContact { to_itself, to_avatar, min_separation, .. } => {
+                let near = [(to_itself, "itself"), (to_avatar, "the shrunk avatar")];
+                let near = near.iter().filter(|(distance, _)| distance.is_finite());
+                let near: Vec<String> = near.map(|(distance, what)| format!("{distance:.1e} of {what}")).collect();
+                write!(
+                    f,
+                    "garment: at the start it is within {}, so that the minimum separation begins at {min_separation:.1e} and \
+                     rises as they part",
+                    near.join(" and ")
+                )
+            }
             Self::BoneMoved { bone, aside, between, beyond, .. } => {
                 let [a, b] = bone.joints;
                 write!(

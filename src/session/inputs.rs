@@ -58,7 +58,7 @@ impl Session {
         ))
     }
 
-    /// The garment, in the source space, around the source skeleton.
+    /// The garment, in the source coordinate system, around the source skeleton.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -74,7 +74,7 @@ impl Session {
         self.inputs.garment.as_ref().map(|g| g.0.positions.len())
     }
 
-    /// The skeleton that the garment was designed on, in the source space.
+    /// The skeleton that the garment was designed on, in the source coordinate system.
     ///
     /// # Errors
     /// `InvalidSkeleton`, `InvalidState`.
@@ -85,7 +85,7 @@ impl Session {
         Ok(())
     }
 
-    /// The body to dress, in the target space. It may be open, non-manifold, in pieces and pass through itself.
+    /// The body to dress, in the target coordinate system. It may be open, non-manifold, in pieces and pass through itself.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -96,7 +96,7 @@ impl Session {
         Ok(())
     }
 
-    /// Adds a garment that the avatar wears already, in the target space, such as the result of another session:
+    /// Adds a garment that the avatar wears already, in the target coordinate system, such as the result of another session:
     /// it is treated as a part of the avatar, exactly as it is given. Layers are numbered from 0 in the order in which they
     /// are added, and stay with another avatar and after `reset`.
     ///
@@ -124,7 +124,7 @@ impl Session {
         self.inputs.layers.len()
     }
 
-    /// The skeleton of the body to dress, in the target space: the same joints and bones as the source skeleton, the bones
+    /// The skeleton of the body to dress, in the target coordinate system: the same joints and bones as the source skeleton, the bones
     /// in any order and direction.
     ///
     /// # Errors
@@ -136,7 +136,7 @@ impl Session {
         Ok(())
     }
 
-    /// The body that the garment was designed on, in the source space. Optional: with it, each point of the garment aims
+    /// The body that the garment was designed on, in the source coordinate system. Optional: with it, each point of the garment aims
     /// at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
     ///
     /// # Errors

@@ -69,7 +69,7 @@ fn every_sentence_is_made_of_its_data() {
         ),
         (
             Diagnostic::NearContact { vertices: vec![3], to_itself: f64::INFINITY, to_avatar: 2e-6, min_separation: 5e-7 },
-            "garment: at the start it is within inf of itself and 2.0e-6 of the shrunk avatar, so that the minimum separation \
+            "garment: at the start it is within 2.0e-6 of the shrunk avatar, so that the minimum separation \
              begins at 5.0e-7 and rises as they part"
                 .into(),
         ),

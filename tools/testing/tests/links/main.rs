@@ -167,7 +167,6 @@ fn links_lead_somewhere() {
 
 /// Inline code that begins with a folder of the project is the path of something that exists.
 #[test]
-#[ignore = "tools/bindgen and what it writes are still to come"]
 fn paths_in_texts_exist() {
     const FOLDERS: [&str; 11] = [
         "benches/",

@@ -54,7 +54,6 @@ fn uses<'a>(text: &str, names: &'a [String]) -> Vec<(usize, &'a str)> {
 }
 
 #[test]
-#[ignore = "the names of this list are still to be changed in the sources"]
 fn retired_names_are_not_used() {
     let root = root();
     let names = retired(&read(&root.join("docs/glossary.md")));
