@@ -92,8 +92,8 @@ impl Inputs {
             }
         }
         pins.dedup_by_key(|pin| pin.0);
-        let internal = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
-        Ok(pins.into_iter().map(|(welded, pin)| (welded, internal(pin.place))).collect())
+        let ours = |place: Option<DVec3>| place.map(|p| self.target_coordinate_system.position_to_internal(p));
+        Ok(pins.into_iter().map(|(welded, pin)| (welded, ours(pin.place))).collect())
     }
 
     /// The rigid groups as lists of welded vertices.

@@ -19,12 +19,12 @@ use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as Posed, Problem};
 
-/// A garment vertex that is held at a target.
+/// A garment vertex that is held in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
     /// The vertex.
     pub vertex: u32,
-    /// Its target, in the target's coordinate system; none: where it was designed, carried along with the nearest bone.
+    /// Its place in the target space; none: where it was designed, carried along with the bone beside it.
     pub place: Option<DVec3>,
 }
 
@@ -58,7 +58,7 @@ impl Session {
         ))
     }
 
-    /// The garment, in the source space, around the source skeleton.
+    /// The garment, in the source's coordinate system, around the source skeleton.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -74,7 +74,7 @@ impl Session {
         self.inputs.garment.as_ref().map(|g| g.0.positions.len())
     }
 
-    /// The skeleton that the garment was designed on, in the source space.
+    /// The skeleton that the garment was designed on, in the source's coordinate system.
     ///
     /// # Errors
     /// `InvalidSkeleton`, `InvalidState`.
@@ -85,7 +85,7 @@ impl Session {
         Ok(())
     }
 
-    /// The body to dress, in the target space. It may be open, non-manifold, in pieces and pass through itself.
+    /// The body to dress, in the target's coordinate system. It may be open, non-manifold, in pieces and pass through itself.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -96,7 +96,7 @@ impl Session {
         Ok(())
     }
 
-    /// Adds a garment that the avatar wears already, in the target space, such as the result of another session:
+    /// Adds a garment that the avatar wears already, in the target's coordinate system, such as the result of another session:
     /// it is treated as a part of the avatar, exactly as it is given. Layers are numbered from 0 in the order in which they
     /// are added, and stay with another avatar and after `reset`.
     ///
@@ -124,8 +124,8 @@ impl Session {
         self.inputs.layers.len()
     }
 
-    /// The skeleton of the body to dress, in the target space: the same joints and bones as the source skeleton, the bones
-    /// in any order and direction.
+    /// The skeleton of the body to dress, in the target's coordinate system: the same joints and bones as the source
+    /// skeleton, the bones in any order and direction.
     ///
     /// # Errors
     /// `InvalidSkeleton`, `InvalidState`.
@@ -136,8 +136,8 @@ impl Session {
         Ok(())
     }
 
-    /// The body that the garment was designed on, in the source space. Optional: with it, each point of the garment aims
-    /// at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
+    /// The body that the garment was designed on, in the source's coordinate system. Optional: with it, each point of the
+    /// garment aims at the clearance that it had there (see [`Options::designed_clearance`]); without it, at none.
     ///
     /// # Errors
     /// `InvalidMesh`, `InvalidState`.
@@ -298,16 +298,16 @@ impl Inputs {
     }
 }
 
-fn mesh_to_internal(space: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
+fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh {
-        positions: mesh.positions.iter().map(|&p| space.position_to_internal(p)).collect(),
-        triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
+        positions: mesh.positions.iter().map(|&p| system.position_to_internal(p)).collect(),
+        triangles: mesh.triangles.iter().map(|&t| system.triangle(t)).collect(),
     }
 }
 
-fn skeleton_to_internal(space: &CoordinateSystem, skeleton: &Skeleton) -> Skeleton {
+fn skeleton_to_internal(system: &CoordinateSystem, skeleton: &Skeleton) -> Skeleton {
     Skeleton {
-        joints: skeleton.joints.iter().map(|&p| space.position_to_internal(p)).collect(),
+        joints: skeleton.joints.iter().map(|&p| system.position_to_internal(p)).collect(),
         bones: skeleton.bones.clone(),
     }
 }

@@ -293,7 +293,7 @@ impl Session {
         })
     }
 
-    /// The garment as it is now, in the caller's vertex order and the target space.
+    /// The garment as it is now, in the caller's vertex order and the target's coordinate system.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`.
@@ -323,7 +323,8 @@ impl Session {
         Ok(self.readable()?.distortion())
     }
 
-    /// The avatar without its layers, as far as it is inflated now, in the caller's vertex order and the target space.
+    /// The avatar without its layers, as far as it is inflated now, in the caller's vertex order and the target's coordinate
+    /// system.
     ///
     /// # Errors
     /// `InvalidState` before `prepare`.
