@@ -19,7 +19,7 @@ use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as Posed, Problem};
 
-/// A garment vertex that is held at a target.
+/// A garment vertex that is held in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
     /// The vertex.
@@ -298,16 +298,16 @@ impl Inputs {
     }
 }
 
-fn mesh_to_internal(space: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
+fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh {
-        positions: mesh.positions.iter().map(|&p| space.position_to_internal(p)).collect(),
-        triangles: mesh.triangles.iter().map(|&t| space.triangle(t)).collect(),
+        positions: mesh.positions.iter().map(|&p| system.position_to_internal(p)).collect(),
+        triangles: mesh.triangles.iter().map(|&t| system.triangle(t)).collect(),
     }
 }
 
-fn skeleton_to_internal(space: &CoordinateSystem, skeleton: &Skeleton) -> Skeleton {
+fn skeleton_to_internal(system: &CoordinateSystem, skeleton: &Skeleton) -> Skeleton {
     Skeleton {
-        joints: skeleton.joints.iter().map(|&p| space.position_to_internal(p)).collect(),
+        joints: skeleton.joints.iter().map(|&p| system.position_to_internal(p)).collect(),
         bones: skeleton.bones.clone(),
     }
 }

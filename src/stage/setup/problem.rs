@@ -43,25 +43,25 @@ pub struct Inputs<'a> {
     pub target_skeleton: &'a Skeleton,
     /// The skin of the avatar without its layers.
     pub skin: Option<&'a SkinWeights>,
-    /// The body that the garment was designed on, in the garment's space.
+    /// The body that the garment was designed on, in the garment's coordinate system.
     pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each welded vertex should fit, 1 where not given.
     pub fit_weights: Option<&'a [f64]>,
-    /// Pinned welded vertices, and their targets in the target's space where given.
+    /// Pinned welded vertices, and their targets in the target's coordinate system where given.
     pub pins: &'a [PinRequest],
     /// Lists of welded vertices that stay rigid, each vertex in one at most.
     pub rigid_groups: &'a [Vec<u32>],
-    /// The clearance to aim at in addition to the designed one, in the target's space.
+    /// The clearance to aim at in addition to the designed one, in the target's unit.
     pub offset: f64,
-    /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's space.
+    /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's unit.
     pub coordinate_error: f64,
 }
 
 /// The problem in the normalised space.
 pub struct Problem {
-    /// From the source's space.
+    /// From the source's coordinates.
     pub source_normalization: Normalization,
-    /// From the target's space.
+    /// From the target's coordinates.
     pub target_normalization: Normalization,
     /// The garment as designed.
     pub rest: Vec<DVec3>,
@@ -204,7 +204,7 @@ impl Normalised {
                 ErrorKind::InvalidArgument,
                 format!(
                     "option offset is {}, which is more than half the size of the target skeleton; it is a length in the unit \
-                     of the target space",
+                     of the target's coordinate system",
                     options.offset
                 ),
             ));

@@ -85,10 +85,10 @@ impl BentSkeleton {
 
     /// `projected` with its start on the bent skeleton.
     pub fn reproject(&self, avatar: &TriangleMesh, projected: &ProjectedAvatar) -> ProjectedAvatar {
-        let places = projected.places.iter().map(|&location| self.locate(location)).collect();
+        let locations = projected.locations.iter().map(|&location| self.locate(location)).collect();
         let graph = BoneGraph::new(&self.skeleton);
-        let mut moved = subdivide(avatar, places, &self.skeleton, &graph);
-        moved.places.clone_from(&projected.places);
+        let mut moved = subdivide(avatar, locations, &self.skeleton, &graph);
+        moved.locations.clone_from(&projected.locations);
         for bone in moved.bones.iter_mut().flatten() {
             *bone = self.source_bones[*bone as usize];
         }

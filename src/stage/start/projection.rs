@@ -34,7 +34,7 @@ pub struct ProjectedAvatar {
     /// The caller's triangle that each triangle of the subdivided mesh is a piece of.
     pub origins: Vec<u32>,
     /// Where each of the caller's vertices is on the skeleton at t = 0.
-    pub places: Vec<Location>,
+    pub locations: Vec<Location>,
 }
 
 #[derive(Clone, Copy)]
@@ -53,33 +53,33 @@ pub fn project(
     skin: Option<&SkinWeights>,
 ) -> ProjectedAvatar {
     let graph = BoneGraph::new(source);
-    let places = avatar.positions.iter().enumerate().map(|(v, &end)| {
+    let locations = avatar.positions.iter().enumerate().map(|(v, &end)| {
         let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)));
         Location::Bone { bone, parameter: on_source(parameter, bone, target, source) }
     });
-    subdivide(avatar, places.collect(), source, &graph)
+    subdivide(avatar, locations.collect(), source, &graph)
 }
 
-/// The avatar with its vertices at `places` of a skeleton at t = 0, subdivided so that every triangle collapses onto a
+/// The avatar with its vertices at `locations` of a skeleton at t = 0, subdivided so that every triangle collapses onto a
 /// single bone of it. `graph` is that of `skeleton`.
 pub fn subdivide(
     avatar: &TriangleMesh,
-    places: Vec<Location>,
+    locations: Vec<Location>,
     skeleton: &Skeleton,
     graph: &BoneGraph,
 ) -> ProjectedAvatar {
-    let start = |place| match place {
+    let start = |location| match location {
         Location::Bone { bone, parameter } => skeleton.point_at(bone, parameter),
         Location::Joint(joint) => skeleton.joints[joint as usize],
     };
-    let corners: Vec<Corner> = places
+    let corners: Vec<Corner> = locations
         .iter()
         .zip(&avatar.positions)
         .map(|(&location, &end)| Corner { location, start: start(location), end })
         .collect();
 
     let shrunk = corners.iter().map(|c| c.start).collect();
-    let mut out = ProjectedAvatar { shrunk, places, ..Default::default() };
+    let mut out = ProjectedAvatar { shrunk, locations, ..Default::default() };
     let mut merged = HashMap::new();
     let mut pending = Vec::new();
     let mut paths: [Vec<u32>; 3] = Default::default();

@@ -176,8 +176,8 @@ fn cycles(source: &Skeleton, root: u32) -> Vec<bool> {
 /// The least and the largest parameter on each bone.
 fn extents(projected: &ProjectedAvatar, source: &Skeleton) -> Vec<[f64; 2]> {
     let mut extents = vec![[0.0_f64, 1.0_f64]; source.bones.len()];
-    for place in &projected.places {
-        if let Location::Bone { bone, parameter } = *place {
+    for location in &projected.locations {
+        if let Location::Bone { bone, parameter } = *location {
             let [low, high] = &mut extents[bone as usize];
             (*low, *high) = (low.min(parameter), high.max(parameter));
         }

@@ -93,15 +93,15 @@ fn direction(random: &mut Random) -> DVec3 {
 /// A retarget as a caller hands it in: every mesh and skeleton in its own space, rounded to the caller's precision.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// In the source space.
+    /// In the source's coordinate system.
     pub garment: TriangleMesh,
     /// In which the garment is given and read.
     pub precision: Precision,
-    /// In the source space.
+    /// In the source's coordinate system.
     pub source_skeleton: Skeleton,
-    /// In the target space.
+    /// In the target's coordinate system.
     pub avatar: TriangleMesh,
-    /// In the target space.
+    /// In the target's coordinate system.
     pub target_skeleton: Skeleton,
     /// The body that the garment was designed on, for some.
     pub source_avatar: Option<TriangleMesh>,
