@@ -23,7 +23,7 @@ cat >"$book/reference.md" <<'END'
 END
 
 doxygen packaging/book/Doxyfile
-RUSTDOCFLAGS='-D warnings' ${CARGO:-cargo} doc --no-deps --package bespoke --lib
+RUSTDOCFLAGS='-D warnings' ${CARGO:-cargo} doc --release --no-deps --package bespoke --lib
 cp -R "${CARGO_TARGET_DIR:-target}/doc" "$book/rust"
 mkdocs build --quiet --strict --config-file packaging/book/mkdocs.yml
 
