@@ -311,7 +311,7 @@ fn filled_structs(caller: &Caller, source: &mut Source) {
     }
     // SAFETY: the session is alive, each struct as large as it says; none of them needs an alignment.
     unsafe {
-        fill::<BespokeOptions>(source, offset_of!(BespokeOptions, memory_limit), |to| {
+        fill::<BespokeOptions>(source, offset_of!(BespokeOptions, surface_weight), |to| {
             bespoke_options_read_defaults(to)
         });
         fill::<BespokeProgress>(source, size_of::<BespokeProgress>(), |to| {
