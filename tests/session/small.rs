@@ -211,7 +211,7 @@ fn a_garment_far_beside_its_skeleton_is_refused() {
         session.set_garment(moved(&sleeve(), 1.0, away), Precision::F64).unwrap();
         let error = session.prepare().unwrap_err();
         assert_eq!(error.kind, ErrorKind::NotEnclosed);
-        assert!(error.message.contains("beside the source skeleton"), "{error}");
+        assert!(error.message.contains("does not enclose the source skeleton"), "{error}");
     }
 }
 
