@@ -41,7 +41,7 @@ pub fn markdown(outcomes: &[Outcome], summary: &Summary) -> String {
         let values: Vec<String> = figures(outcome).into_iter().map(|[_, value]| value).collect();
         let _ = writeln!(text, "| {} | {} | {} |", outcome.garment, outcome.avatar, values.join(" | "));
     }
-    text += "\nIntersections are pairs of triangles: of the garment, and of garment and avatar. ContactDistances are smallest distances, \
+    text += "\nIntersections are pairs of triangles: of the garment, and of garment and avatar. Gaps are smallest distances, \
              where a skeleton is 2 long; beyond d-hat they are not measured. Distortion has no unit, and is 0 for a design \
              that is only moved, turned and scaled.\n";
     for outcome in outcomes {

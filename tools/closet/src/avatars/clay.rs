@@ -49,7 +49,7 @@ pub struct Clay {
 }
 
 impl Clay {
-    /// Nothing yet; its triangles will have edges of about `coarse` metres. ContactDistances finer than `cell` metres close up.
+    /// Nothing yet; its triangles will have edges of about `coarse` metres. Gaps finer than `cell` metres close up.
     pub fn new(coarse: f64, cell: f64) -> Self {
         Self { field: Field::default(), coarse, cell, fine: Vec::new() }
     }
