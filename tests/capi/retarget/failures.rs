@@ -119,12 +119,7 @@ fn a_limit_of_iterations_is_a_failure_that_can_be_looked_at() {
 /// The garment that the augmented Lagrangian gets free, were it not for a limit of iterations.
 #[test]
 fn a_real_garment_fails_on_purpose() {
-    let beside = || root().join("../shared/assets");
-    let assets = std::env::var_os("BESPOKE_ASSETS").map_or_else(beside, Into::into);
-    if !assets.is_dir() {
-        eprintln!("skipped: no real meshes in {} (set BESPOKE_ASSETS)", assets.display());
-        return;
-    }
+    let Some(assets) = testing::obj::assets() else { return };
     let folder = Folder::new("real");
     for (name, path) in [
         ("g.obj", "garments/jumpsuit_dense/garment.obj"),

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use testing::process::root;
+
 /// A module by its path, such as `["stage", "setup", "shape"]`; the crate itself is empty.
 type Module = Vec<String>;
 
@@ -89,7 +91,7 @@ fn imports(text: &str, own: &Module, is_folder: bool, modules: &BTreeMap<Module,
 }
 
 fn uses() -> Uses {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src");
+    let source = root().join("src");
     let mut files = BTreeMap::new();
     modules(&source, &Module::new(), &mut files);
     let of = |(module, path): (&Module, &PathBuf)| {

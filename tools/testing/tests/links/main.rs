@@ -9,18 +9,10 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use testing::process::root;
 
 /// Folders that hold nothing of the project's own.
 const FOREIGN: [&str; 5] = [".git", "target", "build", "node_modules", "artifacts"];
-
-/// The top of the repository: this package may lie in a folder of it.
-fn root() -> PathBuf {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    here.ancestors()
-        .find(|folder| folder.join("docs/glossary.md").exists())
-        .expect("the repository's docs")
-        .to_path_buf()
-}
 
 /// All files below `folder` that `wanted` takes, in a fixed order.
 fn files(folder: &Path, wanted: &dyn Fn(&Path) -> bool) -> Vec<PathBuf> {
@@ -117,9 +109,9 @@ fn plain(path: &Path) -> PathBuf {
 /// All texts, by their path from the top.
 fn pages() -> BTreeMap<PathBuf, Page> {
     let root = root();
-    let found = files(&root, &|path| path.extension().is_some_and(|extension| extension == "md"));
+    let found = files(root, &|path| path.extension().is_some_and(|extension| extension == "md"));
     let pages = found.iter().map(|path| {
-        let name = path.strip_prefix(&root).expect("a file below the top").to_path_buf();
+        let name = path.strip_prefix(root).expect("a file below the top").to_path_buf();
         (name, Page::new(&read(path)))
     });
     pages.collect()

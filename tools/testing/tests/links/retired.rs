@@ -62,7 +62,7 @@ fn retired_names_are_not_used() {
     for folder in ["src", "include", "bindings"] {
         let is_text = |path: &Path| fs::read(path).is_ok_and(|bytes| std::str::from_utf8(&bytes).is_ok());
         for path in files(&root.join(folder), &is_text) {
-            let name = path.strip_prefix(&root).expect("a file below the top").display().to_string();
+            let name = path.strip_prefix(root).expect("a file below the top").display().to_string();
             faults.extend(uses(&read(&path), &names).iter().map(|(line, used)| format!("{name}:{line}: {used}")));
         }
     }
