@@ -1,6 +1,7 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
 mod blockage;
+mod enclosure;
 mod fit_region;
 mod layer_skin;
 mod loop_axis;

@@ -8,3 +8,4 @@ pub mod path_search;
 pub mod projection;
 pub mod repair;
 pub mod section;
+pub mod winding;

@@ -43,6 +43,18 @@ impl Section {
         section
     }
 
+    /// The garment's edges, seen along `normal`, which has length 1, in the plane through `origin`: for one that is flat and
+    /// lies along the plane.
+    pub fn projected(garment: &TriangleMesh, origin: DVec3, normal: DVec3) -> Self {
+        let (u, v) = normal.any_orthonormal_pair();
+        let flat = |corner: u32| {
+            let p = garment.positions[corner as usize] - origin;
+            DVec2::new(p.dot(u), p.dot(v))
+        };
+        let sides = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]].map(|side| side.map(flat));
+        Self { origin, u, v, segments: garment.triangles.iter().flat_map(sides).collect() }
+    }
+
     /// The two directions that span the plane.
     pub fn axes(&self) -> [DVec3; 2] {
         [self.u, self.v]
