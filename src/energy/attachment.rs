@@ -13,14 +13,22 @@
 //! that a long lever is softer). The residual in these units is a strain, as it is in the surface term, and one weight
 //! serves both terms. Like that term's, the value grows with s^2 where an imperfect fit grows by s.
 //!
-//! `stage/setup/loose_pieces.rs` decides which pieces are loose, and which triangles hold them.
+//! A piece that nothing holds may keep a size all the same: three of its vertices keep their distances l,
+//!
+//! ```text
+//! L = sum w (|e|^2 - l^2)^2 / (2 l^2)^2,   w = area of the piece,
+//! ```
+//!
+//! and the surface term does the rest.
+//!
+//! `stage/setup/loose_pieces.rs` and `hanging_pieces.rs` decide which pieces are loose, and which triangles hold them.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::triangle_frame::{BoundVertex, least_squares};
-use super::{Configuration, Energy, Sink};
+use super::{Configuration, Direction, Energy, Sink};
 use crate::memory::bytes;
 
 /// A vertex of a loose piece, and the host triangle that holds it.
@@ -36,35 +44,54 @@ pub struct Hold {
     pub area: f64,
 }
 
-/// A bound vertex with its weight.
-#[derive(Clone, Copy, Debug)]
-struct Element {
-    bound: BoundVertex,
-    weight: f64,
+/// Two vertices of a piece that keep their distance at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SizeHold {
+    /// The vertices.
+    pub vertices: [u32; 2],
+    /// The area of the piece at rest.
+    pub area: f64,
 }
 
-/// Attachment term; an element is a vertex of a loose piece.
+/// One summand.
+#[derive(Clone, Copy, Debug)]
+enum Element {
+    /// A bound vertex with its weight.
+    Bound { bound: BoundVertex, weight: f64 },
+    /// Two vertices, their squared distance at rest, and w.
+    Distance { vertices: [u32; 2], square: f64, weight: f64 },
+}
+
+/// Attachment term; an element is a vertex of a loose piece, or two that keep their distance.
 #[derive(Clone, Debug, Default)]
 pub struct Attachment {
     elements: Vec<Element>,
 }
 
 impl Attachment {
-    /// The term for a garment with vertices `rest`. A hold by a triangle without area, which has no frame, is skipped.
-    pub fn new(rest: &[DVec3], holds: &[Hold]) -> Self {
-        Self { elements: holds.iter().filter_map(|hold| Element::new(rest, hold)).collect() }
+    /// The term for a garment with vertices `rest`. A hold by a triangle without area, which has no frame, is skipped, and so
+    /// is the distance of two vertices at one point.
+    pub fn new(rest: &[DVec3], holds: &[Hold], sizes: &[SizeHold]) -> Self {
+        let bound = holds.iter().filter_map(|hold| Element::bound(rest, hold));
+        Self { elements: bound.chain(sizes.iter().filter_map(|size| Element::distance(rest, size))).collect() }
     }
 }
 
 impl Element {
-    fn new(rest: &[DVec3], hold: &Hold) -> Option<Self> {
+    fn distance(rest: &[DVec3], &SizeHold { vertices, area: weight }: &SizeHold) -> Option<Self> {
+        let [v, w] = vertices.map(|v| rest[v as usize]);
+        let square = v.distance_squared(w);
+        (square > 0.0).then_some(Self::Distance { vertices, square, weight })
+    }
+
+    fn bound(rest: &[DVec3], hold: &Hold) -> Option<Self> {
         let &Hold { vertex: v, triangle: [a, b, c], distance, area } = hold;
         let [pa, pb, pc] = [a, b, c].map(|i| rest[i as usize]);
         let (e1, e2) = (pb - pa, pc - pa);
         let bound = BoundVertex::new(rest, [a, b, c, v])?;
         let square = (e1.length_squared() + e2.length_squared() + (e2 - e1).length_squared()) / 3.0;
         let weight = area / (square + distance * distance);
-        weight.is_finite().then_some(Self { bound, weight })
+        weight.is_finite().then_some(Self::Bound { bound, weight })
     }
 }
 
@@ -82,17 +109,38 @@ impl Energy for Attachment {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        self.elements[range].iter().map(|k| k.weight * k.bound.at(at.x).residual().length_squared()).sum()
+        let cost = |element: &Element| match element {
+            Element::Bound { bound, weight } => weight * bound.at(at.x).residual().length_squared(),
+            Element::Distance { vertices: [v, w], square, weight } => {
+                let strain = (at.x[*v as usize].distance_squared(at.x[*w as usize]) - square) / (2.0 * square);
+                weight * strain * strain
+            }
+        };
+        self.elements[range].iter().map(cost).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        for k in &self.elements[range] {
-            let now = k.bound.at(at.x);
-            least_squares(sink, &k.bound.vertices, &now.jacobian(), now.residual(), k.weight);
+        for element in &self.elements[range] {
+            match element {
+                Element::Bound { bound, weight } => {
+                    let now = bound.at(at.x);
+                    least_squares(sink, &bound.vertices, &now.jacobian(), now.residual(), *weight);
+                }
+                Element::Distance { vertices: [v, w], square, weight } => {
+                    let edge = at.x[*v as usize] - at.x[*w as usize];
+                    let strain = (edge.length_squared() - square) / (2.0 * square);
+                    let slope = edge / *square;
+                    let direction = Direction { vertices: &[*v, *w], components: &[slope, -slope], t: 0.0 };
+                    sink.rank_one(direction, 2.0 * weight * strain, 2.0 * weight);
+                }
+            }
         }
     }
 
     fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.elements.iter().for_each(|k| visit(&k.bound.vertices));
+        self.elements.iter().for_each(|element| match element {
+            Element::Bound { bound, .. } => visit(&bound.vertices),
+            Element::Distance { vertices, .. } => visit(vertices),
+        });
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bespoke::energy::attachment::Attachment;
+use bespoke::energy::attachment::{Attachment, SizeHold};
 use bespoke::energy::{Configuration, Energy};
 use bespoke::input::diagnostic::{DiagnosticKind, Element, Severity, Subject};
 use bespoke::stage::setup::loose_pieces::LoosePieces;
@@ -48,7 +48,7 @@ impl Garment {
     }
 
     fn term(&self) -> Attachment {
-        Attachment::new(&self.rest, &self.loose().holds)
+        Attachment::new(&self.rest, &self.loose().holds, &[])
     }
 
     fn value(&self, x: &[DVec3]) -> f64 {
@@ -138,7 +138,7 @@ fn the_rule_follows_similarities() {
     for scale in [1e-3, 1.0, 1e3] {
         let moved = similar(&garment.rest, scale, &mut random);
         let loose = LoosePieces::find(&moved, &garment.triangles);
-        assert_eq!((loose.pieces.len(), Attachment::new(&moved, &loose.holds).len()), (1, 7));
+        assert_eq!((loose.pieces.len(), Attachment::new(&moved, &loose.holds, &[]).len()), (1, 7));
     }
 }
 
@@ -219,6 +219,27 @@ fn derivatives_are_exact() {
     }
     check_hessian(&term, &garment.rest, 0.0, 1e-4, 1e-7);
     check_hessian(&term, &similar(&garment.rest, 2.0, &mut random), 0.0, 1e-4, 1e-7);
+}
+
+/// Three vertices that keep their distances: motions cost nothing, and growing costs a strain times the area.
+#[test]
+fn a_size_is_kept_and_its_derivatives_are_exact() {
+    let mut random = Random::new(6);
+    let rest: Vec<DVec3> = (0..3).map(|_| random.vector()).collect();
+    let sizes = [[0, 1], [1, 2], [2, 0]].map(|vertices| SizeHold { vertices, area: 0.3 });
+    let term = Attachment::new(&rest, &[], &sizes);
+    assert_eq!(term.len(), 3);
+    assert!(value(&term, &similar(&rest, 1.0, &mut random)) < 1e-20);
+    let grown: Vec<DVec3> = rest.iter().map(|p| 2.0 * p).collect();
+    assert!((value(&term, &grown) / (3.0 * 0.3 * 2.25) - 1.0).abs() < 1e-9);
+    for _ in 0..3 {
+        let x = shaken(&rest, 0.1, &mut random);
+        check_gradient(&term, &x, 0.0, 1e-4, 1e-7);
+        check_semidefinite(&term, &x, 0.0, &mut || random.signed());
+    }
+    check_hessian(&term, &rest, 0.0, 1e-4, 1e-7);
+    // Two vertices at one place have no distance to keep.
+    assert!(Attachment::new(&[DVec3::X; 2], &[], &sizes[..1]).is_empty());
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod cancel;
 mod determinism;
 mod distortion;
 mod fit_controls;
+mod hanging;
 mod initial_self_intersections;
 mod layers;
 mod memory;

@@ -53,37 +53,42 @@ pub struct LoosePiece {
 pub struct LoosePieces {
     /// Those that are held, in the order of their lowest vertices.
     pub pieces: Vec<LoosePiece>,
+    /// Those that hang on others by a part of themselves, found by [`super::hanging_pieces`].
+    pub hanging: Vec<LoosePiece>,
     /// What holds each of their vertices that is near enough.
     pub holds: Vec<Hold>,
 }
 
 /// A connected part of the garment.
 #[derive(Default)]
-struct Piece {
-    vertices: Vec<u32>,
-    triangles: Vec<u32>,
-    area: f64,
-    low: DVec3,
-    high: DVec3,
+pub(super) struct Piece {
+    /// Its vertices, ascending.
+    pub vertices: Vec<u32>,
+    /// Its triangles, ascending.
+    pub triangles: Vec<u32>,
+    pub area: f64,
+    /// Its bounding box.
+    pub low: DVec3,
+    pub high: DVec3,
 }
 
 impl Piece {
-    fn size(&self) -> f64 {
+    pub fn size(&self) -> f64 {
         self.low.distance(self.high)
     }
 
     /// Distance between the bounding boxes.
-    fn gap(&self, other: &Self) -> f64 {
+    pub fn gap(&self, other: &Self) -> f64 {
         (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
     }
 }
 
 /// A piece that others can be held to.
-struct Host {
-    piece: u32,
-    tree: ClosestPoint,
+pub(super) struct Host {
+    pub piece: u32,
+    pub tree: ClosestPoint,
     /// The garment's index of each triangle in the tree.
-    triangles: Vec<u32>,
+    pub triangles: Vec<u32>,
 }
 
 /// Where a vertex of a piece would be held.
@@ -119,10 +124,16 @@ impl LoosePieces {
         found
     }
 
+    /// Both kinds.
+    pub fn all(&self) -> impl Iterator<Item = &LoosePiece> {
+        self.pieces.iter().chain(&self.hanging)
+    }
+
     /// What to report about the pieces; `caller` gives the caller's index of a triangle.
     pub fn diagnostics(&self, caller: impl Fn(u32) -> u32) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
-        Diagnostic::list(&mut diagnostics, &self.pieces, |piece| Diagnostic::LoosePiece {
+        let all: Vec<&LoosePiece> = self.all().collect();
+        Diagnostic::list(&mut diagnostics, &all, |piece| Diagnostic::LoosePiece {
             vertices: piece.vertices.len(),
             triangle: caller(piece.triangle),
             host: caller(piece.host),
@@ -133,7 +144,7 @@ impl LoosePieces {
 }
 
 /// The connected parts, triangles without area included, in the order of their lowest vertices.
-fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
+pub(super) fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
     let links = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
     let (labels, count) = label_pieces(rest.len(), links);
     let empty = || Piece { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, ..Piece::default() };
@@ -158,7 +169,7 @@ fn area(rest: &[DVec3], t: &[u32; 3]) -> f64 {
 }
 
 /// The rest area around each vertex.
-fn vertex_areas(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
+pub(super) fn vertex_areas(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let mut areas = vec![0.0; rest.len()];
     let mut squares = vec![(0.0, 0.0); rest.len()];
     for t in triangles {
@@ -179,7 +190,7 @@ fn vertex_areas(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     areas.into_iter().zip(squares).map(around).collect()
 }
 
-/// The largest pieces, each with a tree over its triangles that are no slivers; those that hold nothing are left out.
+/// The largest pieces that can hold others.
 fn hosts(rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Vec<Host> {
     let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
     let area = |k: u32| pieces[k as usize].area;
@@ -187,28 +198,30 @@ fn hosts(rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Vec<Host> 
     order.truncate(HOSTS);
     let host = |&k: &u32| {
         let piece = &pieces[k as usize];
-        if !pieces.iter().any(|other| may_hold(piece, other)) {
-            return None;
-        }
-        let is_usable = |&&t: &&u32| {
-            let [a, b, c] = triangles[t as usize].map(|v| rest[v as usize]);
-            let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-            (b - a).cross(c - a).length() > THIN * longest
-        };
-        let usable: Vec<u32> = piece.triangles.iter().filter(is_usable).copied().collect();
-        // The tree sees the vertices of its own triangles only.
-        let mut mesh = TriangleMesh::default();
-        for (k, &t) in (0u32..).zip(&usable) {
-            mesh.positions.extend(triangles[t as usize].map(|v| rest[v as usize]));
-            mesh.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
-        }
-        (!usable.is_empty()).then(|| Host { piece: k, tree: ClosestPoint::new(&mesh), triangles: usable })
+        pieces.iter().any(|other| may_hold(piece, other)).then(|| as_host(k, rest, triangles, pieces))?
     };
     order.par_iter().filter_map(host).collect()
 }
 
+/// The piece of index `k` with a tree over its triangles that are no slivers; none without any.
+pub(super) fn as_host(k: u32, rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Option<Host> {
+    let is_usable = |&&t: &&u32| {
+        let [a, b, c] = triangles[t as usize].map(|v| rest[v as usize]);
+        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+        (b - a).cross(c - a).length() > THIN * longest
+    };
+    let usable: Vec<u32> = pieces[k as usize].triangles.iter().filter(is_usable).copied().collect();
+    // The tree sees the vertices of its own triangles only.
+    let mut mesh = TriangleMesh::default();
+    for (k, &t) in (0u32..).zip(&usable) {
+        mesh.positions.extend(triangles[t as usize].map(|v| rest[v as usize]));
+        mesh.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+    }
+    (!usable.is_empty()).then(|| Host { piece: k, tree: ClosestPoint::new(&mesh), triangles: usable })
+}
+
 /// How far `host` reaches for `piece`.
-fn reach(host: &Piece, piece: &Piece) -> f64 {
+pub(super) fn reach(host: &Piece, piece: &Piece) -> f64 {
     (NEAR * host.size()).min(piece.size())
 }
 

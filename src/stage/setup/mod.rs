@@ -2,6 +2,7 @@
 
 pub mod contact_distances;
 pub mod fit_region;
+pub mod hanging_pieces;
 pub mod layer_skin;
 pub mod loop_axis;
 pub mod loose_pieces;

@@ -139,11 +139,15 @@ impl Problem {
                 triangles: mesh.triangles.clone(),
             })
         });
-        let fit_weights = match (inputs.fit_weights, &source_body) {
+        let mut fit_weights = match (inputs.fit_weights, &source_body) {
             (Some(weights), _) => weights.to_vec(),
             (None, Some(body)) => fit_region(&garment.positions, body, options.fit_distance),
             (None, None) => vec![1.0; garment.positions.len()],
         };
+        if inputs.fit_weights.is_none() {
+            // What hangs on another piece has its place from that.
+            loose.hanging.iter().flat_map(|piece| &piece.vertices).for_each(|&v| fit_weights[v as usize] = 0.0);
+        }
         let Normalised { garment, avatar, .. } = normalised;
         Ok(Self {
             source_normalization,

@@ -1,5 +1,6 @@
 //! The shape terms: what holds the garment to its design.
 
+use super::hanging_pieces::HangingPieces;
 use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::pin_targets::{self, PinRequest};
@@ -45,12 +46,15 @@ impl Shape {
     ) -> (Self, LoosePieces) {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
         let topology = Topology::new(rest.len(), triangles);
-        let loose = LoosePieces::find(rest, triangles);
+        let mut loose = LoosePieces::find(rest, triangles);
+        let hanging = HangingPieces::find(rest, triangles, source, &loose);
+        loose.holds.extend(hanging.holds);
+        loose.hanging = hanging.pieces;
         let whole = without_caps(rest, triangles);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let shape = Self {
             surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
-            attachment: Attachment::new(rest, &loose.holds),
+            attachment: Attachment::new(rest, &loose.holds, &hanging.sizes),
             curvature: Curvature::new(rest, &topology.loops),
             torsion: Torsion::new(rest, &topology.loops),
             position: position(garment, &topology, &loose, source, target),
@@ -71,7 +75,7 @@ fn position(
 ) -> Position {
     let rest = &garment.positions;
     let mut held = vec![false; rest.len()];
-    loose.pieces.iter().flat_map(|piece| &piece.vertices).for_each(|&v| held[v as usize] = true);
+    loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| held[v as usize] = true);
     let mut axes: Vec<MovingAxis> = Vec::new();
     let mut constraints = Vec::new();
     for (curve, axis) in topology.loops.iter().zip(choose_loop_axes(rest, &topology.loops, source, target)) {
