@@ -4,7 +4,8 @@
 #             makes the paper's figures
 # make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
 # make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
-#             removes them again. docs/packaging.md says what goes where
+#             removes them again. docs/packaging.md says what goes where. OpenVDB is inside the library, as in the folder
+#             to ship, where its sources can be had; make install OPENVDB=system takes the system's
 # make test   every test, and make lint
 # make lint   format, clippy and rustdoc: a warning is an error
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
@@ -44,6 +45,8 @@ STRIP ?= strip
 INSTALLER = DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' BINDIR='$(BINDIR)' LIBDIR='$(LIBDIR)' \
 	INCLUDEDIR='$(INCLUDEDIR)' DOCDIR='$(DOCDIR)' STRIP='$(STRIP)' sh packaging/install.sh
 CARGO_SOURCES = src cpp_shim build.rs Cargo.toml Cargo.lock
+# Of the library that is installed: inside it, as in the folder to ship, or the system's.
+OPENVDB = inside
 
 .PHONY: all
 all: build/retarget build/bespoke-retarget
@@ -75,7 +78,8 @@ build/run-path: FORCE | build
 install:
 	$(MAKE) build/bespoke-retarget \
 		$$([ -n "$$(find $(CARGO_SOURCES) -newer build/fresh 2>&1)" ] || echo '-o build/libbespoke.$(SHARED)')
-	$(INSTALLER) install build/libbespoke.$(SHARED) build/bespoke-retarget
+	library=$$(sh packaging/library.sh '$(OPENVDB)' build/libbespoke.$(SHARED) $(CARGO_SOURCES)) && \
+		$(INSTALLER) install "$$library" build/bespoke-retarget
 
 .PHONY: uninstall
 uninstall:

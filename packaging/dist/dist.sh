@@ -30,23 +30,12 @@ ours() {
 epoch=${SOURCE_DATE_EPOCH:-$(ours log -1 --format=%ct || stat -c %Y Cargo.toml)}
 export SOURCE_DATE_EPOCH="$epoch"
 
-sh "$here/sources.sh" "$folder/sources"
-echo "dist: OpenVDB and oneTBB as static libraries"
-make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$folder/static"
-
-echo "dist: the library"
-# Sentences of a defect name places in the sources: as they are called everywhere, not as on this machine. The flags are
-# apart by a character that no path has.
-cargo=${CARGO_HOME:-$HOME/.cargo}
-sysroot=$(rustc --print sysroot)
-flags=$(printf -- '--remap-path-prefix=%s\037' "$cargo=cargo" "$sysroot=rust" "$root=bespoke")
-CARGO_ENCODED_RUSTFLAGS=${flags%?} BESPOKE_STATIC_OPENVDB=$folder/static cargo build --locked --profile dist --lib
-library=${CARGO_TARGET_DIR:-target}/dist/libbespoke.so
+library=$(sh "$here/library.sh" "$folder")
 
 echo "dist: the program"
 # What the linker looks for by its plain name, the loader by the name within.
 mkdir -p "$folder/link"
-ln -sf "$(realpath "$library")" "$folder/link/libbespoke.so"
+ln -sf "$library" "$folder/link/libbespoke.so"
 # shellcheck disable=SC2016
 cc -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/link" -lbespoke -lm \
     '-Wl,-rpath,$ORIGIN/../lib'
