@@ -20,7 +20,7 @@ fn main() {
 
 /// The C++ shim and the libraries beneath it.
 fn shim() {
-    for path in ["cpp_shim/volume.cpp", "cpp_shim/volume.h", "cpp_shim/probe.cpp", "build.rs"] {
+    for path in ["cpp_shim/volume.cpp", "cpp_shim/volume.h", "cpp_shim/team.h", "cpp_shim/probe.cpp", "build.rs"] {
         println!("cargo:rerun-if-changed={path}");
     }
     println!("cargo:rerun-if-env-changed={ROOT}");
@@ -90,8 +90,8 @@ fn shared_library() {
     let arguments: &[&str] = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
         Ok("linux") => &[
             &format!("-soname,libbespoke.so.{ABI}"),
-            // Threads of TBB and what the threads of the host have to destroy outlive the last session: a library that
-            // were really unloaded would take the code from under them.
+            // What the threads of the host have to destroy as they end outlives the last session: a library that were
+            // really unloaded would take the code from under them.
             "-z,nodelete",
             // Two copies in one process, of two plugins, must never call into each other.
             "-Bsymbolic",

@@ -10,11 +10,8 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
-#include <tbb/task_arena.h>
 
-struct BespokeVolume {
-    openvdb::FloatGrid::Ptr grid;
-};
+#include "team.h"
 
 namespace {
 
@@ -24,6 +21,10 @@ constexpr float MAX_COORDINATE = 1e8f;
 // OpenVDB's library has the voxeliser instantiated for the adapter and the interrupter below: with other types this
 // file would take five times as long to build.
 using Soup = openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I>;
+
+using Tree = openvdb::FloatTree;
+using Leaf = Tree::LeafNodeType;
+static_assert(Leaf::DIM == BESPOKE_VOLUME_BLOCK, "a block is one leaf");
 
 // Stays interrupted once it was, so that an incomplete grid is never taken for a complete one.
 class Interrupter final : public openvdb::util::NullInterrupter {
@@ -44,7 +45,7 @@ private:
     std::atomic<bool> stopped_{false};
 };
 
-int fail(int code, const char* text, char* message, size_t capacity) {
+int fail(int code, const char* text, char* message, size_t capacity) noexcept {
     if (message && capacity > 0) {
         std::strncpy(message, text, capacity - 1);
         message[capacity - 1] = '\0';
@@ -52,13 +53,30 @@ int fail(int code, const char* text, char* message, size_t capacity) {
     return code;
 }
 
+// The only way from C to OpenVDB and oneTBB: all that `work` does, destructors included, happens within a team, so that no
+// parallel loop makes TBB start a thread of its own, and what is thrown ends here.
+// `work` returns a code; what it says besides goes to its argument.
+template <class Work>
+int guarded(unsigned threads, char* message, size_t capacity, const Work& work) noexcept {
+    try {
+        int code = BESPOKE_VOLUME_FAILED;
+        const char* text = "";
+        Team(threads).run([&] { code = work(text); });
+        return fail(code, text, message, capacity);
+    } catch (const std::exception& e) {
+        return fail(BESPOKE_VOLUME_FAILED, e.what(), message, capacity);
+    } catch (...) {
+        return fail(BESPOKE_VOLUME_FAILED, "an unknown C++ exception", message, capacity);
+    }
+}
+
 const char* defect(const float* points, size_t point_count, const uint32_t* triangles, size_t triangle_count,
-                   float outside_band, float inside_band) {
+                   float band) {
     if (!points || !triangles || triangle_count == 0) {
         return "there are no triangles";
     }
-    if (!(outside_band >= 1.0f && std::isfinite(outside_band) && inside_band >= 1.0f && std::isfinite(inside_band))) {
-        return "a band is narrower than one voxel or not finite";
+    if (!(band >= 1.0f && std::isfinite(band))) {
+        return "the band is narrower than one voxel or not finite";
     }
     for (size_t i = 0; i < 3 * point_count; ++i) {
         if (!(std::fabs(points[i]) <= MAX_COORDINATE)) {
@@ -73,70 +91,69 @@ const char* defect(const float* points, size_t point_count, const uint32_t* tria
     return nullptr;
 }
 
+openvdb::FloatGrid::Ptr voxelise(const float* points, size_t point_count, const uint32_t* triangles,
+                                 size_t triangle_count, float band, Interrupter& interrupter) {
+    // openvdb::initialize() would only register types by name for reading files, and link all of them.
+    std::vector<openvdb::Vec3s> positions(point_count);
+    for (size_t i = 0; i < point_count; ++i) {
+        positions[i] = openvdb::Vec3s(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    }
+    std::vector<openvdb::Vec3I> corners(triangle_count);
+    for (size_t i = 0; i < triangle_count; ++i) {
+        corners[i] = openvdb::Vec3I(triangles[3 * i], triangles[3 * i + 1], triangles[3 * i + 2]);
+    }
+    const Soup soup(positions, corners);
+    openvdb::util::NullInterrupter& any_interrupter = interrupter;
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    // Renormalisation would move the surface by a fraction of a voxel.
+    return openvdb::tools::meshToVolume<openvdb::FloatGrid>(any_interrupter, soup, *transform, band, band,
+                                                            openvdb::tools::DISABLE_RENORMALIZATION);
+}
+
+void hand_over(const Tree& tree, BespokeVolumeCube cube, void* cubes) {
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+        uint64_t inside[BESPOKE_VOLUME_BLOCK] = {};
+        bool any = false;
+        for (openvdb::Index n = 0; n < Leaf::SIZE; ++n) {
+            const bool is_inside = leaf->getValue(n) < 0.0f;
+            inside[n / 64] |= uint64_t{is_inside} << n % 64;
+            any |= is_inside;
+        }
+        if (any) {
+            cube(cubes, leaf->origin().data(), BESPOKE_VOLUME_BLOCK, inside);
+        }
+    }
+    // One number for a cube of many nodes: what is far from the surface.
+    const uint64_t whole[BESPOKE_VOLUME_BLOCK] = {~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull, ~0ull};
+    auto tile = tree.cbeginValueAll();
+    tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        if (tile.getValue() < 0.0f) {
+            const openvdb::CoordBBox box = tile.getBoundingBox();
+            const auto side = static_cast<uint32_t>(box.dim().x());
+            cube(cubes, box.min().data(), side, side == BESPOKE_VOLUME_BLOCK ? whole : nullptr);
+        }
+    }
+}
+
 } // namespace
 
-int bespoke_volume_build(const float* points, size_t point_count, const uint32_t* triangles,
-                         size_t triangle_count, float outside_band, float inside_band, uint32_t threads,
-                         BespokeVolumeCancelled cancelled, const void* context, BespokeVolume** volume,
-                         char* message, size_t message_capacity) {
-    if (!volume) {
-        return fail(BESPOKE_VOLUME_INVALID, "there is no place for the volume", message, message_capacity);
-    }
-    *volume = nullptr;
-    if (const char* text = defect(points, point_count, triangles, triangle_count, outside_band, inside_band)) {
-        return fail(BESPOKE_VOLUME_INVALID, text, message, message_capacity);
-    }
-    try {
-        // openvdb::initialize() would only register types by name for reading files, and link all of them.
-        std::vector<openvdb::Vec3s> positions(point_count);
-        for (size_t i = 0; i < point_count; ++i) {
-            positions[i] = openvdb::Vec3s(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+int bespoke_volume_build(const float* points, size_t point_count, const uint32_t* triangles, size_t triangle_count,
+                         float band, uint32_t threads, BespokeVolumeCancelled cancelled, const void* context,
+                         BespokeVolumeCube cube, void* cubes, char* message, size_t message_capacity) {
+    return guarded(threads, message, message_capacity, [&](const char*& text) -> int {
+        text = cube ? defect(points, point_count, triangles, triangle_count, band) : "there is no place for the result";
+        if (text) {
+            return BESPOKE_VOLUME_INVALID;
         }
-        std::vector<openvdb::Vec3I> corners(triangle_count);
-        for (size_t i = 0; i < triangle_count; ++i) {
-            corners[i] = openvdb::Vec3I(triangles[3 * i], triangles[3 * i + 1], triangles[3 * i + 2]);
-        }
-        const Soup soup(positions, corners);
         Interrupter interrupter(cancelled, context);
-        openvdb::util::NullInterrupter& any_interrupter = interrupter;
-        const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-        openvdb::FloatGrid::Ptr grid;
-        // With more threads than the machine has, TBB would print a warning to the standard error of the host.
-        const int most = tbb::this_task_arena::max_concurrency();
-        tbb::task_arena arena(std::clamp(static_cast<int>(std::min(threads, 1024u)), 1, std::max(most, 1)));
-        arena.execute([&] {
-            // Renormalisation would move the surface by a fraction of a voxel.
-            grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(any_interrupter, soup, *transform, outside_band,
-                                                                    inside_band,
-                                                                    openvdb::tools::DISABLE_RENORMALIZATION);
-        });
+        const auto grid = voxelise(points, point_count, triangles, triangle_count, band, interrupter);
         if (interrupter.wasInterrupted()) {
-            return fail(BESPOKE_VOLUME_CANCELLED, "cancelled", message, message_capacity);
+            text = "cancelled";
+            return BESPOKE_VOLUME_CANCELLED;
         }
-        *volume = new BespokeVolume{grid};
+        hand_over(grid->constTree(), cube, cubes);
+        text = "";
         return BESPOKE_VOLUME_OK;
-    } catch (const std::exception& e) {
-        return fail(BESPOKE_VOLUME_FAILED, e.what(), message, message_capacity);
-    } catch (...) {
-        return fail(BESPOKE_VOLUME_FAILED, "an unknown C++ exception", message, message_capacity);
-    }
+    });
 }
-
-void bespoke_volume_read_block(const BespokeVolume* volume, const int32_t origin[3], float* values) {
-    using Leaf = openvdb::FloatTree::LeafNodeType;
-    static_assert(Leaf::DIM == BESPOKE_VOLUME_BLOCK, "a block is one leaf");
-    const openvdb::Coord at(origin[0], origin[1], origin[2]);
-    const openvdb::FloatTree& tree = volume->grid->constTree();
-    if (const Leaf* leaf = tree.probeConstLeaf(at)) {
-        for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-            values[i] = leaf->getValue(i);
-        }
-        return;
-    }
-    // No leaf: one tile or the background covers the whole block.
-    std::fill_n(values, Leaf::SIZE, tree.getValue(at));
-}
-
-uint64_t bespoke_volume_memory(const BespokeVolume* volume) { return volume->grid->memUsage(); }
-
-void bespoke_volume_destroy(BespokeVolume* volume) { delete volume; }

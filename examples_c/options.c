@@ -65,7 +65,7 @@ static const Entry entries[] = {
      "with --source-avatar, without --no-fit: what was designed up to D away from it fits, what\n"
      "was twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits"},
     {"--pin-weight", "W", POSITIVE, FIELD(library.pin_weight), 0, "stiffness of the pins (1000)"},
-    {"--threads", "N", COUNT, FIELD(library.threads), 1024, "0: all cores (0)"},
+    {"--threads", "N", COUNT, FIELD(library.threads), 1024, "0: all cores, and never more than these (0)"},
     {"--memory-limit", "MB", MEGABYTES, FIELD(library.memory_limit), 0,
      "give up where more memory would be needed (no limit)"},
     {"--strict", "", CHOICE, FIELD(library.strict), 1,

@@ -40,14 +40,18 @@
 // Threads.  "any, one at a time": from any thread, but a second call with the same session while the first runs returns
 //   BESPOKE_STATUS_BUSY at once. "any, at any time": no restriction. Different sessions are independent, and nothing is
 //   bound to the thread that made it: a host's thread pool may step a session in another thread each time. A session
-//   has threads of its own, as many as BespokeOptions.threads says, from prepare until it is reset or destroyed; a host
-//   that runs many sessions at once gives each of them one. The calling thread waits meanwhile, and needs 64 KiB of
-//   stack.
+//   has threads of its own, as many as BespokeReport.threads says, from prepare until it is reset or destroyed. While the
+//   avatar grows, one with several has up to as many again, for the distance field; one with one has no other. A host
+//   that runs many sessions at once gives each of them one. Where the system starts fewer threads, a session works with
+//   those, to the same bits; without any, prepare returns NO_THREAD, and may be called again. The calling thread waits
+//   meanwhile, and needs 64 KiB of stack.
 // Process.  Sessions share nothing but code: several plugins may use the library in one process, or bring a copy each.
 //   Signals, locale, environment, standard streams and allocator of the host are not touched; the floating-point mode
 //   of the calling thread (rounding, flushing of subnormal numbers, traps) is the default during a call and is restored
-//   after it. Once loaded, the library stays until the process ends, and with it some sleeping threads of oneTBB:
-//   dlclose is safe after all sessions are destroyed, and the library can be opened again.
+//   after it. Loading the library starts no thread, and none is left when all sessions are destroyed; but one that was
+//   built over Debian's OpenVDB (build/libbespoke.so, or make install OPENVDB=system) loads log4cplus, which starts four
+//   that stay, and ends the process where it cannot. Once loaded, the library stays until the process ends: dlclose is
+//   safe after all sessions are destroyed, and the library can be opened again.
 // Fork.  Not supported: a process that was forked cannot use the sessions of its parent (INVALID_STATE, and they stay
 //   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls
 //   are harmless there.
@@ -113,6 +117,9 @@ enum BespokeStatus
   BESPOKE_STATUS_INTERNAL = 12,
   /// The session would take more memory than the option `memory_limit` allows.
   BESPOKE_STATUS_MEMORY_LIMIT = 13,
+  /// The session could not start even one thread: the process, its user or the machine has as many as it may have. The
+  /// call can be made again.
+  BESPOKE_STATUS_NO_THREAD = 14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -407,7 +414,8 @@ typedef struct BespokeCoordinateSystem {
 typedef struct BespokeOptions {
   /// sizeof(BespokeOptions).
   uint32_t struct_size;
-  /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
+  /// Threads of this session [1, 1024], of which at most as many are started as the process may use cores (its affinity
+  /// and its container decide). Default: all of these. BespokeReport.threads says how many work.
   uint32_t threads;
   /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
   double fit_weight;
@@ -536,7 +544,8 @@ typedef struct BespokeStageReport {
 typedef struct BespokeReport {
   /// sizeof(BespokeReport).
   uint32_t struct_size;
-  /// Threads that the session works with.
+  /// Threads that the session works with: as many as were asked for, but not more than there are cores for the process,
+  /// nor than could be started.
   uint32_t threads;
   /// Cost of prepare.
   struct BespokeStageReport prepare;
@@ -847,7 +856,7 @@ BespokeStatus bespoke_options_read_defaults(struct BespokeOptions *options);
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
 /// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
 /// topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
-/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+/// NO_THREAD, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 
 /// Continues the run until it ends or the budget is spent, whichever is first.

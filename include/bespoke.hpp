@@ -74,6 +74,7 @@ enum class Status : std::uint32_t {
     busy = BESPOKE_STATUS_BUSY,
     internal = BESPOKE_STATUS_INTERNAL,
     memory_limit = BESPOKE_STATUS_MEMORY_LIMIT,
+    no_thread = BESPOKE_STATUS_NO_THREAD,
 };
 
 /// How one number of an array is stored: BespokeComponent. 0 is none of them, so that a forgotten field is noticed.
@@ -694,7 +695,8 @@ struct CoordinateSystem {
 /// switches a term off where that is possible. Lengths are in the normalised space, in which the longest side of the
 /// skeleton's bounding box is 2.
 struct Options {
-    /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
+    /// Threads of this session [1, 1024], of which at most as many are started as the process may use cores (its
+    /// affinity and its container decide). Default: all of these. Report.threads says how many work.
     std::uint32_t threads = 0;
     /// Weight of the fit term, higher is tighter. Default 2. weight_off: no fit.
     double fit_weight = 0.0;

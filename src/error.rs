@@ -27,6 +27,8 @@ pub enum ErrorKind {
     Cancelled,
     /// The session would take more memory than its limit.
     MemoryLimit,
+    /// The session could not start even one thread: the process, its user or the machine has as many as it may have.
+    NoThread,
     /// A numerical or internal failure: a defect of this library.
     Internal,
 }

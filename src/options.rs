@@ -9,7 +9,7 @@ use crate::error::{Error, ErrorKind, Result};
 macro_rules! option_table {
     ($make:ident) => {
         $make! {
-            /// Threads of this session; 0 takes as many as the machine has cores.
+            /// Threads of this session, at most as many as the process may use cores; 0 takes all of these.
             threads: u32 = 0, in AtMost(1024, "0 takes all cores");
             /// Weight of the fit term (Eq. 4): higher is tighter.
             fit_weight: f64 = 2.0, in NotNegative, off = 0.0;

@@ -30,7 +30,8 @@ pub enum BespokeSurfaceForm {
 pub struct BespokeOptions {
     /// sizeof(BespokeOptions).
     pub struct_size: u32,
-    /// Threads of this session [1, 1024]. Default: as many as the machine has cores.
+    /// Threads of this session [1, 1024], of which at most as many are started as the process may use cores (its affinity
+    /// and its container decide). Default: all of these. BespokeReport.threads says how many work.
     pub threads: u32,
     /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
     pub fit_weight: f64,

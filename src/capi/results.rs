@@ -147,7 +147,8 @@ impl From<&StageReport> for BespokeStageReport {
 pub struct BespokeReport {
     /// sizeof(BespokeReport).
     pub struct_size: u32,
-    /// Threads that the session works with.
+    /// Threads that the session works with: as many as were asked for, but not more than there are cores for the process,
+    /// nor than could be started.
     pub threads: u32,
     /// Cost of prepare.
     pub prepare: BespokeStageReport,

@@ -50,7 +50,7 @@ impl From<Stage> for BespokeStage {
 /// State: SETUP, with garment, both skeletons and target avatar set. Errors: INVALID_STATE, INVALID_ARGUMENT (a voxel too
 /// small for the avatar), INVALID_MESH (also: too far from the origin for its precision), INVALID_SKELETON (another
 /// topology), INVALID_WEIGHTS (a wrong size), SELF_INTERSECTION (with the option strict), NOT_ENCLOSED, MEMORY_LIMIT,
-/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+/// NO_THREAD, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -> BespokeStatus {
     // SAFETY: passed on from the caller.

@@ -37,6 +37,9 @@ pub enum BespokeStatus {
     Internal = 12,
     /// The session would take more memory than the option `memory_limit` allows.
     MemoryLimit = 13,
+    /// The session could not start even one thread: the process, its user or the machine has as many as it may have. The
+    /// call can be made again.
+    NoThread = 14,
 }
 
 impl From<ErrorKind> for BespokeStatus {
@@ -53,6 +56,7 @@ impl From<ErrorKind> for BespokeStatus {
             ErrorKind::NotVerified => Self::NotVerified,
             ErrorKind::Cancelled => Self::Cancelled,
             ErrorKind::MemoryLimit => Self::MemoryLimit,
+            ErrorKind::NoThread => Self::NoThread,
             ErrorKind::Internal => Self::Internal,
         }
     }
@@ -78,6 +82,7 @@ pub extern "C" fn bespoke_status_name(status: u32) -> *const c_char {
         11 => c"BESPOKE_STATUS_BUSY",
         12 => c"BESPOKE_STATUS_INTERNAL",
         13 => c"BESPOKE_STATUS_MEMORY_LIMIT",
+        14 => c"BESPOKE_STATUS_NO_THREAD",
         _ => c"BESPOKE_STATUS_UNKNOWN",
     };
     name.as_ptr()

@@ -51,7 +51,7 @@ const BLOCK_BYTES: f64 = (size_of::<Block>() + 8192) as f64;
 pub struct FieldOptions {
     /// Spacing of the lattice, in the unit of the mesh.
     pub voxel: f64,
-    /// Threads that OpenVDB may use (it has its own pool). At least 1.
+    /// Threads that voxelise: the calling one, and others that end with [`Field::build`]. At least 1.
     pub threads: u32,
 }
 
@@ -101,7 +101,7 @@ impl Field {
         let (origin, extent) = layout(low, high, voxel)?;
         let points: Vec<[f32; 3]> =
             mesh.positions.iter().map(|&p| ((p - origin) / voxel).as_vec3().to_array()).collect();
-        let volume = Volume::build(&points, &mesh.triangles, [BAND; 2], options.threads, cancel)?;
+        let volume = Volume::build(&points, &mesh.triangles, BAND, options.threads, cancel)?;
         let mut blocks = Vec::new();
         blocks.resize_with(extent.iter().product(), OnceLock::new);
         Ok(Self { tree: ClosestPoint::new(mesh), volume, origin, voxel, per_voxel: voxel.recip(), extent, blocks })
@@ -270,11 +270,11 @@ impl Field {
         // A block also has nodes of the next ones.
         let volumes: [_; 8] = std::array::from_fn(|n| {
             let next = [n / 4, (n / 2) % 2, n % 2];
-            self.volume.read_block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32))
+            self.volume.block([0, 1, 2].map(|a| (first[a] + next[a] * BLOCK) as i32))
         });
         let inside = |[x, y, z]: [usize; 3]| {
             let volume = &volumes[(x / BLOCK) * 4 + (y / BLOCK) * 2 + z / BLOCK];
-            volume[((x % BLOCK) * BLOCK + y % BLOCK) * BLOCK + z % BLOCK] < 0.0
+            volume[x % BLOCK] >> ((y % BLOCK) * BLOCK + z % BLOCK) & 1 == 1
         };
         let centre = self.node(first.map(|i| i as f64 + 0.5 * (BLOCK - 1) as f64));
         Box::new(Block::new(inside, self.tree.hint(centre)))

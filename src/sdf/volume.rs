@@ -1,7 +1,10 @@
 //! The only file that calls the C++ shim: a triangle soup voxelised by OpenVDB, for the sign of the distance.
+//!
+//! The shim hands over where nodes lie inside, and keeps nothing: reading and dropping a volume is plain Rust.
 
+use std::collections::{HashMap, HashSet};
 use std::ffi::{CStr, c_char, c_int, c_void};
-use std::ptr::{self, NonNull};
+use std::ptr;
 
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -9,17 +12,15 @@ use crate::error::{Error, ErrorKind, Result};
 /// Nodes along one side of a block.
 pub const BLOCK: usize = 8;
 
-/// Nodes in a block.
-pub const BLOCK_NODES: usize = BLOCK * BLOCK * BLOCK;
+/// Which nodes of a block lie inside: bit 8 j + k of entry i is that of node (i, j, k).
+pub type Inside = [u64; BLOCK];
+
+/// Nodes along one side of the cubes that lie inside as a whole: the nodes of OpenVDB's trees.
+const SIDES: [u32; 2] = [128, 4096];
 
 const OK: c_int = 0;
 const CANCELLED: c_int = 1;
 const INVALID: c_int = 3;
-
-#[repr(C)]
-struct Opaque {
-    _private: [u8; 0],
-}
 
 unsafe extern "C" {
     fn bespoke_volume_build(
@@ -27,18 +28,15 @@ unsafe extern "C" {
         point_count: usize,
         triangles: *const u32,
         triangle_count: usize,
-        outside_band: f32,
-        inside_band: f32,
+        band: f32,
         threads: u32,
         cancelled: extern "C" fn(*const c_void) -> c_int,
         context: *const c_void,
-        volume: *mut *mut Opaque,
+        cube: extern "C" fn(*mut c_void, *const [i32; 3], u32, *const Inside),
+        cubes: *mut c_void,
         message: *mut c_char,
         message_capacity: usize,
     ) -> c_int;
-    fn bespoke_volume_read_block(volume: *const Opaque, origin: *const i32, values: *mut f32);
-    fn bespoke_volume_memory(volume: *const Opaque) -> u64;
-    fn bespoke_volume_destroy(volume: *mut Opaque);
 }
 
 extern "C" fn is_cancelled(context: *const c_void) -> c_int {
@@ -47,31 +45,41 @@ extern "C" fn is_cancelled(context: *const c_void) -> c_int {
     c_int::from(cancel.is_requested())
 }
 
-/// A voxelised triangle soup. Lengths are in voxels: node (i, j, k) of the lattice is the point (i, j, k).
-#[derive(Debug)]
-pub struct Volume(NonNull<Opaque>);
+extern "C" fn take_cube(volume: *mut c_void, origin: *const [i32; 3], side: u32, inside: *const Inside) {
+    // SAFETY: `build` passes a volume that outlives the call and that nobody else uses meanwhile; the origin is there.
+    let (volume, origin) = unsafe { (&mut *volume.cast::<Volume>(), *origin) };
+    // SAFETY: null, or the nodes of a block.
+    match unsafe { inside.as_ref() } {
+        Some(inside) => drop(volume.blocks.insert(origin, *inside)),
+        None => drop(volume.cubes.insert((side, origin))),
+    }
+}
 
-// SAFETY: the volume is not tied to the thread that built it.
-unsafe impl Send for Volume {}
-// SAFETY: after `build` the grid is only read, and OpenVDB's trees may be read from several threads.
-unsafe impl Sync for Volume {}
+/// A voxelised triangle soup. Lengths are in voxels: node (i, j, k) of the lattice is the point (i, j, k).
+#[derive(Debug, Default)]
+pub struct Volume {
+    /// Blocks with nodes inside, by the lowest node.
+    blocks: HashMap<[i32; 3], Inside>,
+    /// Larger cubes that lie inside, by their side and lowest node.
+    cubes: HashSet<(u32, [i32; 3])>,
+}
 
 impl Volume {
-    /// Voxelises `triangles` over `points` (in voxels), keeping distances up to `bands` (outside, inside; in
-    /// voxels, at least 1), with at most `threads` threads.
+    /// Voxelises `triangles` over `points` (in voxels), with at most `threads` threads. OpenVDB computes distances up to
+    /// `band` (in voxels, at least 1) from the surface, and finds the sign everywhere from these.
     ///
     /// # Errors
     /// `InvalidMesh` for what cannot be voxelised, `Cancelled` soon after `cancel` is set, `Internal`.
     pub fn build(
         points: &[[f32; 3]],
         triangles: &[[u32; 3]],
-        bands: [f32; 2],
+        band: f32,
         threads: u32,
         cancel: &Cancel,
     ) -> Result<Self> {
-        let mut volume = ptr::null_mut();
+        let mut volume = Self::default();
         let mut message = [0 as c_char; 256];
-        // SAFETY: the pointers and counts describe live slices, `cancel` outlives the call, and the shim
+        // SAFETY: the pointers and counts describe live slices, `cancel` and the volume outlive the call, and the shim
         // checks indices, writes a terminated message of at most the given size and throws nothing.
         let code = unsafe {
             bespoke_volume_build(
@@ -79,18 +87,18 @@ impl Volume {
                 points.len(),
                 triangles.as_ptr().cast(),
                 triangles.len(),
-                bands[0],
-                bands[1],
+                band,
                 threads,
                 is_cancelled,
                 ptr::from_ref(cancel).cast(),
-                &mut volume,
+                take_cube,
+                (&raw mut volume).cast(),
                 message.as_mut_ptr(),
                 message.len(),
             )
         };
-        if let (OK, Some(volume)) = (code, NonNull::new(volume)) {
-            return Ok(Self(volume));
+        if code == OK {
+            return Ok(volume);
         }
         // SAFETY: zero-initialised, and the shim terminates what it writes.
         let text = unsafe { CStr::from_ptr(message.as_ptr()) }.to_string_lossy();
@@ -101,27 +109,21 @@ impl Volume {
         })
     }
 
-    /// Distances (in voxels, negative inside, cut off at the bands) at the 8^3 nodes from `origin` on, each of
-    /// whose coordinates is rounded down to a multiple of 8. Node (i, j, k) of the block is entry
-    /// 64 i + 8 j + k.
-    pub fn read_block(&self, origin: [i32; 3]) -> [f32; BLOCK_NODES] {
-        let mut values = [0.0; BLOCK_NODES];
-        let origin = origin.map(|o| o & !(BLOCK as i32 - 1));
-        // SAFETY: a live volume, and an array of the size that the shim writes.
-        unsafe { bespoke_volume_read_block(self.0.as_ptr(), origin.as_ptr(), values.as_mut_ptr()) };
-        values
+    /// Which of the 8^3 nodes from `origin` on lie inside. Its coordinates are rounded down to multiples of 8.
+    pub fn block(&self, origin: [i32; 3]) -> Inside {
+        let below = |side: u32| origin.map(|o| o & !(side as i32 - 1));
+        if let Some(inside) = self.blocks.get(&below(BLOCK as u32)) {
+            return *inside;
+        }
+        let is_inside = SIDES.iter().any(|&side| self.cubes.contains(&(side, below(side))));
+        if is_inside { [u64::MAX; BLOCK] } else { [0; BLOCK] }
     }
 
     /// Memory it holds, in bytes.
     pub fn memory(&self) -> u64 {
-        // SAFETY: a live volume.
-        unsafe { bespoke_volume_memory(self.0.as_ptr()) }
-    }
-}
-
-impl Drop for Volume {
-    fn drop(&mut self) {
-        // SAFETY: the only owner, and it is not used afterwards.
-        unsafe { bespoke_volume_destroy(self.0.as_ptr()) }
+        // A byte of the table's for each entry.
+        let block = size_of::<([i32; 3], Inside)>() + 1;
+        let cube = size_of::<(u32, [i32; 3])>() + 1;
+        (self.blocks.capacity() * block + self.cubes.capacity() * cube) as u64
     }
 }

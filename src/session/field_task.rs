@@ -1,4 +1,6 @@
-//! The distance field of the avatar, built on a thread of its own while the avatar grows.
+//! The distance field of the avatar, built on threads of its own while the avatar grows.
+//!
+//! A session of one thread has no others: it builds the field when it is wanted. So does one that can start no thread.
 
 use std::panic::resume_unwind;
 use std::sync::Arc;
@@ -15,13 +17,22 @@ use crate::sdf::{Field, FieldOptions};
 
 /// The distance field, built beside the inflation. Dropping it stops the build.
 pub(super) struct FieldTask {
-    handle: Option<JoinHandle<Result<(Field, f64)>>>,
+    /// Taken when it is waited for.
+    work: Option<Work>,
     stop: Cancel,
 }
 
+/// The field, and the seconds that it took.
+type Built = Result<(Field, f64)>;
+
+enum Work {
+    UnderWay(JoinHandle<Built>),
+    Later(Box<dyn FnOnce() -> Built + Send>),
+}
+
 impl FieldTask {
-    /// Begins to build the field.
-    pub(super) fn start(avatar: Arc<TriangleMesh>, voxel: f64, threads: usize, context: &Context) -> Result<Self> {
+    /// Begins to build the field with so many threads, where that is more than one.
+    pub(super) fn start(avatar: Arc<TriangleMesh>, voxel: f64, threads: usize, context: &Context) -> Self {
         let (stop, panics, fault) = (context.stop.clone(), context.panics.clone(), context.fault);
         let cancel = stop.clone();
         let build = move || {
@@ -30,27 +41,33 @@ impl FieldTask {
             let field = Field::build(&avatar, FieldOptions { voxel, threads: threads as u32 }, &cancel)?;
             Ok((field, clock.elapsed().as_secs_f64()))
         };
-        let handle = std::thread::Builder::new()
-            .name("bespoke-field".into())
-            .spawn(move || with_panic_log(&panics, build))
-            .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread for the distance field: {e}")))?;
-        Ok(Self { handle: Some(handle), stop })
+        let later = Box::new(build.clone());
+        let started = (threads > 1).then(|| {
+            let thread = std::thread::Builder::new().name("bespoke-field".into());
+            thread.spawn(move || with_panic_log(&panics, build))
+        });
+        let work = match started {
+            Some(Ok(handle)) => Work::UnderWay(handle),
+            Some(Err(_)) | None => Work::Later(later),
+        };
+        Self { work: Some(work), stop }
     }
 
-    /// Waits for the field, or for a cancel; returns it with the seconds that it took. A panic of its thread resumes in the
-    /// caller.
-    pub(super) fn wait(&mut self) -> Result<(Field, f64)> {
-        let Some(handle) = self.handle.take() else {
-            return Err(Error::new(ErrorKind::Internal, "the distance field was taken twice"));
-        };
-        handle.join().unwrap_or_else(|panic| resume_unwind(panic))
+    /// Waits for the field, or for a cancel, or builds it; returns it with the seconds that it took. A panic of its thread
+    /// resumes in the caller.
+    pub(super) fn wait(&mut self) -> Built {
+        match self.work.take() {
+            Some(Work::UnderWay(handle)) => handle.join().unwrap_or_else(|panic| resume_unwind(panic)),
+            Some(Work::Later(build)) => build(),
+            None => Err(Error::new(ErrorKind::Internal, "the distance field was taken twice")),
+        }
     }
 }
 
 impl Drop for FieldTask {
     fn drop(&mut self) {
         self.stop.request();
-        if let Some(handle) = self.handle.take() {
+        if let Some(Work::UnderWay(handle)) = self.work.take() {
             // Neither its result nor its error is needed any more.
             drop(handle.join());
         }

@@ -68,12 +68,21 @@ pub struct Session {
     other_precision: Option<(Precision, Verification)>,
     panics: Arc<PanicLog>,
     fault: Option<Fault>,
+    /// For tests: more threads than cores are not refused.
+    crowded: bool,
 }
 
 impl Session {
     /// A session without inputs.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Lets the session have as many threads as its options say, beyond the cores: for tests that look whether the number
+    /// of threads makes a difference. The C API has no way to ask for it.
+    #[doc(hidden)]
+    pub fn crowd(&mut self) {
+        self.crowded = true;
     }
 
     /// Stage PREPARE: checks the inputs against each other, projects the avatar onto the skeleton, begins to build the distance
@@ -87,15 +96,19 @@ impl Session {
         if self.control.is_cancelled() {
             return Err(self.answer(Cancelled.into()));
         }
-        let threads = match self.inputs.options.threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
-            n => n as usize,
+        // More threads than cores would wait for each other at every loop.
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = match self.inputs.options.threads as usize {
+            0 => cores,
+            wanted if self.crowded => wanted,
+            wanted => wanted.min(cores),
         };
         let inputs = self.inputs.clone();
         let context = Context { stop: Cancel::new(), panics: self.panics.clone(), fault: self.fault };
         let stop = context.stop.clone();
         let control = &self.control;
         let pool = self.pool.insert(WorkerPool::new(threads, &self.panics)?);
+        let threads = pool.size();
         let job = move || {
             let mut diagnostics = Vec::new();
             let run = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);

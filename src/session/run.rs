@@ -79,7 +79,7 @@ impl Run {
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
         let (problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
-        let field = FieldTask::start(problem.avatar.clone(), options.voxel_size, threads, &context)?;
+        let field = FieldTask::start(problem.avatar.clone(), options.voxel_size, threads, &context);
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;

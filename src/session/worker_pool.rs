@@ -5,6 +5,7 @@
 //! drop of the session waits for that.
 
 use std::any::Any;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -31,23 +32,59 @@ pub(super) struct WorkerPool {
 }
 
 impl WorkerPool {
-    /// A pool of `count` threads, whose panic messages `panics` collects.
+    /// A pool of `count` threads, whose panic messages `panics` collects; of fewer where the system has no more.
     ///
     /// # Errors
-    /// `Internal` where the system has no more threads.
+    /// `NoThread` where not even one can be started.
     pub(super) fn new(count: usize, panics: &Arc<PanicLog>) -> Result<Self> {
-        let mut handles = Vec::new();
+        // Before there is a pool, whose size is fixed. Each thread waits for its part in it, and ends where none comes.
+        let (mut handles, mut parts, mut refused) = (Vec::new(), Vec::new(), None);
+        for index in 0..count.max(1) {
+            let (part, received) = sync_channel::<rayon::ThreadBuilder>(1);
+            let panics = panics.clone();
+            let work = move || {
+                if let Ok(worker) = received.recv() {
+                    with_panic_log(&panics, || worker.run());
+                }
+            };
+            match std::thread::Builder::new().name(format!("bespoke-{index}")).spawn(work) {
+                Ok(handle) => handles.push(handle),
+                Err(reason) => {
+                    refused = Some(reason);
+                    break;
+                }
+            }
+            parts.push(part);
+        }
+        if let (true, Some(reason)) = (handles.is_empty(), refused) {
+            return Err(Error::new(
+                ErrorKind::NoThread,
+                format!(
+                    "threads: the session could not start a thread ({reason}): end other threads of the process, or raise \
+                     the limit on threads or memory of the process, its user or its container, and call prepare again"
+                ),
+            ));
+        }
+        // The parts come in order.
+        let mut parts = parts.into_iter();
+        let mut pool = Self { threads: None, handles, abandoned: Mutex::default(), panics: panics.clone() };
         let threads = rayon::ThreadPoolBuilder::new()
-            .num_threads(count)
+            .num_threads(pool.handles.len())
             .spawn_handler(|worker| {
-                let thread = std::thread::Builder::new().name(format!("bespoke-{}", worker.index()));
-                let panics = panics.clone();
-                handles.push(thread.spawn(move || with_panic_log(&panics, || worker.run()))?);
-                Ok(())
+                let part = parts.next().ok_or_else(|| io::Error::other("more threads than were asked for"))?;
+                part.send(worker).map_err(|_| io::Error::other("a thread has ended too early"))
             })
             .build()
-            .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")))?;
-        Ok(Self { threads: Some(threads), handles, abandoned: Mutex::default(), panics: panics.clone() })
+            .map_err(|e| Error::new(ErrorKind::Internal, format!("no thread pool: {e}")));
+        // What was not handed out is dropped, so that no thread waits for it.
+        drop(parts);
+        pool.threads = Some(threads?);
+        Ok(pool)
+    }
+
+    /// How many threads it has.
+    pub(super) fn size(&self) -> usize {
+        self.handles.len()
     }
 
     /// Runs `job` in the pool and returns its result. As soon as `should_stop` is true, `stop`, which the job checks, is set

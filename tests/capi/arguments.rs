@@ -364,7 +364,8 @@ fn names_and_versions() {
     let text = |pointer| unsafe { CStr::from_ptr(pointer) }.to_str().expect("UTF-8");
     assert_eq!(text(bespoke_status_name(Ok as u32)), "BESPOKE_STATUS_OK");
     assert_eq!(text(bespoke_status_name(BespokeStatus::Internal as u32)), "BESPOKE_STATUS_INTERNAL");
-    assert_eq!(text(bespoke_status_name(14)), "BESPOKE_STATUS_UNKNOWN");
+    assert_eq!(text(bespoke_status_name(BespokeStatus::NoThread as u32)), "BESPOKE_STATUS_NO_THREAD");
+    assert_eq!(text(bespoke_status_name(999)), "BESPOKE_STATUS_UNKNOWN");
     assert_eq!(text(bespoke_version_text()), env!("CARGO_PKG_VERSION"));
     assert_eq!(bespoke_abi_version(), BESPOKE_ABI_VERSION);
 }

@@ -5,6 +5,8 @@
      host reopen LIBRARY                       opens, dresses and closes, several times
      host copies LIBRARY COPY                  two copies with global symbols, in use at once
      host apart LIBRARY COPY                   the same, but nothing of the first may be called while the second works
+     host starve LIBRARY THREADS load|work     lets threads fail (starve.c, preloaded): from before the library is loaded
+                                               on, or from after that; then dresses again with all that it asks for
 
    Prints the hash of the result (tube.h), and ends with 1 and a sentence where something is not as it should be. */
 #include <dirent.h>
@@ -14,6 +16,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <time.h>
@@ -112,7 +115,7 @@ static void expect_threads(int most) {
     }
 }
 
-/* The workers of TBB stay; those of the first round are all there will ever be. */
+/* What is there after the first round is all there will ever be. */
 static uint64_t reopened(const char *path) {
     uint64_t first = 0;
     int most = 0;
@@ -201,6 +204,35 @@ static uint64_t kept_apart(const char *path, const char *copy) {
     return hash;
 }
 
+/* What starve.c defines, where it is loaded. */
+extern void starve_begin(void) __attribute__((weak));
+extern int starve_end(void) __attribute__((weak));
+
+static uint64_t starved(const char *path, unsigned thread_count, int from_load) {
+    if (starve_begin == NULL || starve_end == NULL) {
+        tube_fail("starve.c is not loaded");
+    }
+    if (from_load) {
+        starve_begin();
+    }
+    void *library = tube_open(path, RTLD_NOW | RTLD_LOCAL);
+    if (!from_load) {
+        starve_begin();
+    }
+    char message[TUBE_MESSAGE];
+    uint64_t hash = 0, again = 0;
+    const unsigned status = tube_try(library, thread_count, &hash, message);
+    printf("asked %d\nstatus %u %s\n", starve_end(), status, message);
+    if (tube_try(library, thread_count, &again, message) != 0) {
+        tube_fail("with all the threads it asks for it fails: %s", message);
+    }
+    if (status == 0 && hash != again) {
+        tube_fail("fewer threads give other bits");
+    }
+    printf("left %d\n", threads());
+    return again;
+}
+
 int main(int count, char **words) {
     const char *what = count > 2 ? words[1] : "";
     uint64_t hash = 0;
@@ -215,6 +247,8 @@ int main(int count, char **words) {
         hash = two_copies(words[2], words[3]);
     } else if (strcmp(what, "apart") == 0 && count == 4) {
         hash = kept_apart(words[2], words[3]);
+    } else if (strcmp(what, "starve") == 0 && count == 5) {
+        hash = starved(words[2], (unsigned)atoi(words[3]), strcmp(words[4], "load") == 0);
     } else {
         tube_fail("the head of host.c says what can be asked");
     }

@@ -10,4 +10,5 @@ mod needs;
 mod plugin;
 mod programs;
 mod shipped;
+mod starved;
 mod symbols;

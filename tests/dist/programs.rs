@@ -26,12 +26,31 @@ pub fn host() -> &'static Path {
     })
 }
 
+/// starve.c: lets threads fail in the process into which it is loaded first.
+pub fn starve() -> &'static Path {
+    static STARVE: OnceLock<PathBuf> = OnceLock::new();
+    STARVE.get_or_init(|| {
+        let library = scratch("dist-starve").join("starve.so");
+        let mut command = Command::new("cc");
+        command.args(["-std=gnu11", "-O1", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC"]);
+        succeed(command.arg(root().join("tests/dist/starve.c")).arg("-o").arg(&library).arg("-ldl"));
+        library
+    })
+}
+
 /// What the host printed. Nothing may be said on the standard error: it belongs to the host.
 #[track_caller]
 pub fn run_host(words: &[&OsStr]) -> String {
+    run_host_with(words, &[])
+}
+
+/// The same with variables of the environment.
+#[track_caller]
+pub fn run_host_with(words: &[&OsStr], variables: &[(&str, &OsStr)]) -> String {
     // A path for libraries that the caller has set would decide which TBB is found.
     let mut command = Command::new(host());
     command.args(words).env_remove("LD_LIBRARY_PATH").env_remove("LD_PRELOAD").env_remove("TBB_VERSION");
+    command.envs(variables.iter().copied());
     let output = command.output().expect("the host can be run");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && errors.is_empty(), "{command:?}: {}\n{errors}", output.status);

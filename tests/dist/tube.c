@@ -56,16 +56,27 @@ static size_t tube(float radius, float reach, float (*points)[3], uint32_t (*tri
     return count;
 }
 
+#define TRY(name, ...) ((__typeof__(&name))find(library, #name))(__VA_ARGS__)
+
 #define CALL(name, ...) \
     do { \
-        __typeof__(&name) call = (__typeof__(&name))find(library, #name); \
-        const BespokeStatus status = call(__VA_ARGS__); \
+        const BespokeStatus status = TRY(name, __VA_ARGS__); \
         if (status != BESPOKE_STATUS_OK) { \
             tube_fail(#name ": status %u", (unsigned)status); \
         } \
     } while (0)
 
 uint64_t tube_dress(void *library) {
+    uint64_t hash = 0;
+    char message[TUBE_MESSAGE];
+    const unsigned status = tube_try(library, 2, &hash, message);
+    if (status != BESPOKE_STATUS_OK) {
+        tube_fail("status %u: %s", status, message);
+    }
+    return hash;
+}
+
+unsigned tube_try(void *library, unsigned thread_count, uint64_t *hash, char message[TUBE_MESSAGE]) {
     float garment[RINGS * AROUND][3], avatar[RINGS * AROUND][3], result[RINGS * AROUND][3];
     uint32_t triangles[2 * RINGS * AROUND][3];
     tube(0.3f, 0.55f, garment, triangles);
@@ -79,7 +90,7 @@ uint64_t tube_dress(void *library) {
     const BespokeView joint_view = {joints, 3, 0, BESPOKE_COMPONENT_F32};
     const BespokeView bone_view = {bones, 2, 0, BESPOKE_COMPONENT_U32};
     const BespokeBuffer buffer = {result, RINGS * AROUND, 0, BESPOKE_COMPONENT_F32};
-    BespokeOptions options = {.struct_size = sizeof options, .threads = 2, .voxel_size = 0.02};
+    BespokeOptions options = {.struct_size = sizeof options, .threads = thread_count, .voxel_size = 0.02};
     BespokeSession *session = NULL;
     CALL(bespoke_session_create, &session);
     CALL(bespoke_session_set_options, session, &options);
@@ -87,14 +98,22 @@ uint64_t tube_dress(void *library) {
     CALL(bespoke_session_set_source_skeleton, session, &joint_view, &bone_view);
     CALL(bespoke_session_set_target_avatar, session, &avatar_view, &triangle_view);
     CALL(bespoke_session_set_target_skeleton, session, &joint_view, &bone_view);
-    CALL(bespoke_session_run, session);
-    CALL(bespoke_session_read_garment_vertices, session, &buffer, NULL);
+    message[0] = '\0';
+    const BespokeStatus outcome = TRY(bespoke_session_run, session);
+    if (outcome == BESPOKE_STATUS_OK) {
+        CALL(bespoke_session_read_garment_vertices, session, &buffer, NULL);
+    } else {
+        CALL(bespoke_session_last_message, session, message, TUBE_MESSAGE, NULL);
+    }
     CALL(bespoke_session_destroy, session);
+    if (outcome != BESPOKE_STATUS_OK) {
+        return outcome;
+    }
 
-    uint64_t hash = 0xcbf29ce484222325u;
+    *hash = 0xcbf29ce484222325u;
     const unsigned char *bytes = (const unsigned char *)result;
     for (size_t k = 0; k < sizeof result; k++) {
-        hash = (hash ^ bytes[k]) * 0x100000001b3u;
+        *hash = (*hash ^ bytes[k]) * 0x100000001b3u;
     }
-    return hash;
+    return BESPOKE_STATUS_OK;
 }

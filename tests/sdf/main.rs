@@ -3,4 +3,5 @@
 mod field;
 mod real_avatar;
 mod shapes;
+mod shim;
 mod volume;

@@ -39,6 +39,8 @@ fn hash(bits: &[u64]) -> u64 {
 }
 
 fn finished_bits(mut session: Session, threads: u32) -> Vec<u64> {
+    // Also more threads than this machine has cores.
+    session.crowd();
     session.set_options(Options { threads, ..Options::default() }).unwrap();
     assert_eq!(session.run().unwrap(), Stage::Done);
     session.garment_positions().unwrap().iter().flat_map(|p| p.to_array().map(f64::to_bits)).collect()

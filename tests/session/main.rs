@@ -13,3 +13,4 @@ mod memory;
 mod profile;
 mod shifted;
 mod small;
+mod threads;

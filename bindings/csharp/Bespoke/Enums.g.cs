@@ -64,6 +64,12 @@ namespace Bespoke
         /// The session would take more memory than the option <see cref="Options.MemoryLimit"/> allows.
         /// </summary>
         MemoryLimit = 13,
+
+        /// <summary>
+        /// The session could not start even one thread: the process, its user or the machine has as many as it may
+        /// have. The call can be made again.
+        /// </summary>
+        NoThread = 14,
     }
 
     /// <summary>

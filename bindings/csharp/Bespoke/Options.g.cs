@@ -6,7 +6,10 @@ namespace Bespoke
 {
     public sealed partial class Options
     {
-        /// <summary>Threads of this session [1, 1024]. Default: as many as the machine has cores.</summary>
+        /// <summary>
+        /// Threads of this session [1, 1024], of which at most as many are started as the process may use cores (its
+        /// affinity and its container decide). Default: all of these. <c>Report</c>.threads says how many work.
+        /// </summary>
         public uint Threads { get; set; }
 
         /// <summary>

@@ -20,7 +20,7 @@ namespace Bespoke
         /// <param name="token">Cancelled: so is the session.</param>
         /// <exception cref="BespokeException">InvalidState, InvalidArgument (a voxel too small for the avatar),
         /// InvalidMesh (also: too far from the origin for its precision), InvalidSkeleton (another topology),
-        /// InvalidWeights (a wrong size), SelfIntersection (with the option Strict), NotEnclosed, MemoryLimit, Busy,
+        /// InvalidWeights (a wrong size), SelfIntersection (with the option Strict), NotEnclosed, MemoryLimit, NoThread, Busy,
         /// Internal.</exception>
         /// <exception cref="OperationCanceledException">Cancelled by the caller.</exception>
         public void Prepare(CancellationToken token = default(CancellationToken))
