@@ -25,6 +25,8 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED] = "pin_not_reached",
     [BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT] = "rigid_group_bent",
     [BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED] = "inflation_blocked",
+    [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
+    [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

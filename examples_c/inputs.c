@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "parts.h"
 
 static bool set_mesh(Session *session, const Obj *obj, const char *path,
                      BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
@@ -137,6 +138,7 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
            set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton) &&
            obj_read(&inputs->avatar, options->avatar, &session->message) &&
            set_mesh(session, &inputs->avatar, options->avatar, bespoke_session_set_target_avatar) &&
+           parts_set(session, &inputs->avatar, options) &&
            set_skeleton(session, options->target_skeleton, bespoke_session_set_target_skeleton) &&
            (options->source_avatar == NULL ||
             set_further_mesh(session, options->source_avatar, bespoke_session_set_source_avatar)) &&

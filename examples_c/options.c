@@ -48,6 +48,13 @@ static const Entry entries[] = {
      "skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex"},
     {"--layer", "FILE", LAYER, FIELD(layers), 0,
      "a garment that the avatar wears already, placed like it; may be given several times"},
+    {"--ignore-groups", "NAMES", PATH, FIELD(ignore_groups), 0,
+     "objects, groups or materials of the avatar's file that take no part, separated by commas:\n"
+     "the garment may pass through them"},
+    {"--collision-groups", "NAMES", PATH, FIELD(collision_groups), 0,
+     "those that the garment does not pass through, but is not fitted to, such as hair"},
+    {"--body-groups", "NAMES", PATH, FIELD(body_groups), 0,
+     "those that are body in any case, where a piece would be left out as no part of it"},
     {"--no-fit", "FILE", PATH, FIELD(no_fit), 0,
      "garment vertices (from 0); faces with all corners listed are not drawn to the body"},
     {"--pins", "FILE", PATH, FIELD(pins), 0,

@@ -19,6 +19,10 @@ typedef struct Options {
     const char *no_fit;
     const char *pins;
     const char *rigid;
+    /* Names in the avatar's file, separated by commas. */
+    const char *body_groups;
+    const char *collision_groups;
+    const char *ignore_groups;
     const char *output_avatar;
     const char *report;
     const char *distortion;

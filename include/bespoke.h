@@ -286,6 +286,13 @@ enum BespokeDiagnosticKind
   /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
   /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
   BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED = 14,
+  /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
+  /// for them, unless the option strict is set. The first vertices are named.
+  BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT = 19,
+  /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
+  /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
+  /// The distance is the longest side of its bounding box.
+  BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -361,6 +368,30 @@ enum BespokeElementKind
 typedef enum BespokeElementKind BespokeElementKind;
 #else
 typedef uint32_t BespokeElementKind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// What a triangle of the avatar is to the garment.
+enum BespokePartRole
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// Body, unless its connected piece is recognised as no part of the body, such as a floor or a dome: then it is
+  /// ignored, and a diagnostic says so. The default.
+  BESPOKE_PART_ROLE_AUTO = 0,
+  /// Body: the garment is fitted to it and does not pass through it. It is left out in no case.
+  BESPOKE_PART_ROLE_BODY = 1,
+  /// The garment does not pass through it, but is not drawn to it, such as hair that hangs over a coat.
+  BESPOKE_PART_ROLE_COLLISION = 2,
+  /// It takes no part: the garment may pass through it, and it is not verified.
+  BESPOKE_PART_ROLE_IGNORED = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokePartRole BespokePartRole;
+#else
+typedef uint32_t BespokePartRole;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -837,6 +868,18 @@ BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
+
+/// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTO, the library
+/// leaves out pieces that are no part of the body, with a diagnostic, and takes all else for body. With the option strict
+/// it leaves nothing out.
+///
+/// `roles`: one BespokePartRole for each triangle of the avatar, U16 or U32; null takes all roles back. Whatever their
+/// role, vertices keep their numbers, and BespokeReport counts the triangles that take part. Ownership: copied during
+/// the call. State: SETUP; they stay with another avatar and after bespoke_session_reset. Errors: INVALID_ARGUMENT (no
+/// role has that number; another count than the avatar's may be found only by bespoke_session_prepare, as may
+/// INVALID_MESH where no body is left), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_avatar_parts(struct BespokeSession *session,
+                                               const struct BespokeView *roles);
 
 /// Replaces all options by these.
 ///

@@ -135,6 +135,8 @@ enum class DiagnosticKind : std::uint32_t {
     pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
     rigid_group_bent = BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT,
     inflation_blocked = BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED,
+    weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
+    foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.
@@ -159,6 +161,14 @@ enum class ElementKind : std::uint32_t {
     vertex = BESPOKE_ELEMENT_KIND_VERTEX,
     triangle = BESPOKE_ELEMENT_KIND_TRIANGLE,
     bone = BESPOKE_ELEMENT_KIND_BONE,
+};
+
+/// What a triangle of the avatar is to the garment: BespokePartRole.
+enum class PartRole : std::uint32_t {
+    auto = BESPOKE_PART_ROLE_AUTO,
+    body = BESPOKE_PART_ROLE_BODY,
+    collision = BESPOKE_PART_ROLE_COLLISION,
+    ignored = BESPOKE_PART_ROLE_IGNORED,
 };
 
 // End of the enums.
@@ -1260,6 +1270,11 @@ public:
 
     /// Removes all rigid groups.
     Result<void> clear_rigid_groups() { return call(bespoke_session_clear_rigid_groups); }
+
+    /// Optional: what each triangle of the avatar is to the garment, a number of PartRole for each.
+    Result<void> set_avatar_parts(Indices roles) {
+        return set(bespoke_session_set_avatar_parts, "avatar parts", roles);
+    }
 
     /// Optional: a garment that the avatar wears already. Each call adds a layer.
     Result<void> add_layer(Points positions, Triangles triangles) {

@@ -25,7 +25,8 @@ macro_rules! option_table {
             pin_weight: f64 = 1000.0, in NotNegative;
             /// Bytes that the session may take at most; 0 is no limit.
             memory_limit: u64 = 0;
-            /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact.
+            /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact; and
+            /// take skin weights and the avatar's pieces as they are, instead of mending what contradicts the rest.
             strict: bool = false;
             /// Weight of the surface term (Eq. 2).
             surface_weight: f64 = 1.0, in NotNegative, off = 0.0;

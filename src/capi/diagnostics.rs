@@ -50,6 +50,13 @@ pub enum BespokeDiagnosticKind {
     /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
     /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
     InflationBlocked = 14,
+    /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
+    /// for them, unless the option strict is set. The first vertices are named.
+    WeightsContradict = 19,
+    /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
+    /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
+    /// The distance is the longest side of its bounding box.
+    ForeignPart = 20,
 }
 
 /// How much a diagnostic matters.
@@ -163,6 +170,8 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
             DiagnosticKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
             DiagnosticKind::InflationBlocked => BespokeDiagnosticKind::InflationBlocked,
+            DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
+            DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

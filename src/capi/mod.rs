@@ -19,6 +19,8 @@ pub mod fit;
 
 pub mod layers;
 
+pub mod avatar_parts;
+
 pub mod options;
 
 pub mod running;

@@ -8,6 +8,20 @@ use super::diagnostic::{Element, Subject};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 
+/// What a triangle of the avatar is to the garment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PartRole {
+    /// Body, unless its piece is recognised as no part of the body.
+    #[default]
+    Auto,
+    /// The garment is fitted to it and does not pass through it.
+    Body,
+    /// The garment does not pass through it, but is not fitted to it.
+    Collision,
+    /// It takes no part in anything.
+    Ignored,
+}
+
 /// An avatar with its layers: garments that it wears already, and that count as a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
@@ -16,13 +30,17 @@ pub struct Body {
     avatar_vertices: usize,
     /// Where the triangles of the avatar end, then those of each layer.
     ends: Vec<u32>,
+    /// The avatar's triangles that take part, by the caller's index; none where all do.
+    kept: Option<Arc<[u32]>>,
+    /// Triangles of the mesh that the garment is not fitted to, ascending.
+    collision_only: Arc<[u32]>,
 }
 
 impl From<TriangleMesh> for Body {
     /// An avatar without layers.
     fn from(avatar: TriangleMesh) -> Self {
         let (vertices, triangles) = (avatar.positions.len(), avatar.triangles.len());
-        Self { mesh: avatar.into(), avatar_vertices: vertices, ends: vec![triangles as u32] }
+        Self { mesh: avatar.into(), avatar_vertices: vertices, ends: vec![triangles as u32], ..Self::default() }
     }
 }
 
@@ -52,7 +70,7 @@ impl Body {
         });
         let ends = ends.collect();
         if layers.is_empty() {
-            return Ok(Self { mesh: avatar.clone(), avatar_vertices, ends });
+            return Ok(Self { mesh: avatar.clone(), avatar_vertices, ends, ..Self::default() });
         }
         let mut joined =
             TriangleMesh { positions: Vec::with_capacity(vertices), triangles: Vec::with_capacity(triangles) };
@@ -61,15 +79,60 @@ impl Body {
             joined.positions.extend(&mesh.positions);
             joined.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| first + v)));
         }
-        Ok(Self { mesh: joined.into(), avatar_vertices, ends })
+        Ok(Self { mesh: joined.into(), avatar_vertices, ends, ..Self::default() })
+    }
+
+    /// `avatar` in `layers`, of whose triangles each has its role; those that are ignored are left out. The vertices stay.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`], and `InvalidMesh` where no triangle is left that the garment can be fitted to.
+    pub fn with_roles(avatar: &Arc<TriangleMesh>, layers: &[Arc<TriangleMesh>], roles: &[PartRole]) -> Result<Self> {
+        if roles.iter().all(|role| matches!(role, PartRole::Auto | PartRole::Body)) {
+            return Self::new(avatar, layers);
+        }
+        let kept: Vec<u32> = (0u32..).zip(roles).filter(|(_, r)| **r != PartRole::Ignored).map(|(t, _)| t).collect();
+        let is_collision_only = |k: &u32| roles[kept[*k as usize] as usize] == PartRole::Collision;
+        let collision_only: Vec<u32> = (0..kept.len() as u32).filter(is_collision_only).collect();
+        if collision_only.len() == kept.len() {
+            return Err(Error::new(
+                ErrorKind::InvalidMesh,
+                "target avatar: the roles of its parts leave no triangle to fit the garment to; give the body the role body",
+            ));
+        }
+        let triangles = kept.iter().map(|&t| avatar.triangles[t as usize]).collect();
+        let part = TriangleMesh { positions: avatar.positions.clone(), triangles };
+        Ok(Self {
+            kept: Some(kept.into()),
+            collision_only: collision_only.into(),
+            ..Self::new(&Arc::new(part), layers)?
+        })
+    }
+
+    /// The mesh without the triangles that the garment is not fitted to; none where there are no such triangles.
+    pub fn fitted(&self) -> Option<TriangleMesh> {
+        if self.collision_only.is_empty() {
+            return None;
+        }
+        let is_fitted = |(t, _): &(u32, &[u32; 3])| self.collision_only.binary_search(t).is_err();
+        let triangles = (0u32..).zip(&self.mesh.triangles).filter(is_fitted).map(|(_, &triangle)| triangle).collect();
+        Some(TriangleMesh { positions: self.mesh.positions.clone(), triangles })
+    }
+
+    /// The avatar without its layers.
+    pub fn avatar(&self) -> TriangleMesh {
+        let [_, triangles] = self.avatar_size();
+        TriangleMesh {
+            positions: self.avatar_positions().to_vec(),
+            triangles: self.mesh.triangles[..triangles].to_vec(),
+        }
     }
 
     /// The same triangles with other positions, as in another coordinate system.
     pub fn with_mesh(&self, mesh: TriangleMesh) -> Self {
-        Self { mesh: mesh.into(), avatar_vertices: self.avatar_vertices, ends: self.ends.clone() }
+        Self { mesh: mesh.into(), ..self.clone() }
     }
 
-    /// Vertices and triangles of the avatar alone.
+    /// Vertices and triangles of the avatar alone, without triangles that are ignored.
     pub fn avatar_size(&self) -> [usize; 2] {
         [self.avatar_vertices, self.ends.first().map_or(0, |&end| end as usize)]
     }
@@ -87,7 +150,10 @@ impl Body {
     /// A triangle of the mesh as the avatar's or a layer's.
     pub fn triangle(&self, triangle: u32) -> Element {
         match self.ends.partition_point(|&end| end <= triangle) {
-            0 => Element::triangle(Subject::TargetAvatar, triangle),
+            0 => {
+                let caller = self.kept.as_ref().map_or(triangle, |kept| kept[triangle as usize]);
+                Element::triangle(Subject::TargetAvatar, caller)
+            }
             k => Element::triangle(Subject::Layer(k as u32 - 1), triangle - self.ends[k - 1]),
         }
     }

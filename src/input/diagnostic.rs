@@ -88,6 +88,10 @@ pub enum DiagnosticKind {
     RigidGroupBent,
     /// A part of the avatar that cannot grow because of the garment triangles in its way.
     InflationBlocked,
+    /// Skin weights bind vertices of the avatar to joints far away from them.
+    WeightsContradict,
+    /// A connected piece of the avatar's mesh that is no part of the body.
+    ForeignPart,
 }
 
 /// How much a diagnostic matters.
@@ -114,6 +118,19 @@ impl Bone {
     fn element(self) -> Element {
         Element::bone(Subject::SourceSkeleton, self.index)
     }
+}
+
+/// Why a piece of the avatar's mesh is no part of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Foreignness {
+    /// It surrounds body and skeleton, as a dome or a box does.
+    Surrounds,
+    /// It is flat, and the body stands on it.
+    Ground,
+    /// It is far larger than the skeleton and around none of its bones.
+    Huge,
+    /// It is away from all bones and from the body.
+    Detached,
 }
 
 /// A part of the avatar: what moves with one bone.
@@ -291,6 +308,32 @@ pub enum Diagnostic {
         /// What the option `inflation_dhat` was.
         inflation_dhat: f64,
     },
+    /// Skin weights bind vertices of the avatar to joints far away, while another bone is near.
+    WeightsContradict {
+        /// How many vertices.
+        count: usize,
+        /// Vertices with weights.
+        weighted: usize,
+        /// The first of them, at most four.
+        first: Vec<u32>,
+        /// The joint that the first one is bound to, and the joints of the bone nearest to it.
+        example: Option<(u32, [u32; 2])>,
+        /// The nearest bone decides for them; else the option `strict` takes the weights as they are.
+        mended: bool,
+    },
+    /// A connected piece of the avatar's mesh is no part of the body.
+    ForeignPart {
+        /// How many triangles it has.
+        count: usize,
+        /// The first and the last of them.
+        triangles: [u32; 2],
+        /// Why it is no part of the body.
+        reason: Foreignness,
+        /// The longest side of its bounding box.
+        size: f64,
+        /// It is left out; else the option `strict` keeps it.
+        left_out: bool,
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -333,6 +376,8 @@ impl Diagnostic {
             Self::PinNotReached { .. } => DiagnosticKind::PinNotReached,
             Self::RigidGroupBent { .. } => DiagnosticKind::RigidGroupBent,
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
+            Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
+            Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -353,7 +398,9 @@ impl Diagnostic {
             | Self::CycleCut { .. }
             | Self::CoarseCoordinates { .. }
             | Self::PinNotReached { .. }
-            | Self::RigidGroupBent { .. } => Severity::Warning,
+            | Self::RigidGroupBent { .. }
+            | Self::WeightsContradict { .. }
+            | Self::ForeignPart { .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
             | Self::ResultSelfIntersection { .. }
@@ -394,6 +441,13 @@ impl Diagnostic {
                 [triangle(garment), part.triangle].into_iter().chain(part.bone.map(Bone::element)).collect()
             }
             Self::InflationSqueezed { garment, parts: [a, b], .. } => vec![triangle(garment), a.triangle, b.triangle],
+            Self::WeightsContradict { ref first, .. } => {
+                first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
+            }
+            Self::ForeignPart { triangles: [first, last], .. } => {
+                let triangles = if first == last { vec![first] } else { vec![first, last] };
+                triangles.into_iter().map(|t| Element::triangle(Subject::TargetAvatar, t)).collect()
+            }
             Self::CoarseCoordinates { .. } | Self::More { .. } => Vec::new(),
         }
     }
@@ -405,6 +459,7 @@ impl Diagnostic {
             | Self::PinNotReached { distance, .. }
             | Self::RigidGroupBent { distance, .. }
             | Self::InflationHeld { distance, .. } => distance,
+            Self::ForeignPart { size, .. } => size,
             Self::NearContact { to_itself, to_avatar, .. } => to_itself.min(to_avatar),
             Self::CoarseCoordinates { min_separation } => min_separation,
             Self::InflationSqueezed { gap, .. } => gap.unwrap_or(0.0),

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use super::diagnostic::{Bone, Diagnostic, Element, Subject};
+use super::diagnostic::{Bone, Diagnostic, Element, Foreignness, Subject};
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -137,6 +137,41 @@ impl Display for Diagnostic {
                     }
                 }
             }
+            Self::WeightsContradict { count, weighted, first, example, mended } => {
+                let fate = match mended {
+                    true => "the nearest bone decides for these",
+                    false => "the option strict takes the weights as they are",
+                };
+                let such = match (first.first(), example) {
+                    (Some(v), Some((joint, [a, b]))) => format!(
+                        ", such as vertex {v}: they bind it to joint {joint}, and the bone between joints {a} and {b} is nearest"
+                    ),
+                    _ => String::new(),
+                };
+                write!(
+                    f,
+                    "target skin weights: they contradict the positions of {count} of {weighted} vertices{such}; {fate}; check \
+                     that the rows are in the order of the skeleton's joints, and the export of the weights"
+                )
+            }
+            Self::ForeignPart { count, triangles: [first, last], reason, size, left_out } => {
+                let why = match reason {
+                    Foreignness::Surrounds => "it surrounds the body and its skeleton",
+                    Foreignness::Ground => "it is flat, and the body stands on it",
+                    Foreignness::Huge => "it is far larger than the skeleton and around none of its bones",
+                    Foreignness::Detached => "it is away from all bones and from the body",
+                };
+                let fate = match left_out {
+                    true => "it is left out: the result may pass through it",
+                    false => "the option strict keeps it",
+                };
+                write!(
+                    f,
+                    "target avatar: the piece of {count} triangles, from {first} to {last}, seems to be no part of the body: \
+                     {why} (its longest side is {size:.2}, the skeleton's is 2); {fate}; give it a role with set_avatar_parts, or \
+                     take it out of the avatar"
+                )
+            }
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }
@@ -158,6 +193,7 @@ fn several(like: &Diagnostic) -> &'static str {
         }
         Diagnostic::PinNotReached { .. } => "pinned vertices end away from their places",
         Diagnostic::RigidGroupBent { .. } => "rigid groups end bent",
+        Diagnostic::ForeignPart { .. } => "pieces of the avatar seem to be no part of the body",
         _ => "of this kind",
     }
 }

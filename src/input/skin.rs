@@ -144,6 +144,19 @@ impl SkinWeights {
         extended
     }
 
+    /// These without weights for `vertices`, which are ascending: the nearest bone decides for them.
+    pub fn without(&self, vertices: &[u32]) -> Self {
+        let mut kept =
+            Self { joint_count: self.joint_count, ends: Vec::with_capacity(self.ends.len()), influences: Vec::new() };
+        for vertex in 0..self.vertex_count() {
+            if vertices.binary_search(&(vertex as u32)).is_err() {
+                kept.influences.extend(self.weights(vertex));
+            }
+            kept.ends.push(kept.influences.len());
+        }
+        kept
+    }
+
     /// Joints with their weights, ascending, each once.
     fn weights(&self, vertex: usize) -> &[(u32, f64)] {
         let first = if vertex == 0 { 0 } else { self.ends[vertex - 1] };

@@ -8,7 +8,7 @@ use super::{Session, Stage};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
-use crate::input::body::Body;
+use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::diagnostic::Diagnostic;
 use crate::input::precision::Precision;
@@ -18,6 +18,7 @@ use crate::input::weld::Weld;
 use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as Posed, Problem};
+use crate::stage::start::foreign_parts;
 
 /// A garment vertex that is held in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,8 @@ pub(super) struct Inputs {
     pub(super) garment: Option<(Arc<TriangleMesh>, Precision)>,
     source_skeleton: Option<Arc<Skeleton>>,
     pub(super) avatar: Option<Arc<TriangleMesh>>,
+    /// One for each triangle of the avatar; none where nothing is said.
+    pub(super) roles: Option<Arc<[PartRole]>>,
     pub(super) layers: Vec<Arc<TriangleMesh>>,
     target_skeleton: Option<Arc<Skeleton>>,
     source_avatar: Option<Arc<TriangleMesh>>,
@@ -93,6 +96,26 @@ impl Session {
         self.setting("the target avatar")?;
         mesh.check("target avatar")?;
         self.inputs.avatar = Some(Arc::new(mesh));
+        Ok(())
+    }
+
+    /// The role of each triangle of the avatar. Optional: [`PartRole::Auto`] for all.
+    ///
+    /// # Errors
+    /// `InvalidState`. The number is compared with that of the avatar's triangles by `prepare`.
+    pub fn set_avatar_parts(&mut self, roles: Vec<PartRole>) -> Result<()> {
+        self.setting("the avatar's parts")?;
+        self.inputs.roles = Some(roles.into());
+        Ok(())
+    }
+
+    /// Takes the roles of the avatar's triangles back.
+    ///
+    /// # Errors
+    /// `InvalidState`.
+    pub fn clear_avatar_parts(&mut self) -> Result<()> {
+        self.setting("the avatar's parts")?;
+        self.inputs.roles = None;
         Ok(())
     }
 
@@ -270,7 +293,7 @@ impl Inputs {
         cancel.check()?;
         let pins = self.welded_pins(&weld)?;
         let rigid_groups = self.welded_groups(&weld)?;
-        let body = Body::new(avatar, &self.layers)?;
+        let body = Body::with_roles(avatar, &self.layers, &self.resolve_roles(avatar, &target, diagnostics)?)?;
         let problem = Problem::new(
             &Posed {
                 garment: &mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
@@ -295,6 +318,38 @@ impl Inputs {
             diagnostics,
         )?;
         Ok((problem, body))
+    }
+}
+
+impl Inputs {
+    /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what
+    /// they are or wants it `strict`. Adds to `diagnostics`.
+    fn resolve_roles(
+        &self,
+        avatar: &TriangleMesh,
+        target: &Skeleton,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Vec<PartRole>> {
+        let count = avatar.triangles.len();
+        let mut roles = self.roles.as_ref().map_or_else(|| vec![PartRole::Auto; count], |roles| roles.to_vec());
+        if roles.len() != count {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!("avatar parts: there are {} roles, the avatar has {count} triangles", roles.len()),
+            ));
+        }
+        let own: Vec<u32> = (0..count as u32).filter(|&t| roles[t as usize] != PartRole::Ignored).collect();
+        let part = TriangleMesh {
+            positions: avatar.positions.clone(),
+            triangles: own.iter().map(|&t| avatar.triangles[t as usize]).collect(),
+        };
+        let mut found = foreign_parts::find(&part, target, |t| roles[own[t as usize] as usize] != PartRole::Auto);
+        found.iter_mut().flat_map(|part| &mut part.triangles).for_each(|t| *t = own[*t as usize]);
+        Diagnostic::list(diagnostics, &found, |part| part.diagnostic(!self.options.strict));
+        if !self.options.strict {
+            found.iter().flat_map(|part| &part.triangles).for_each(|&t| roles[t as usize] = PartRole::Ignored);
+        }
+        Ok(roles)
     }
 }
 

@@ -22,6 +22,7 @@ use glam::DVec3;
 pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
+pub use crate::input::body::PartRole;
 use crate::input::diagnostic::Diagnostic;
 pub use crate::input::precision::Precision;
 pub use crate::options::Options;

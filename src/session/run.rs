@@ -79,7 +79,7 @@ impl Run {
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
         let (problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
-        let field = FieldTask::start(problem.avatar.clone(), options.voxel_size, threads, &context);
+        let field = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
@@ -270,7 +270,7 @@ fn pose(
     left.check(&sizes.estimate())?;
     let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
     stop.check()?;
-    let field = Field::estimate(&problem.avatar, inputs.options.voxel_size)?;
+    let field = Field::estimate(&problem.fitted, inputs.options.voxel_size)?;
     let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field, ..sizes };
     left.check(&sizes.estimate())?;
     Ok((problem, body, field))

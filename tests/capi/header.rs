@@ -17,6 +17,7 @@ fn generated() -> String {
         "coordinate_system",
         "fit",
         "layers",
+        "avatar_parts",
         "options",
         "running",
         "control",

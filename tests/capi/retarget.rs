@@ -278,6 +278,22 @@ fn a_good_run_writes_all_its_files() {
     assert_eq!(folder.names(), expected);
 }
 
+/// Names of objects, groups and materials say what takes part.
+#[test]
+fn groups_of_the_avatar_have_roles() {
+    let folder = Folder::new("groups");
+    folder.accepts(&["-o", "alone.obj"]);
+    let body = folder.read("a.obj");
+    let count = numbers(&body, "v ").len();
+    let quad = |name: &str, z: f32| format!("{name}\nv -9 {z} -9\nv 9 {z} -9\nv 9 {z} 9\nv -9 {z} 9\nf -4 -3 -2 -1\n");
+    let sheets = [quad("o Floor", 0.1), quad("g some Hair", 0.2), quad("g none\nusemtl Glass", 0.3)].concat();
+    folder.write("a.obj", &format!("o Body\n{body}{sheets}"));
+    folder.accepts(&["-o", "out.obj", "--ignore-groups", "Floor,Hair,Glass", "--report", "r.json"]);
+    assert_eq!(folder.read("out.obj"), folder.read("alone.obj"));
+    let report = folder.read("r.json");
+    assert!(report.contains(&format!("\"vertices\": {}", count + 12)), "{report}");
+}
+
 #[test]
 fn the_same_input_gives_the_same_bytes() {
     let folder = Folder::new("bytes");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::body::Body;
+use bespoke::input::body::{Body, PartRole};
 use bespoke::input::diagnostic::{Element, Subject};
 use bespoke::input::diagnostic_text::avatar_triangle;
 use glam::DVec3;
@@ -47,4 +47,25 @@ fn without_layers_it_is_the_avatar_itself() {
     assert_eq!(body, Body::from(TriangleMesh::clone(&avatar)));
     assert!(body.layer_positions().is_empty());
     assert_eq!(body.triangle(1), Element::triangle(Subject::TargetAvatar, 1));
+}
+
+#[test]
+fn roles_leave_triangles_out_and_keep_the_callers_numbers() {
+    let (avatar, layers) = (strip(4, 0.0), [strip(2, 1.0)]);
+    let roles = [PartRole::Ignored, PartRole::Body, PartRole::Collision, PartRole::Auto];
+    let body = Body::with_roles(&avatar, &layers, &roles).unwrap();
+    assert_eq!((body.avatar_size(), body.avatar_positions()), ([6, 3], &avatar.positions[..]));
+    assert_eq!(body.mesh.triangles[..3], avatar.triangles[1..]);
+    let found: Vec<Element> = (0..5).map(|t| body.triangle(t)).collect();
+    let avatars = [1, 2, 3].map(|t| Element::triangle(Subject::TargetAvatar, t));
+    let layer = [0, 1].map(|t| Element::triangle(Subject::Layer(0), t));
+    assert_eq!(found, [&avatars[..], &layer[..]].concat());
+    let fitted = body.fitted().unwrap();
+    assert_eq!(fitted.triangles, [&body.mesh.triangles[..1], &body.mesh.triangles[2..]].concat());
+    // The roles stay with other positions.
+    assert_eq!(body.with_mesh(TriangleMesh::clone(&body.mesh)), body);
+    // Nothing is said: it is the avatar itself.
+    let plain =
+        Body::with_roles(&avatar, &[], &[PartRole::Auto, PartRole::Body, PartRole::Auto, PartRole::Auto]).unwrap();
+    assert!(Arc::ptr_eq(&plain.mesh, &avatar) && plain.fitted().is_none());
 }

@@ -1,6 +1,8 @@
 //! Every sort of diagnostic, with its message to the letter.
 
-use bespoke::input::diagnostic::{AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Severity, Subject};
+use bespoke::input::diagnostic::{
+    AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, Severity, Subject,
+};
 
 const BONE: Bone = Bone { index: 4, joints: [5, 7] };
 
@@ -124,6 +126,32 @@ fn every_sentence_is_made_of_its_data() {
             Diagnostic::RigidGroupBent { group: 1, vertex: 12, distance: 0.25 },
             "garment: rigid group 1 ends bent, by 2.5e-1 at vertex 12 in units in which the skeleton is 2 long, for the body or \
              another part of the garment is in its way"
+                .into(),
+        ),
+        (
+            Diagnostic::WeightsContradict {
+                count: 20,
+                weighted: 90,
+                first: vec![7, 9],
+                example: Some((0, [5, 6])),
+                mended: true,
+            },
+            "target skin weights: they contradict the positions of 20 of 90 vertices, such as vertex 7: they bind it to joint 0, \
+             and the bone between joints 5 and 6 is nearest; the nearest bone decides for these; check that the rows are in the \
+             order of the skeleton's joints, and the export of the weights"
+                .into(),
+        ),
+        (
+            Diagnostic::ForeignPart {
+                count: 2,
+                triangles: [40, 41],
+                reason: Foreignness::Ground,
+                size: 8.0,
+                left_out: true,
+            },
+            "target avatar: the piece of 2 triangles, from 40 to 41, seems to be no part of the body: it is flat, and the body \
+             stands on it (its longest side is 8.00, the skeleton's is 2); it is left out: the result may pass through it; give \
+             it a role with set_avatar_parts, or take it out of the avatar"
                 .into(),
         ),
     ];

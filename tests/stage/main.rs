@@ -3,9 +3,11 @@
 mod blockage;
 mod enclosure;
 mod fit_region;
+mod foreign_parts;
 mod layer_skin;
 mod loop_axis;
 mod normalization;
 mod pin_targets;
 mod projection;
 mod repair;
+mod weight_check;

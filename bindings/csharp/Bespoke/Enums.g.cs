@@ -227,6 +227,19 @@ namespace Bespoke
         /// overlap.
         /// </summary>
         InflationBlocked = 14,
+
+        /// <summary>
+        /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone
+        /// decides for them, unless the option strict is set. The first vertices are named.
+        /// </summary>
+        WeightsContradict = 19,
+
+        /// <summary>
+        /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out,
+        /// unless the option strict is set or <c>Session.SetAvatarParts</c> gives it a role. Its first and last
+        /// triangles are named. The distance is the longest side of its bounding box.
+        /// </summary>
+        ForeignPart = 20,
     }
 
     /// <summary>How much a diagnostic matters.</summary>
@@ -280,5 +293,28 @@ namespace Bespoke
 
         /// <summary>Bones of a skeleton.</summary>
         Bone = 3,
+    }
+
+    /// <summary>What a triangle of the avatar is to the garment.</summary>
+    public enum PartRole : uint
+    {
+        /// <summary>
+        /// Body, unless its connected piece is recognised as no part of the body, such as a floor or a dome: then it is
+        /// ignored, and a diagnostic says so. The default.
+        /// </summary>
+        Auto = 0,
+
+        /// <summary>
+        /// Body: the garment is fitted to it and does not pass through it. It is left out in no case.
+        /// </summary>
+        Body = 1,
+
+        /// <summary>
+        /// The garment does not pass through it, but is not drawn to it, such as hair that hangs over a coat.
+        /// </summary>
+        Collision = 2,
+
+        /// <summary>It takes no part: the garment may pass through it, and it is not verified.</summary>
+        Ignored = 3,
     }
 }

@@ -100,6 +100,9 @@ namespace Bespoke
         internal static extern Status bespoke_session_clear_layers(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_avatar_parts(SessionHandle session, NativeView* roles);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_options(SessionHandle session, NativeOptions* options);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]

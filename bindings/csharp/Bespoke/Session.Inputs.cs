@@ -270,6 +270,24 @@ namespace Bespoke
         }
 
         /// <summary>
+        /// Optional: what each triangle of the avatar is to the garment. Without it, or with
+        /// <see cref="PartRole.Auto"/>, pieces that are no part of the body are left out with a diagnostic, and all else
+        /// is body.
+        /// </summary>
+        /// <param name="roles">A number of <see cref="PartRole"/> for each triangle of the avatar.</param>
+        /// <exception cref="BespokeException">InvalidArgument (no role has that number; another count than the avatar's
+        /// may be found only by <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void SetAvatarParts(IndexView roles)
+        {
+            fixed (byte* r = &MemoryMarshal.GetReference(roles.Bytes))
+            {
+                NativeView numbers = roles.Pinned(r, 1, "avatar parts");
+                roles.RefuseNegative(1, Status.InvalidArgument, "avatar parts", "element");
+                Check(Native.bespoke_session_set_avatar_parts(handle, &numbers));
+            }
+        }
+
+        /// <summary>
         /// Optional: a garment that the avatar wears already, such as one that was read from another session. It joins
         /// the avatar as an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and
         /// is verified against both. Each call adds one layer; they are numbered from 0, and stay until

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::{ClosestPoint, barycentric};
-use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::skin::SkinWeights;
 
@@ -15,11 +14,7 @@ pub fn skin_with_layers<'a>(skin: &'a SkinWeights, body: &Body) -> Cow<'a, SkinW
     if body.layer_positions().is_empty() {
         return Cow::Borrowed(skin);
     }
-    let [_, triangles] = body.avatar_size();
-    let avatar = TriangleMesh {
-        positions: body.avatar_positions().to_vec(),
-        triangles: body.mesh.triangles[..triangles].to_vec(),
-    };
+    let avatar = body.avatar();
     let tree = ClosestPoint::new(&avatar);
     let beneath = |&p| {
         let closest = tree.closest(p)?;

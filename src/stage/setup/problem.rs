@@ -1,5 +1,6 @@
 //! The inputs in the normalised space, and all that is derived from them once, for inflation and fit.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -23,6 +24,7 @@ use crate::input::weld::Weld;
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::stage::start::projection::{ProjectedAvatar, project};
+use crate::stage::start::weight_check::contradictions;
 use crate::stage::start::{enclosure, repair};
 use crate::verify::intersections_with_cancel;
 
@@ -71,6 +73,8 @@ pub struct Problem {
     pub weld: Arc<Weld>,
     /// The avatar with its layers at full size, their own vertices and triangles.
     pub avatar: Arc<TriangleMesh>,
+    /// What of it the garment is fitted to.
+    pub fitted: Arc<TriangleMesh>,
     /// The avatar with its layers between skeleton and full size.
     pub projected: ProjectedAvatar,
     /// The joints at the ends of each bone.
@@ -113,7 +117,8 @@ impl Problem {
             offset,
         } = normalised;
         cancel.check()?;
-        let skin = inputs.skin.map(|skin| skin_with_layers(skin, avatar));
+        let believed = inputs.skin.map(|skin| believed_skin(skin, avatar, target, options.strict, diagnostics));
+        let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
         let mut projected = project(&avatar.mesh, target, source, skin.as_deref());
         cancel.check()?;
         let distances =
@@ -149,6 +154,13 @@ impl Problem {
             loose.hanging.iter().flat_map(|piece| &piece.vertices).for_each(|&v| fit_weights[v as usize] = 0.0);
         }
         let Normalised { garment, avatar, .. } = normalised;
+        let fitted = avatar.fitted().map_or_else(
+            || avatar.mesh.clone(),
+            |mut mesh| {
+                collapse_unused(&mut mesh);
+                mesh.into()
+            },
+        );
         Ok(Self {
             source_normalization,
             target_normalization,
@@ -156,6 +168,7 @@ impl Problem {
             triangles: garment.triangles,
             weld: inputs.weld.clone(),
             avatar: avatar.mesh,
+            fitted,
             projected,
             bones: inputs.source_skeleton.bones.clone(),
             shape: Arc::new(shape),
@@ -235,6 +248,29 @@ impl Normalised {
             offset,
         })
     }
+}
+
+/// `skin` where it can be believed: the nearest bone decides for vertices whose weights contradict their positions, unless
+/// `strict`. Adds to `diagnostics`.
+fn believed_skin<'a>(
+    skin: &'a SkinWeights,
+    avatar: &Body,
+    target: &Skeleton,
+    strict: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Cow<'a, SkinWeights> {
+    let found = contradictions(&avatar.avatar(), target, skin);
+    if found.vertices.is_empty() {
+        return Cow::Borrowed(skin);
+    }
+    diagnostics.push(Diagnostic::WeightsContradict {
+        count: found.vertices.len(),
+        weighted: found.weighted,
+        first: found.first,
+        example: found.example.map(|(joint, bone)| (joint, target.bones[bone as usize])),
+        mended: !strict,
+    });
+    if strict { Cow::Borrowed(skin) } else { Cow::Owned(skin.without(&found.vertices)) }
 }
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.

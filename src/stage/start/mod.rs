@@ -3,9 +3,11 @@
 
 pub mod bent_skeleton;
 pub mod enclosure;
+pub mod foreign_parts;
 pub mod offset_grid;
 pub mod path_search;
 pub mod projection;
 pub mod repair;
 pub mod section;
+pub mod weight_check;
 pub mod winding;

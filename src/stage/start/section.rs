@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::TriangleMesh;
 
 /// Directions around a point, one bit each.
@@ -58,6 +59,14 @@ impl Section {
     /// The two directions that span the plane.
     pub fn axes(&self) -> [DVec3; 2] {
         [self.u, self.v]
+    }
+
+    /// The distance from `p`, which lies in the plane, to the curve; infinite where there is none.
+    pub fn distance(&self, p: DVec3) -> f64 {
+        let centre = DVec2::new((p - self.origin).dot(self.u), (p - self.origin).dot(self.v)).extend(0.0);
+        let distance =
+            |&[a, b]: &[DVec2; 2]| closest_on_segment(centre, a.extend(0.0), (b - a).extend(0.0)).distance(centre);
+        self.segments.iter().map(distance).fold(f64::INFINITY, f64::min)
     }
 
     /// Whether the garment encloses `p`, which lies in the plane: a test of the angles under which its curve is seen from there.

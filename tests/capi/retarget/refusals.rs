@@ -31,6 +31,14 @@ fn wrong_command_lines_are_refused() {
 }
 
 #[test]
+fn a_group_that_the_avatars_file_has_not_is_named() {
+    let folder = Folder::new("groups");
+    for option in ["--ignore-groups", "--collision-groups", "--body-groups"] {
+        folder.refuses(&[option, "Hair"], 1, &["a.obj", "no object, group or material 'Hair'", option]);
+    }
+}
+
+#[test]
 fn files_that_cannot_be_opened_are_named() {
     let folder = Folder::new("files");
     fs::create_dir(folder.path("folder.obj")).expect("a folder");
