@@ -27,6 +27,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED] = "inflation_blocked",
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
     [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",
+    [BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED] = "settings_adjusted",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

@@ -293,6 +293,8 @@ enum BespokeDiagnosticKind
   /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
   /// The distance is the longest side of its bounding box.
   BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
+  /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
+  BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED = 26,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -137,6 +137,7 @@ enum class DiagnosticKind : std::uint32_t {
     inflation_blocked = BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED,
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
+    settings_adjusted = BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.

@@ -57,6 +57,8 @@ pub enum BespokeDiagnosticKind {
     /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
     /// The distance is the longest side of its bounding box.
     ForeignPart = 20,
+    /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
+    SettingsAdjusted = 26,
 }
 
 /// How much a diagnostic matters.
@@ -172,6 +174,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::InflationBlocked => BespokeDiagnosticKind::InflationBlocked,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
+            DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

@@ -92,6 +92,8 @@ pub enum DiagnosticKind {
     WeightsContradict,
     /// A connected piece of the avatar's mesh that is no part of the body.
     ForeignPart,
+    /// The inflation stalled with the caller's settings of the contact, and was done with others.
+    SettingsAdjusted,
 }
 
 /// How much a diagnostic matters.
@@ -334,6 +336,17 @@ pub enum Diagnostic {
         /// It is left out; else the option `strict` keeps it.
         left_out: bool,
     },
+    /// The inflation stalled with the caller's settings, and was done with others.
+    SettingsAdjusted {
+        /// How far the avatar grew in the first attempt.
+        stalled_at: f64,
+        /// Attempts in all, the last one good.
+        attempts: usize,
+        /// What `inflation_dhat` was in it.
+        inflation_dhat: f64,
+        /// What `inflation_barrier_weight` was in it.
+        inflation_barrier_weight: f64,
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -378,6 +391,7 @@ impl Diagnostic {
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
+            Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -391,7 +405,8 @@ impl Diagnostic {
             | Self::FlatTriangle { .. }
             | Self::UnusedVertex { .. }
             | Self::LoosePiece { .. }
-            | Self::NearContact { .. } => Severity::Note,
+            | Self::NearContact { .. }
+            | Self::SettingsAdjusted { .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
             | Self::SelfIntersection { strict: false, .. }
             | Self::BoneMoved { .. }
@@ -448,7 +463,7 @@ impl Diagnostic {
                 let triangles = if first == last { vec![first] } else { vec![first, last] };
                 triangles.into_iter().map(|t| Element::triangle(Subject::TargetAvatar, t)).collect()
             }
-            Self::CoarseCoordinates { .. } | Self::More { .. } => Vec::new(),
+            Self::CoarseCoordinates { .. } | Self::SettingsAdjusted { .. } | Self::More { .. } => Vec::new(),
         }
     }
 

@@ -106,9 +106,8 @@ impl Display for Diagnostic {
             Self::InflationHeld { garment, part, held, .. } => write!(
                 f,
                 "target avatar: the garment holds back the part around {}, which pushes it from one side (garment triangle \
-                 {garment}, {}; {held} garment triangles in all): it is caught on that part, or too tight or too stiff there, or \
-                 needs more iterations; lower inflation_dhat or inflation_barrier_weight, raise max_iterations, or leave that \
-                 part out of the body",
+                 {garment}, {}; {held} garment triangles in all): it is caught on that part, or too tight or too stiff there; \
+                 leave that part out of the body, or cut or widen the garment there",
                 bone_name(part.bone),
                 avatar_triangle(part.triangle),
             ),
@@ -130,9 +129,8 @@ impl Display for Diagnostic {
                         write!(
                             f,
                             "target avatar: {who} hold the garment between them (garment triangle {garment}, {a} and {b}); at \
-                             full size these are {gap:.1e} apart{narrow}, in units in which the skeleton is 2 long; lower \
-                             inflation_dhat (it is {inflation_dhat}) or inflation_barrier_weight, raise max_iterations, or move \
-                             the limbs apart"
+                             full size these are {gap:.1e} apart{narrow}, in units in which the skeleton is 2 long; move the \
+                             limbs apart, leave one part out of the body, or cut the garment between them"
                         )
                     }
                 }
@@ -172,6 +170,12 @@ impl Display for Diagnostic {
                      take it out of the avatar"
                 )
             }
+            Self::SettingsAdjusted { stalled_at, attempts, inflation_dhat, inflation_barrier_weight } => write!(
+                f,
+                "garment: with the settings given, the avatar did not grow beyond {stalled_at:.4} of its size; attempt \
+                 {attempts} succeeded, with inflation_dhat {inflation_dhat} and inflation_barrier_weight \
+                 {inflation_barrier_weight}; set these to save the time of the others"
+            ),
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }

@@ -16,10 +16,11 @@ use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
+use crate::stage::attempts::Attempts;
 use crate::stage::blockage;
 use crate::stage::finish;
 use crate::stage::fit::FitStage;
-use crate::stage::inflate::Inflation;
+use crate::stage::inflate::{Inflation, stalled_message};
 use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
 
@@ -36,6 +37,10 @@ pub(super) struct Run {
     objective: Objective,
     newton: Newton,
     step: Step,
+    /// What was tried where the inflation stalled.
+    attempts: Attempts,
+    /// Where an earlier attempt came farthest.
+    farthest: Option<Box<(Objective, State)>>,
     field: FieldTask,
     /// Pairs of garment triangles that intersected at the start.
     pub(super) initial_intersections: Arc<[[u32; 2]]>,
@@ -97,6 +102,8 @@ impl Run {
             objective,
             newton,
             step: Step::Inflate(Inflation::default()),
+            attempts: Attempts::default(),
+            farthest: None,
             field,
             held,
             expected,
@@ -133,11 +140,22 @@ impl Run {
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
             Step::Inflate(inflation) => {
-                let ended = check_limit(inflation.iterations, options, "inflation", self.state.t)
-                    .and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state));
+                let limited = check_limit(inflation.attempted(), options, self.state.t);
+                let ended = match limited {
+                    Err(error) if self.attempts.settings().is_none() => return Err(self.explained(error)),
+                    limited => {
+                        limited.and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state))
+                    }
+                };
                 match ended {
                     Ok(ended) => (Stage::Inflate, ended),
-                    Err(error) => return Err(self.explained(error)),
+                    Err(error) if error.kind == ErrorKind::InflationStalled => {
+                        if !self.try_again()? {
+                            return Err(self.explained(error));
+                        }
+                        (Stage::Inflate, false)
+                    }
+                    Err(error) => return Err(error),
                 }
             }
             Step::Fit(fit) => {
@@ -147,7 +165,8 @@ impl Run {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = finish::finish(&self.problem, &mut self.objective, &mut self.state)?;
+            self.shortfalls = self.attempts.adjustment().into_iter().collect();
+            self.shortfalls.extend(finish::finish(&self.problem, &mut self.objective, &mut self.state)?);
             self.newton.forget_values();
         }
         if self.objective.contact.update_exemptions(self.state.configuration())? {
@@ -169,9 +188,38 @@ impl Run {
         }
     }
 
+    /// Where the inflation has stalled, begins another attempt with other settings. False where all were tried.
+    fn try_again(&mut self) -> Result<bool> {
+        let (t, iterations) = (self.state.t, self.iterations());
+        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, t, iterations) else {
+            return Ok(false);
+        };
+        self.step = Step::Inflate(Inflation::another(iterations));
+        let stop = &self.context.stop;
+        let objective = self.problem.another_inflation(&settings, &self.options, stop);
+        stop.check()?;
+        let state = State { x: self.problem.rest.clone(), t: 0.0 };
+        let budget = self.remaining_budget().reserving(objective.memory());
+        self.newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
+        let stalled = (std::mem::replace(&mut self.objective, objective), std::mem::replace(&mut self.state, state));
+        // Kept to say what holds the garment; where memory is short, the last attempt has to do.
+        if self.options.memory_limit == 0 && self.farthest.as_ref().is_none_or(|farthest| farthest.1.t < t) {
+            self.farthest = Some(Box::new(stalled));
+        }
+        Ok(true)
+    }
+
     /// Where the inflation has stalled, finds what holds the garment, and points to the diagnostics in the message.
     fn explained(&mut self, mut error: Error) -> Error {
         if error.kind == ErrorKind::InflationStalled {
+            if let Some(farthest) = self.farthest.take()
+                && farthest.1.t > self.state.t
+            {
+                (self.objective, self.state) = *farthest;
+            }
+            if self.attempts.settings().is_some() {
+                error.message = stalled_message(self.state.t);
+            }
             let at = self.state.configuration();
             self.shortfalls = blockage::find(&self.problem, &self.body, &mut self.objective, at);
             if !self.shortfalls.is_empty() {
@@ -189,6 +237,9 @@ impl Run {
     }
 
     fn begin_fit(&mut self) -> Result<()> {
+        if let Some(settings) = self.attempts.settings() {
+            self.options.inflation_barrier_weight = settings.inflation_barrier_weight;
+        }
         let options = &self.options;
         let clock = Instant::now();
         let (field, seconds) = self.field.wait()?;
@@ -198,6 +249,10 @@ impl Run {
         self.distance = Some(field.clone());
         let stop = &self.context.stop;
         let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
+        if let Some(settings) = self.attempts.settings() {
+            objective.contact.set_inflation_dhat(settings.inflation_dhat);
+        }
+        self.farthest = None;
         objective.contact.inherit_state(&self.objective.contact);
         self.objective = objective;
         stop.check()?;
@@ -222,7 +277,8 @@ impl Run {
     /// Reports the memory that is held, and refuses to go on beyond the limit.
     fn check_memory(&mut self) -> Result<()> {
         let (contacts, system) = (self.objective.memory(), self.newton.memory());
-        self.report.memory = self.held + self.field_memory() + contacts + system;
+        let kept = self.farthest.as_ref().map_or(0, |farthest| farthest.0.memory());
+        self.report.memory = self.held + self.field_memory() + contacts + system + kept;
         let limit = self.remaining_budget();
         let parts = [
             Part { name: "the linear system of the garment", bytes: system },
@@ -289,13 +345,13 @@ fn initial_report(problem: &Problem, body: &Body, objective: &Objective, threads
     }
 }
 
-fn check_limit(iterations: u32, options: &Options, name: &str, t: f64) -> Result<()> {
+fn check_limit(iterations: u32, options: &Options, t: f64) -> Result<()> {
     if iterations < options.max_iterations {
         return Ok(());
     }
     Err(Error::new(
         ErrorKind::InflationStalled,
-        format!("the {name} did not end in {iterations} iterations: t is {t:.4}; raise max_iterations"),
+        format!("the inflation did not end in {iterations} iterations: t is {t:.4}; raise max_iterations"),
     ))
 }
 

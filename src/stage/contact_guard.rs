@@ -182,6 +182,12 @@ impl ContactGuard {
         self.set_min_separations([min_separation, min_separation_intersecting]);
     }
 
+    /// Sets d-hat towards the avatar while it grows. The pairs must be found again by [`Self::rebuild_candidates`].
+    pub fn set_inflation_dhat(&mut self, dhat: f64) {
+        self.distances.inflation_dhat = dhat;
+        self.set_dhat_avatar(dhat);
+    }
+
     /// Doubles the distances. The pairs must be found again by [`Self::rebuild_candidates`].
     pub fn double_distances(&mut self) {
         self.distances = self.distances.doubled();

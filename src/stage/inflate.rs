@@ -31,26 +31,46 @@ const INNER_STEPS: u32 = 12;
 const INNER_TOLERANCE: f64 = 0.01;
 /// Penalty at which the augmented Lagrangian gives up: thirty doublings.
 const MAX_PENALTY: f64 = 1e9;
+/// It gives up earlier where t creeps: where each of so many penalties in turn brings less than this fraction of what is
+/// missing. An attempt beside the first gives up sooner.
+const CREEPING: f64 = 0.01;
+const MOST_CREEPING: u32 = 6;
+const MOST_CREEPING_AGAIN: u32 = 3;
 
 /// The state of the inflation.
 pub struct Inflation {
     form: Form,
     /// Iterations so far.
     pub iterations: u32,
+    /// Iterations of earlier attempts that are among them.
+    before: u32,
+    /// Penalties at which t may creep before the augmented Lagrangian gives up.
+    most_creeping: u32,
 }
 
 enum Form {
     Path { advance: f64, corrections: u32, short_advances: u32 },
-    Lagrangian { inner: u32 },
+    Lagrangian { inner: u32, last_t: f64, creeping: u32 },
 }
 
 impl Default for Inflation {
     fn default() -> Self {
-        Self { form: Form::Path { advance: FIRST_ADVANCE, corrections: 0, short_advances: 0 }, iterations: 0 }
+        let form = Form::Path { advance: FIRST_ADVANCE, corrections: 0, short_advances: 0 };
+        Self { form, iterations: 0, before: 0, most_creeping: MOST_CREEPING }
     }
 }
 
 impl Inflation {
+    /// Another attempt after so many iterations.
+    pub fn another(iterations: u32) -> Self {
+        Self { iterations, before: iterations, most_creeping: MOST_CREEPING_AGAIN, ..Self::default() }
+    }
+
+    /// Iterations of this attempt.
+    pub fn attempted(&self) -> u32 {
+        self.iterations - self.before
+    }
+
     /// One iteration. True where t is 1.
     ///
     /// # Errors
@@ -93,7 +113,7 @@ impl Inflation {
             let multiplier = newton.t_gradient().max(0.0);
             objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));
             newton.forget_values();
-            self.form = Form::Lagrangian { inner: 0 };
+            self.form = Form::Lagrangian { inner: 0, last_t: state.t, creeping: 0 };
         }
         Ok(())
     }
@@ -105,7 +125,7 @@ impl Inflation {
         newton: &mut Newton,
         state: &mut State,
     ) -> Result<()> {
-        let Form::Lagrangian { inner } = &mut self.form else { return Ok(()) };
+        let Form::Lagrangian { inner, last_t, creeping } = &mut self.form else { return Ok(()) };
         *inner += 1;
         let step = newton.newton_step(objective, state, true)?;
         let solved = step.is_none_or(|s| s.decrement <= INNER_TOLERANCE * s.after.abs());
@@ -114,15 +134,11 @@ impl Inflation {
         }
         *inner = 0;
         let Some(mut lagrangian) = objective.inflation().copied() else { return Ok(()) };
-        if lagrangian.penalty() > MAX_PENALTY {
-            return Err(Error::new(
-                ErrorKind::InflationStalled,
-                format!(
-                    "the avatar cannot grow beyond {:.4} of its size inside the garment: the garment cannot give way. Try \
-                     a lower inflation_dhat or inflation_barrier_weight, or change avatar or garment there",
-                    state.t
-                ),
-            ));
+        let creeps = state.t - *last_t < CREEPING * (1.0 - state.t);
+        *creeping = if creeps { *creeping + 1 } else { 0 };
+        *last_t = state.t;
+        if lagrangian.penalty() > MAX_PENALTY || *creeping >= self.most_creeping {
+            return Err(Error::new(ErrorKind::InflationStalled, stalled_message(state.t)));
         }
         lagrangian.set_multiplier(lagrangian.multiplier() + lagrangian.penalty() * (1.0 - state.t));
         lagrangian.set_penalty(2.0 * lagrangian.penalty());
@@ -146,4 +162,12 @@ fn try_full_inflation(objective: &mut Objective, state: &mut State) -> Result<bo
         objective.contact.rebuild_candidates(state.configuration());
     }
     Ok(free)
+}
+
+/// Why there is no result, where t ends.
+pub fn stalled_message(t: f64) -> String {
+    format!(
+        "the avatar cannot grow beyond {t:.4} of its size inside the garment: the garment cannot give way, neither with the \
+         settings given nor with others that were tried; change avatar or garment where it is held"
+    )
 }

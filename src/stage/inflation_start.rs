@@ -1,5 +1,6 @@
 //! The objective with which the inflation begins, and diagnostics of a garment that touches itself or the shrunk avatar.
 
+use super::attempts::Settings;
 use super::objective::Objective;
 use super::setup::contact_distances::TOUCHING;
 use super::setup::problem::Problem;
@@ -24,14 +25,7 @@ impl Problem {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Objective> {
         let at = Configuration { x: &self.rest, t: 0.0 };
-        let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
-        let avatar = Avatar {
-            surface: Surface::new(self.projected.start.len(), self.projected.triangles.clone()),
-            start: self.projected.start.clone(),
-            motion,
-        };
-        let bodies = self.bodies(avatar);
-        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
+        let mut objective = self.growing(options, cancel);
         objective.contact.initialise(at, &self.initial_intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
         report_initial_intersections(self, initial_intersections, options.strict, diagnostics);
@@ -65,6 +59,28 @@ impl Problem {
             });
         }
         Ok(objective)
+    }
+
+    /// The objective with the avatar moving with t, whose contacts are still to be found.
+    fn growing(&self, options: &Options, cancel: &Cancel) -> Objective {
+        let motion = self.projected.start.iter().zip(&self.projected.end).map(|(&a, &b)| b - a).collect();
+        let avatar = Avatar {
+            surface: Surface::new(self.projected.start.len(), self.projected.triangles.clone()),
+            start: self.projected.start.clone(),
+            motion,
+        };
+        let bodies = self.bodies(avatar);
+        Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone())
+    }
+
+    /// The objective of another attempt, with other settings of the contact.
+    pub fn another_inflation(&self, settings: &Settings, options: &Options, cancel: &Cancel) -> Objective {
+        let mut objective = self.growing(options, cancel);
+        objective.contact.set_inflation_dhat(settings.inflation_dhat);
+        objective.set_contact(settings.inflation_dhat, settings.inflation_barrier_weight);
+        let at = Configuration { x: &self.rest, t: 0.0 };
+        objective.contact.initialise(at, &self.initial_intersections);
+        objective
     }
 }
 

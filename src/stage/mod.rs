@@ -1,5 +1,6 @@
 //! The stages PREPARE, INFLATE and FIT, the three steps of the paper: which energies, which weights, when each is done.
 
+pub mod attempts;
 pub mod blockage;
 pub mod contact_guard;
 pub mod finish;

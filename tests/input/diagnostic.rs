@@ -198,6 +198,20 @@ fn a_blockage_names_bones_and_triangles_and_what_helps() {
         squeezed(Some(BONE), true, None).to_string().contains("two sides of the part around bone 4 (joints 5-7) touch")
     );
 
+    let adjusted = Diagnostic::SettingsAdjusted {
+        stalled_at: 0.73125,
+        attempts: 3,
+        inflation_dhat: 0.01,
+        inflation_barrier_weight: 1000.0,
+    };
+    assert_eq!(
+        adjusted.to_string(),
+        "garment: with the settings given, the avatar did not grow beyond 0.7312 of its size; attempt 3 succeeded, with \
+         inflation_dhat 0.01 and inflation_barrier_weight 1000; set these to save the time of the others"
+    );
+    assert_eq!((adjusted.kind(), adjusted.severity()), (DiagnosticKind::SettingsAdjusted, Severity::Note));
+    assert!(adjusted.elements().is_empty() && adjusted.distance().is_nan());
+
     let held = Diagnostic::InflationHeld { garment: 55, part: part(avatar(120), Some(BONE)), held: 3, distance: 0.002 };
     let elements = [Element::triangle(Subject::Garment, 55), avatar(120), Element::bone(Subject::SourceSkeleton, 4)];
     assert_eq!((held.elements(), held.distance()), (elements.into(), 0.002));

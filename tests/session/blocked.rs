@@ -102,7 +102,7 @@ fn squeezed(diagnostic: &Diagnostic) -> (u32, [AvatarPart; 2], Option<f64>) {
 fn a_garment_between_parts_that_overlap_is_reported_so() {
     let mut session = two_boxes(-0.1, Options::default());
     let (found, message) = stalled(&mut session);
-    assert!(message.contains("inflation_dhat") || message.contains("max_iterations"), "{message}");
+    assert!(message.contains("others that were tried") || message.contains("max_iterations"), "{message}");
     let (garment, parts, gap) = squeezed(&found[0]);
     assert_eq!((gap, found[0].distance()), (None, 0.0));
     let sentence = found[0].to_string();
@@ -147,17 +147,17 @@ fn a_garment_between_parts_that_are_apart_is_reported_with_the_gap() {
     let gap = gap.expect("they do not touch");
     assert!((0.012 - 1e-9..0.2).contains(&gap), "{gap}");
     let sentence = found[0].to_string();
-    assert!(!sentence.contains("touch") && sentence.contains("max_iterations"), "{sentence}");
-    assert!(sentence.contains("inflation_dhat") && sentence.contains("inflation_barrier_weight"), "{sentence}");
+    assert!(!sentence.contains("touch") && sentence.contains("less than two inflation_dhat"), "{sentence}");
 }
 
-/// A rigid ring around an arm that outgrows it: one part holds it, from inside.
+/// A rigid ring around an arm that outgrows it, and too few iterations: one part holds it, from inside.
 #[test]
 fn a_garment_that_one_part_holds_is_not_between_parts() {
     let mut session = session(1.0, DVec3::ZERO);
     session.add_rigid_group((100..120).collect()).unwrap();
+    session.set_options(Options { max_iterations: 40, ..Options::default() }).unwrap();
     let (found, message) = stalled(&mut session);
-    assert!(message.contains("cannot grow beyond"), "{message}");
+    assert!(message.contains("raise max_iterations"), "{message}");
     for diagnostic in &found {
         let Diagnostic::InflationHeld { part, .. } = diagnostic else { panic!("{diagnostic:?}") };
         assert!((part.bone.unwrap().index as usize) < arm(1.0, DVec3::ZERO).bones.len());

@@ -1,6 +1,7 @@
 //! A session from inputs to a verified result.
 
 mod assets;
+mod attempts;
 mod avatar_parts;
 mod blocked;
 mod cancel;

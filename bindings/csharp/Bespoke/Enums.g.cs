@@ -240,6 +240,11 @@ namespace Bespoke
         /// triangles are named. The distance is the longest side of its bounding box.
         /// </summary>
         ForeignPart = 20,
+
+        /// <summary>
+        /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
+        /// </summary>
+        SettingsAdjusted = 26,
     }
 
     /// <summary>How much a diagnostic matters.</summary>
