@@ -71,6 +71,8 @@ static const Entry entries[] = {
     {"--fit-distance", "D", WEIGHT, FIELD(library.fit_distance), 0,
      "with --source-avatar, without --no-fit: what was designed up to D away from it fits, what\n"
      "was twice as far hangs (0.1; the skeleton is 2 long); 0: the whole garment fits"},
+    {"--weld-distance", "X", WEIGHT, FIELD(library.weld_distance), 0,
+     "close seams whose sides are nearer than this share of the mean edge (0.01); 0: none"},
     {"--pin-weight", "W", POSITIVE, FIELD(library.pin_weight), 0, "stiffness of the pins (1000)"},
     {"--threads", "N", COUNT, FIELD(library.threads), 1024, "0: all cores, and never more than these (0)"},
     {"--memory-limit", "MB", MEGABYTES, FIELD(library.memory_limit), 0,

@@ -295,6 +295,9 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
   /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
   BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED = 26,
+  /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
+  /// vertices are named.
+  BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR = 29,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -463,6 +466,9 @@ typedef struct BespokeOptions {
   double fit_distance;
   /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
   double pin_weight;
+  /// Weld distance: open seams of the garment whose sides are nearer than this share of its mean edge are closed [up to
+  /// 0.25]. Default 0.01. BESPOKE_WEIGHT_OFF: only vertices at equal positions are welded.
+  double weld_distance;
   /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
   /// its meshes before it begins, and checked again during the run.
   uint64_t memory_limit;

@@ -138,6 +138,7 @@ enum class DiagnosticKind : std::uint32_t {
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
     settings_adjusted = BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED,
+    welded_near = BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.
@@ -722,6 +723,9 @@ struct Options {
     double fit_distance = 0.0;
     /// Weight of pins (Session::set_pinned_vertices), which are springs. Default 1000.
     double pin_weight = 0.0;
+    /// Weld distance: open seams of the garment whose sides are nearer than this share of its mean edge are closed [up
+    /// to 0.25]. Default 0.01. weight_off: only vertices at equal positions are welded.
+    double weld_distance = 0.0;
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
     /// its meshes before it begins, and checked again during the run.
     std::uint64_t memory_limit = 0;
@@ -766,6 +770,7 @@ struct Options {
         options.offset = offset;
         options.fit_distance = fit_distance;
         options.pin_weight = pin_weight;
+        options.weld_distance = weld_distance;
         options.memory_limit = memory_limit;
         options.strict = strict ? 1 : 0;
         options.surface_weight = surface_weight;
@@ -800,6 +805,7 @@ struct Options {
         options.offset = read.offset;
         options.fit_distance = read.fit_distance;
         options.pin_weight = read.pin_weight;
+        options.weld_distance = read.weld_distance;
         options.memory_limit = read.memory_limit;
         options.strict = read.strict != 0;
         options.surface_weight = read.surface_weight;

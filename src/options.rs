@@ -23,6 +23,9 @@ macro_rules! option_table {
             fit_distance: f64 = 0.1, in Positive, off = f64::INFINITY;
             /// Weight of the pins that hold vertices at their targets.
             pin_weight: f64 = 1000.0, in NotNegative;
+            /// Open seams whose sides are nearer than this share of the garment's mean edge are closed; 0 welds vertices at
+            /// equal positions only.
+            weld_distance: f64 = 0.01, in Between(0.0, 0.25), off = 0.0;
             /// Bytes that the session may take at most; 0 is no limit.
             memory_limit: u64 = 0;
             /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact; and

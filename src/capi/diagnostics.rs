@@ -59,6 +59,9 @@ pub enum BespokeDiagnosticKind {
     ForeignPart = 20,
     /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
     SettingsAdjusted = 26,
+    /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
+    /// vertices are named.
+    WeldedNear = 29,
 }
 
 /// How much a diagnostic matters.
@@ -175,6 +178,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,
+            DiagnosticKind::WeldedNear => BespokeDiagnosticKind::WeldedNear,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

@@ -46,6 +46,9 @@ pub struct BespokeOptions {
     pub fit_distance: f64,
     /// Weight of pins (bespoke_session_set_pinned_vertices), which are springs. Default 1000.
     pub pin_weight: f64,
+    /// Weld distance: open seams of the garment whose sides are nearer than this share of its mean edge are closed [up to
+    /// 0.25]. Default 0.01. BESPOKE_WEIGHT_OFF: only vertices at equal positions are welded.
+    pub weld_distance: f64,
     /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes of
     /// its meshes before it begins, and checked again during the run.
     pub memory_limit: u64,

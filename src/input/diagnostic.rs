@@ -94,6 +94,8 @@ pub enum DiagnosticKind {
     ForeignPart,
     /// The inflation stalled with the caller's settings of the contact, and was done with others.
     SettingsAdjusted,
+    /// Open seams whose sides are a hair apart, which are closed.
+    WeldedNear,
 }
 
 /// How much a diagnostic matters.
@@ -205,6 +207,15 @@ pub enum Diagnostic {
         host: u32,
         /// The distance between the two.
         distance: f64,
+    },
+    /// Open seams of the garment whose sides are a hair apart are closed.
+    WeldedNear {
+        /// How many places they have in common, each of two vertices or more.
+        places: usize,
+        /// Vertices of the first of them, at most four.
+        first: Vec<u32>,
+        /// The widest gap, in the garment's unit.
+        gap: f64,
     },
     /// Two garment triangles intersect before anything has moved.
     SelfIntersection {
@@ -379,6 +390,7 @@ impl Diagnostic {
             Self::NonManifoldEdge { .. } => DiagnosticKind::NonManifoldEdge,
             Self::UnusedVertex { .. } => DiagnosticKind::UnusedVertex,
             Self::LoosePiece { .. } => DiagnosticKind::LoosePiece,
+            Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
             Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
             Self::NearContact { .. } => DiagnosticKind::NearContact,
             Self::BoneMoved { .. } | Self::CycleCut { .. } | Self::AvatarPenetrates { .. } => {
@@ -405,6 +417,7 @@ impl Diagnostic {
             | Self::FlatTriangle { .. }
             | Self::UnusedVertex { .. }
             | Self::LoosePiece { .. }
+            | Self::WeldedNear { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
@@ -431,9 +444,9 @@ impl Diagnostic {
         let triangle = |t: u32| Element::triangle(Subject::Garment, t);
         let vertex = |v: u32| Element::vertex(Subject::Garment, v);
         match *self {
-            Self::SplitVertices { first: ref vertices, .. } | Self::NearContact { ref vertices, .. } => {
-                vertices.iter().map(|&v| vertex(v)).collect()
-            }
+            Self::SplitVertices { first: ref vertices, .. }
+            | Self::WeldedNear { first: ref vertices, .. }
+            | Self::NearContact { ref vertices, .. } => vertices.iter().map(|&v| vertex(v)).collect(),
             Self::DuplicateTriangle { triangle: t, of } => [t, of].map(triangle).into(),
             Self::CollapsedTriangle { triangle: t, .. } | Self::FlatTriangle { triangle: t, .. } => vec![triangle(t)],
             Self::NonManifoldEdge { vertices, .. } => vertices.map(vertex).into(),

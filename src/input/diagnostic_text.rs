@@ -42,6 +42,15 @@ impl Display for Diagnostic {
                 "garment: the loose piece of {vertices} vertices with triangle {triangle} is held to the piece beside it, near \
                  triangle {host}"
             ),
+            Self::WeldedNear { places, first, gap } => {
+                let first: Vec<String> = first.iter().map(u32::to_string).collect();
+                write!(
+                    f,
+                    "garment: open seams with gaps of up to {gap:.1e} are closed in {places} places (the first: vertices {}); \
+                     weld_distance says how near is one place",
+                    first.join(", ")
+                )
+            }
             Self::SelfIntersection { triangles: [s, t], touches, strict } => {
                 let how = if *touches { "touch within rounding" } else { "intersect" };
                 let fate = match strict {

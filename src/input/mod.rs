@@ -6,6 +6,7 @@ pub mod coordinate_system;
 pub mod diagnostic;
 pub mod diagnostic_text;
 mod mesh;
+pub mod near_seams;
 pub mod precision;
 pub mod skeleton;
 pub mod skin;

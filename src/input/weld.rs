@@ -1,6 +1,7 @@
 //! Vertex welding: from a garment as modelling tools store it, with split vertices, to one surface, and back.
 
 use super::diagnostic::Diagnostic;
+use super::near_seams::{close_seams, mean_edge};
 use crate::geometry::mesh::{TriangleMesh, has_area};
 
 /// A garment whose vertices at equal positions are one vertex, and the maps back to the caller's indices.
@@ -34,7 +35,17 @@ impl Weld {
     /// corners in any order, such as two sides modelled at the same positions, the first is kept. A triangle that
     /// repeats a corner is kept only where it is the first to hold an edge, as an edge for contact; no energy uses it.
     pub fn new(garment: &TriangleMesh) -> (Self, Vec<Diagnostic>) {
-        let (to_welded, vertex_of) = weld_vertices(garment);
+        Self::closing_seams(garment, 0.0)
+    }
+
+    /// The same, and open seams whose sides are nearer than `share` of the mean edge are closed (see
+    /// [`super::near_seams`]): of the vertices there the lowest gives the position.
+    pub fn closing_seams(garment: &TriangleMesh, share: f64) -> (Self, Vec<Diagnostic>) {
+        let (mut to_welded, mut vertex_of) = weld_vertices(garment);
+        let mut diagnostics = split_vertices(&to_welded, vertex_of.len());
+        if share > 0.0 {
+            diagnostics.extend(close_near_seams(garment, share, &mut to_welded, &mut vertex_of));
+        }
         let corners: Vec<[u32; 3]> = garment.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
         let duplicates = duplicates(&corners);
         let mut keep: Vec<bool> = corners.iter().map(is_face).collect();
@@ -50,7 +61,6 @@ impl Weld {
         (0u32..).zip(&triangle_of).for_each(|(k, &t)| to_kept[t as usize] = Some(k));
         duplicates.iter().for_each(|&[copy, first]| to_kept[copy as usize] = to_kept[first as usize]);
         let weld = Self { mesh, to_welded, vertex_of, triangle_of, to_kept };
-        let mut diagnostics = weld.split_vertices();
         Diagnostic::list(&mut diagnostics, &duplicates, |&[triangle, of]| Diagnostic::DuplicateTriangle {
             triangle,
             of,
@@ -84,19 +94,6 @@ impl Weld {
             *mean += (value - *mean) / *count;
         }
         means
-    }
-
-    fn split_vertices(&self) -> Vec<Diagnostic> {
-        let (vertices, places) = (self.to_welded.len(), self.vertex_of.len());
-        if vertices == places {
-            return Vec::new();
-        }
-        let mut copies = vec![0u32; places];
-        self.to_welded.iter().for_each(|&w| copies[w as usize] += 1);
-        let shared_places = copies.iter().filter(|&&n| n > 1).count();
-        let split = (0..vertices as u32).filter(|&v| copies[self.to_welded[v as usize] as usize] > 1);
-        let (sharing, first) = (vertices - places + shared_places, split.take(4).collect());
-        vec![Diagnostic::SplitVertices { sharing, vertices, shared_places, places, first }]
     }
 
     fn report_degenerate(&self, diagnostics: &mut Vec<Diagnostic>, garment: &TriangleMesh, collapsed: &[Collapsed]) {
@@ -155,6 +152,58 @@ pub fn weld_vertices(garment: &TriangleMesh) -> (Vec<u32>, Vec<u32>) {
         }
     }
     (to_welded, vertex_of)
+}
+
+/// Vertices that share their place with another; `to_welded` leads to one of `places` places.
+fn split_vertices(to_welded: &[u32], places: usize) -> Vec<Diagnostic> {
+    let vertices = to_welded.len();
+    if vertices == places {
+        return Vec::new();
+    }
+    let mut copies = vec![0u32; places];
+    to_welded.iter().for_each(|&w| copies[w as usize] += 1);
+    let shared_places = copies.iter().filter(|&&n| n > 1).count();
+    let split = (0..vertices as u32).filter(|&v| copies[to_welded[v as usize] as usize] > 1);
+    let (sharing, first) = (vertices - places + shared_places, split.take(4).collect());
+    vec![Diagnostic::SplitVertices { sharing, vertices, shared_places, places, first }]
+}
+
+/// Closes the seams of `garment`, welded as in the two maps, whose sides are nearer than `share` of the mean edge: changes
+/// the maps.
+fn close_near_seams(
+    garment: &TriangleMesh,
+    share: f64,
+    to_welded: &mut [u32],
+    vertex_of: &mut Vec<u32>,
+) -> Option<Diagnostic> {
+    let corners: Vec<[u32; 3]> = garment.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
+    // A copy of a triangle is no other side of its edges.
+    let mut copies = duplicates(&corners).into_iter().map(|[copy, _]| copy).peekable();
+    let triangles = (0u32..).zip(corners).filter(|&(t, _)| copies.next_if_eq(&t).is_none()).map(|(_, t)| t).collect();
+    let exact =
+        TriangleMesh { positions: vertex_of.iter().map(|&v| garment.positions[v as usize]).collect(), triangles };
+    let lowest = close_seams(&exact, share * mean_edge(&exact));
+    let welded: Vec<u32> = (0u32..).zip(&lowest).filter(|&(v, &low)| v != low).map(|(v, _)| v).collect();
+    let &first = welded.first()?;
+    let at = |v: u32| exact.positions[v as usize];
+    let gap = welded.iter().map(|&v| at(v).distance(at(lowest[v as usize]))).fold(0.0, f64::max);
+    let mut places: Vec<u32> = welded.iter().map(|&v| lowest[v as usize]).collect();
+    places.sort_unstable();
+    places.dedup();
+    let named = |v: &u32| lowest[*v as usize] == lowest[first as usize];
+    let named = (0..exact.positions.len() as u32).filter(named).map(|v| vertex_of[v as usize]).take(4).collect();
+    // The lowest keep their order.
+    let mut number = vec![0; lowest.len()];
+    let mut kept = Vec::new();
+    for (v, &low) in lowest.iter().enumerate() {
+        number[v] = if low as usize == v { kept.len() as u32 } else { number[low as usize] };
+        if low as usize == v {
+            kept.push(vertex_of[v]);
+        }
+    }
+    to_welded.iter_mut().for_each(|w| *w = number[*w as usize]);
+    *vertex_of = kept;
+    Some(Diagnostic::WeldedNear { places: places.len(), first: named, gap })
 }
 
 fn is_face(&[a, b, c]: &[u32; 3]) -> bool {

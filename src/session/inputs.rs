@@ -288,7 +288,7 @@ impl Inputs {
             ));
         }
         self.check_controls(garment.positions.len())?;
-        let (weld, found) = Weld::new(garment);
+        let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);
         diagnostics.extend(found);
         cancel.check()?;
         let pins = self.welded_pins(&weld)?;

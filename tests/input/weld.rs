@@ -218,3 +218,89 @@ fn real_garments_come_together_again() {
         assert_eq!(weld.scatter(&weld.mesh.positions), split.positions);
     }
 }
+
+/// A sheet of unit cells, 6 by 4, cut along x = 3; the right half is `apart` from the left one, a little differently at
+/// every vertex.
+fn cut_sheet(apart: f64) -> TriangleMesh {
+    let mut random = Random::new(8);
+    let mut sheet = TriangleMesh::default();
+    for half in 0..2 {
+        let first = sheet.positions.len() as u32;
+        for (j, i) in (0..5).flat_map(|j| (0..4).map(move |i| (j, i))) {
+            let shift = if half == 1 && i == 0 { apart * (DVec3::X + 0.3 * random.vector()) } else { DVec3::ZERO };
+            sheet.positions.push(DVec3::new(f64::from(3 * half + i), f64::from(j), 0.0) + shift);
+        }
+        for (j, i) in (0..4).flat_map(|j| (0..3).map(move |i| (j, i))) {
+            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| first + 4 * j + i);
+            sheet.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    sheet
+}
+
+#[test]
+fn a_seam_apart_by_a_hair_is_closed() {
+    let garment = cut_sheet(1e-3);
+    let (weld, diagnostics) = Weld::closing_seams(&garment, 0.01);
+    assert_eq!((weld.mesh.positions.len(), weld.mesh.triangles.len()), (35, 48));
+    assert_eq!(Topology::new(35, &weld.mesh.triangles).loops.len(), 1);
+    let found = of(&diagnostics, DiagnosticKind::WeldedNear);
+    assert_eq!((diagnostics.len(), found.len(), found[0].severity()), (1, 1, Severity::Note));
+    assert_eq!(found[0].elements(), vertices(&[3, 20]));
+    assert!(found[0].to_string().contains("closed in 5 places"), "{}", found[0].to_string());
+    // The lowest gives the position, the others keep theirs, and both sides get the same bits.
+    for (v, p) in garment.positions.iter().enumerate() {
+        let seam = v >= 20 && v % 4 == 0;
+        let wanted = if seam { garment.positions[v - 17] } else { *p };
+        assert_eq!(weld.scatter(&weld.mesh.positions)[v], wanted);
+    }
+    assert!(weld.vertex_of.is_sorted());
+    // A wider gap stays open, as does every gap without the option.
+    assert_eq!(Weld::closing_seams(&cut_sheet(0.02), 0.01).0, Weld::new(&cut_sheet(0.02)).0);
+    assert_eq!(Weld::closing_seams(&garment, 0.0), Weld::new(&garment));
+    assert_eq!(Weld::new(&garment).0.mesh.positions.len(), 40);
+}
+
+#[test]
+fn two_sides_of_a_thin_sheet_stay_two() {
+    let mut garment = mesh(&SQUARE, &[[0, 1, 2], [0, 2, 3]]);
+    garment.positions.extend(SQUARE.map(|p| DVec3::from_array(p) + 1e-4 * DVec3::Z));
+    garment.triangles.extend([[6, 5, 4], [7, 6, 4]]);
+    assert_eq!(Weld::closing_seams(&garment, 0.25).0, Weld::new(&garment).0);
+    // Nor do vertices that meet at a point become one: a bow tie closes no seam.
+    let tie = mesh(
+        &[SQUARE[0], SQUARE[1], SQUARE[2], [-1e-4, 0.0, 0.0], [-1.0, 0.0, 0.0], [-1.0, -1.0, 0.0]],
+        &[[0, 1, 2], [3, 4, 5]],
+    );
+    assert_eq!(Weld::closing_seams(&tie, 0.25).0, Weld::new(&tie).0);
+}
+
+/// Sheets of triangles without common vertices, all a hair apart, come together as they were; triangles of any size keep their
+/// corners.
+#[test]
+fn what_came_apart_comes_together_and_no_triangle_is_lost() {
+    let mut random = Random::new(21);
+    for round in 0..20 {
+        let sheet = Weld::closing_seams(&cut_sheet(1e-3), 0.01).0.mesh;
+        let mut split = exploded(&sheet, &mut random);
+        split.positions.iter_mut().for_each(|p| *p += 2e-3 * random.vector());
+        let (weld, _) = Weld::closing_seams(&split, 0.02);
+        let topology = Topology::new(weld.mesh.positions.len(), &weld.mesh.triangles);
+        assert_eq!((weld.mesh.positions.len(), topology.loops.len(), topology.components), (35, 1, 1), "{round}");
+
+        // Stretched, so that edges are of all lengths and many are shorter than the distance.
+        split.positions.iter_mut().for_each(|p| *p = DVec3::new(p.x.powi(5) * 1e-3, p.y.powi(4) * 1e-2, p.z));
+        let (weld, _) = Weld::closing_seams(&split, 0.25);
+        let exact = Weld::new(&split).0;
+        assert_eq!(weld.triangle_of, exact.triangle_of);
+        for t in &split.triangles {
+            assert_eq!(BTreeSet::from(t.map(|v| weld.to_welded[v as usize])).len(), 3);
+        }
+        let sides = split.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+        let length = |[v, w]: [u32; 2]| split.positions[v as usize].distance(split.positions[w as usize]);
+        let limit = 0.25 * sides.clone().map(length).sum::<f64>() / sides.count() as f64;
+        for (v, &w) in weld.to_welded.iter().enumerate() {
+            assert!(weld.mesh.positions[w as usize].distance(split.positions[v]) <= limit);
+        }
+    }
+}

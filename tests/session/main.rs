@@ -16,3 +16,4 @@ mod profile;
 mod shifted;
 mod small;
 mod threads;
+mod together;

@@ -245,6 +245,12 @@ namespace Bespoke
         /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
         /// </summary>
         SettingsAdjusted = 26,
+
+        /// <summary>
+        /// Open seams of the garment whose sides are within <c>Options</c>.weld_distance, which are closed. The first
+        /// vertices are named.
+        /// </summary>
+        WeldedNear = 29,
     }
 
     /// <summary>How much a diagnostic matters.</summary>

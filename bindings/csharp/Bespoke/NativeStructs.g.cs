@@ -49,6 +49,7 @@ namespace Bespoke
         internal double offset;
         internal double fit_distance;
         internal double pin_weight;
+        internal double weld_distance;
         internal ulong memory_limit;
         internal uint strict;
         internal uint reserved;

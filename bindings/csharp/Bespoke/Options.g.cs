@@ -41,6 +41,12 @@ namespace Bespoke
         public double PinWeight { get; set; }
 
         /// <summary>
+        /// Weld distance: open seams of the garment whose sides are nearer than this share of its mean edge are closed
+        /// [up to 0.25]. Default 0.01. <see cref="Options.WeightOff"/>: only vertices at equal positions are welded.
+        /// </summary>
+        public double WeldDistance { get; set; }
+
+        /// <summary>
         /// Bytes that the session may take at most. Default: no limit. What a session needs is estimated from the sizes
         /// of its meshes before it begins, and checked again during the run.
         /// </summary>
@@ -117,6 +123,7 @@ namespace Bespoke
                 Offset = native.offset,
                 FitDistance = native.fit_distance,
                 PinWeight = native.pin_weight,
+                WeldDistance = native.weld_distance,
                 MemoryLimit = native.memory_limit,
                 Strict = native.strict != 0,
                 SurfaceWeight = native.surface_weight,
@@ -146,6 +153,7 @@ namespace Bespoke
                 offset = Offset,
                 fit_distance = FitDistance,
                 pin_weight = PinWeight,
+                weld_distance = WeldDistance,
                 memory_limit = MemoryLimit,
                 strict = Strict ? 1u : 0u,
                 surface_weight = SurfaceWeight,

@@ -1,0 +1,64 @@
+//! What belongs together stays together: seams that are open by a hair.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use bespoke::control::Stage;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::DiagnosticKind;
+use bespoke::options::Options;
+use bespoke::session::{Precision, Session};
+use glam::DVec3;
+
+use crate::small::session;
+
+const ROWS: u32 = 16;
+const COLUMNS: u32 = 20;
+
+/// A sheet around the arm with its two borders along it, from one angle to another: `radius` of a share of the way around.
+fn wrapped(low: f64, high: f64, angles: Range<f64>, radius: impl Fn(f64) -> f64) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for (r, c) in (0..=ROWS).flat_map(|r| (0..=COLUMNS).map(move |c| (r, c))) {
+        let z = low + (high - low) * f64::from(r) / f64::from(ROWS);
+        let share = f64::from(c) / f64::from(COLUMNS);
+        let angle = angles.start + (angles.end - angles.start) * share;
+        let centre = DVec3::new(0.2 * z.max(0.0), 0.0, z);
+        mesh.positions.push(centre + radius(share) * DVec3::new(angle.cos(), angle.sin(), 0.0));
+    }
+    for (r, c) in (0..ROWS).flat_map(|r| (0..COLUMNS).map(move |c| (r, c))) {
+        let [a, b, c, d] = [(r, c), (r, c + 1), (r + 1, c + 1), (r + 1, c)].map(|(r, c)| r * (COLUMNS + 1) + c);
+        mesh.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+fn dressed(session: &mut Session, garment: &TriangleMesh) -> Vec<DVec3> {
+    session.set_garment(garment.clone(), Precision::F64).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    assert!(session.verify(Precision::F64).unwrap().is_clean());
+    session.garment_positions().unwrap()
+}
+
+fn has(session: &Session, kind: DiagnosticKind) -> bool {
+    session.diagnostics().iter().any(|diagnostic| diagnostic.kind() == kind)
+}
+
+/// For each row the first and the last column.
+fn borders(x: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> {
+    x.chunks(COLUMNS as usize + 1).map(|row| [row[0], row[COLUMNS as usize]])
+}
+
+#[test]
+fn a_seam_that_is_open_by_a_hair_comes_out_closed() {
+    let garment = wrapped(-0.6, 0.7, 0.0..TAU - 6e-5, |_| 0.3);
+    let widest = |x: &[DVec3]| borders(x).map(|[a, b]| a.distance(b)).fold(0.0, f64::max);
+    assert!((1e-5..2e-5).contains(&widest(&garment.positions)));
+    let mut closed = session(1.0, DVec3::ZERO);
+    assert_eq!(widest(&dressed(&mut closed, &garment)), 0.0);
+    assert!(has(&closed, DiagnosticKind::WeldedNear));
+    // As modelled, only what is in one place is one.
+    let mut open = session(1.0, DVec3::ZERO);
+    open.set_options(Options { weld_distance: 0.0, ..Options::default() }).unwrap();
+    assert!(widest(&dressed(&mut open, &garment)) > 0.0);
+    assert!(!has(&open, DiagnosticKind::WeldedNear));
+}
