@@ -4,6 +4,7 @@
 mod faults;
 mod files;
 mod foreign;
+mod library;
 mod prefix;
 mod uninstall;
 mod versions;
