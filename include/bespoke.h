@@ -286,6 +286,10 @@ enum BespokeDiagnosticKind
   /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
   /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
   BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED = 14,
+  /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where no bone
+  /// does, such as a head above the joint from which the shoulders branch off. The bone is named; the distance is how
+  /// far the body goes on.
+  BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED = 18,
   /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
   /// for them, unless the option strict is set. The first vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT = 19,

@@ -135,6 +135,7 @@ enum class DiagnosticKind : std::uint32_t {
     pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
     rigid_group_bent = BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT,
     inflation_blocked = BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED,
+    joint_misplaced = BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED,
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
     settings_adjusted = BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED,

@@ -50,6 +50,10 @@ pub enum BespokeDiagnosticKind {
     /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
     /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
     InflationBlocked = 14,
+    /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where no bone
+    /// does, such as a head above the joint from which the shoulders branch off. The bone is named; the distance is how
+    /// far the body goes on.
+    JointMisplaced = 18,
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
     /// for them, unless the option strict is set. The first vertices are named.
     WeightsContradict = 19,
@@ -175,6 +179,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
             DiagnosticKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
             DiagnosticKind::InflationBlocked => BespokeDiagnosticKind::InflationBlocked,
+            DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,

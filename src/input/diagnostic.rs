@@ -88,6 +88,8 @@ pub enum DiagnosticKind {
     RigidGroupBent,
     /// A part of the avatar that cannot grow because of the garment triangles in its way.
     InflationBlocked,
+    /// A joint does not lie where the body wants it.
+    JointMisplaced,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
     /// A connected piece of the avatar's mesh that is no part of the body.
@@ -321,6 +323,15 @@ pub enum Diagnostic {
         /// What the option `inflation_dhat` was.
         inflation_dhat: f64,
     },
+    /// The body goes on beyond the end of a bone, as a head without a bone of its own does.
+    EndWithoutBone {
+        /// The bone; its second joint is the one that the body goes on beyond.
+        bone: Bone,
+        /// How far it goes on.
+        reach: f64,
+        /// The body starts beyond the joint, as if a bone went on there.
+        mended: bool,
+    },
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near.
     WeightsContradict {
         /// How many vertices.
@@ -401,6 +412,7 @@ impl Diagnostic {
             Self::PinNotReached { .. } => DiagnosticKind::PinNotReached,
             Self::RigidGroupBent { .. } => DiagnosticKind::RigidGroupBent,
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
+            Self::EndWithoutBone { .. } => DiagnosticKind::JointMisplaced,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -427,6 +439,7 @@ impl Diagnostic {
             | Self::CoarseCoordinates { .. }
             | Self::PinNotReached { .. }
             | Self::RigidGroupBent { .. }
+            | Self::EndWithoutBone { .. }
             | Self::WeightsContradict { .. }
             | Self::ForeignPart { .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
@@ -469,6 +482,7 @@ impl Diagnostic {
                 [triangle(garment), part.triangle].into_iter().chain(part.bone.map(Bone::element)).collect()
             }
             Self::InflationSqueezed { garment, parts: [a, b], .. } => vec![triangle(garment), a.triangle, b.triangle],
+            Self::EndWithoutBone { bone, .. } => vec![bone.element()],
             Self::WeightsContradict { ref first, .. } => {
                 first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
             }
@@ -487,6 +501,7 @@ impl Diagnostic {
             | Self::PinNotReached { distance, .. }
             | Self::RigidGroupBent { distance, .. }
             | Self::InflationHeld { distance, .. } => distance,
+            Self::EndWithoutBone { reach, .. } => reach,
             Self::ForeignPart { size, .. } => size,
             Self::NearContact { to_itself, to_avatar, .. } => to_itself.min(to_avatar),
             Self::CoarseCoordinates { min_separation } => min_separation,

@@ -144,6 +144,19 @@ impl Display for Diagnostic {
                     }
                 }
             }
+            Self::EndWithoutBone { bone, reach, mended } => {
+                let [from, joint] = bone.joints;
+                let fate = match mended {
+                    true => "it starts there as if one did",
+                    false => "it starts at that joint all the same, inside the garment",
+                };
+                write!(
+                    f,
+                    "target skeleton: the body goes on {reach:.2} beyond joint {joint}, straight on from joint {from}, where no \
+                     bone goes on (the skeleton is 2 long); {fate}; give both skeletons a joint at the end of that part, such as \
+                     the top of the head, and look whether joint {joint} lies where that part begins"
+                )
+            }
             Self::WeightsContradict { count, weighted, first, example, mended } => {
                 let fate = match mended {
                     true => "the nearest bone decides for these",

@@ -135,6 +135,13 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::EndWithoutBone { bone: BONE, reach: 0.5, mended: true },
+            "target skeleton: the body goes on 0.50 beyond joint 7, straight on from joint 5, where no bone goes on (the \
+             skeleton is 2 long); it starts there as if one did; give both skeletons a joint at the end of that part, such as \
+             the top of the head, and look whether joint 7 lies where that part begins"
+                .into(),
+        ),
+        (
             Diagnostic::WeightsContradict {
                 count: 20,
                 weighted: 90,

@@ -7,6 +7,7 @@ mod foreign_parts;
 mod layer_skin;
 mod loop_axis;
 mod normalization;
+mod open_ends;
 mod pin_targets;
 mod projection;
 mod repair;

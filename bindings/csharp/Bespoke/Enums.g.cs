@@ -229,6 +229,13 @@ namespace Bespoke
         InflationBlocked = 14,
 
         /// <summary>
+        /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where
+        /// no bone does, such as a head above the joint from which the shoulders branch off. The bone is named; the
+        /// distance is how far the body goes on.
+        /// </summary>
+        JointMisplaced = 18,
+
+        /// <summary>
         /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone
         /// decides for them, unless the option strict is set. The first vertices are named.
         /// </summary>

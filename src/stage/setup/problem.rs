@@ -17,16 +17,16 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
-use crate::input::diagnostic::Diagnostic;
+use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
 use crate::memory::bytes;
 use crate::options::Options;
-use crate::stage::start::projection::{ProjectedAvatar, project};
+use crate::stage::start::projection::{ProjectedAvatar, project, project_with};
 use crate::stage::start::weight_check::contradictions;
-use crate::stage::start::{enclosure, repair};
-use crate::verify::intersections_with_cancel;
+use crate::stage::start::{enclosure, open_ends, repair};
+use crate::verify::{intersections, intersections_with_cancel};
 
 /// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
 const MAX_OFFSET: f64 = 1.0;
@@ -119,7 +119,9 @@ impl Problem {
         cancel.check()?;
         let believed = inputs.skin.map(|skin| believed_skin(skin, avatar, target, options.strict, diagnostics));
         let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
-        let mut projected = project(&avatar.mesh, target, source, skin.as_deref());
+        let skin = skin.as_deref();
+        let mut projected =
+            project_beyond_ends(garment, &avatar.mesh, [target, source], skin, options.strict, diagnostics)?;
         cancel.check()?;
         let distances =
             ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
@@ -271,6 +273,34 @@ fn believed_skin<'a>(
         mended: !strict,
     });
     if strict { Cow::Borrowed(skin) } else { Cow::Owned(skin.without(&found.vertices)) }
+}
+
+/// The avatar on the source skeleton. Where it goes on beyond a bone's end without a bone, it starts beyond that end, if
+/// the garment is open there and the caller does not want it `strict`. Adds to `diagnostics`.
+fn project_beyond_ends(
+    garment: &TriangleMesh,
+    avatar: &TriangleMesh,
+    [target, source]: [&Skeleton; 2],
+    skin: Option<&SkinWeights>,
+    strict: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<ProjectedAvatar> {
+    let open = open_ends::find(avatar, target, skin);
+    let mut mended = None;
+    if !open.is_empty() && !strict {
+        let beyond = project_with(avatar, target, source, skin, &open);
+        let start = TriangleMesh { positions: beyond.start.clone(), triangles: beyond.triangles.clone() };
+        mended = (intersections(garment, Some(&start), 0)?.count == 0).then_some(beyond);
+    }
+    diagnostics.extend(open.iter().map(|open| {
+        let mut joints = target.bones[open.bone as usize];
+        if open.end == 0 {
+            joints.reverse();
+        }
+        let bone = Bone { index: open.bone, joints };
+        Diagnostic::EndWithoutBone { bone, reach: open.reach, mended: mended.is_some() }
+    }));
+    Ok(mended.unwrap_or_else(|| project(avatar, target, source, skin)))
 }
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.

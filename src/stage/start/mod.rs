@@ -5,6 +5,7 @@ pub mod bent_skeleton;
 pub mod enclosure;
 pub mod foreign_parts;
 pub mod offset_grid;
+pub mod open_ends;
 pub mod path_search;
 pub mod projection;
 pub mod repair;

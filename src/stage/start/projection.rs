@@ -12,6 +12,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use super::open_ends::OpenEnd;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 use crate::input::skin::SkinWeights;
@@ -52,9 +53,20 @@ pub fn project(
     source: &Skeleton,
     skin: Option<&SkinWeights>,
 ) -> ProjectedAvatar {
+    project_with(avatar, target, source, skin, &[])
+}
+
+/// [`project`], with the body going on beyond `open` ends of bones as it does beyond leaf joints.
+pub fn project_with(
+    avatar: &TriangleMesh,
+    target: &Skeleton,
+    source: &Skeleton,
+    skin: Option<&SkinWeights>,
+    open: &[OpenEnd],
+) -> ProjectedAvatar {
     let graph = BoneGraph::new(source);
     let locations = avatar.positions.iter().enumerate().map(|(v, &end)| {
-        let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)));
+        let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)), open);
         Location::Bone { bone, parameter: on_source(parameter, bone, target, source) }
     });
     subdivide(avatar, locations.collect(), source, &graph)
@@ -106,13 +118,27 @@ pub fn subdivide(
 }
 
 /// The bone that a point belongs to, and its parameter there: the closest among the bones at `joint`, or among all.
-fn attach(graph: &BoneGraph, skeleton: &Skeleton, p: DVec3, joint: Option<u32>) -> (u32, f64) {
+pub(super) fn attach(
+    graph: &BoneGraph,
+    skeleton: &Skeleton,
+    p: DVec3,
+    joint: Option<u32>,
+    open: &[OpenEnd],
+) -> (u32, f64) {
     let mut best = (f64::INFINITY, 0, 0.0);
     for (bone, ends) in skeleton.bones.iter().enumerate() {
         if joint.is_some_and(|j| !ends.contains(&j)) {
             continue;
         }
-        let parameter = graph.project(skeleton, bone as u32, p);
+        let mut parameter = graph.project(skeleton, bone as u32, p);
+        if open.iter().any(|o| o.bone == bone as u32 && parameter == o.end as f64) {
+            let [a, b] = ends.map(|j| skeleton.joints[j as usize]);
+            let free = (p - a).dot(b - a) / (b - a).length_squared();
+            let is_open = |end| open.iter().any(|o| o.bone == bone as u32 && o.end == end);
+            let low = if is_open(0) { f64::NEG_INFINITY } else { parameter.min(0.0) };
+            let high = if is_open(1) { f64::INFINITY } else { parameter.max(1.0) };
+            parameter = free.clamp(low, high);
+        }
         let distance = p.distance_squared(skeleton.point_at(bone as u32, parameter));
         if distance < best.0 {
             best = (distance, bone as u32, parameter);
