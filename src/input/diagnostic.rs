@@ -146,6 +146,8 @@ pub struct AvatarPart {
     pub bone: Option<Bone>,
     /// A triangle of it, of the avatar or of a layer.
     pub triangle: Element,
+    /// Where it belongs to a loose piece of the avatar, much smaller than the largest: how many triangles that has.
+    pub loose: Option<usize>,
 }
 
 /// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.

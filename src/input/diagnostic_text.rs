@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use super::diagnostic::{Bone, Diagnostic, Element, Foreignness, Subject};
+use super::diagnostic::{AvatarPart, Bone, Diagnostic, Element, Foreignness, Subject};
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -114,17 +114,21 @@ impl Display for Diagnostic {
             ),
             Self::InflationHeld { garment, part, held, .. } => write!(
                 f,
-                "target avatar: the garment holds back the part around {}, which pushes it from one side (garment triangle \
+                "target avatar: the garment holds back {}, which pushes it from one side (garment triangle \
                  {garment}, {}; {held} garment triangles in all): it is caught on that part, or too tight or too stiff there; \
                  leave that part out of the body, or cut or widen the garment there",
-                bone_name(part.bone),
+                part_name(*part),
                 avatar_triangle(part.triangle),
             ),
             Self::InflationSqueezed { garment, parts, same, gap, inflation_dhat } => {
                 let [a, b] = parts.map(|part| avatar_triangle(part.triangle));
-                let who = match (parts.map(|part| bone_name(part.bone)), same) {
-                    ([one, _], true) => format!("two sides of the part around {one}"),
-                    ([one, other], false) => format!("the parts around {one} and {other}"),
+                let [one, other] = *parts;
+                let who = match same {
+                    true => format!("two sides of {}", part_name(one)),
+                    false if parts.iter().all(|part| part.loose.is_none()) => {
+                        format!("the parts around {} and {}", bone_name(one.bone), bone_name(other.bone))
+                    }
+                    false => format!("{} and {}", part_name(one), part_name(other)),
                 };
                 match gap {
                     None => write!(
@@ -255,6 +259,14 @@ fn bone_name(bone: Option<Bone>) -> String {
     match bone {
         Some(Bone { index, joints: [a, b] }) => format!("bone {index} (joints {a}-{b})"),
         None => "bones that form a cycle".to_string(),
+    }
+}
+
+/// A part of the avatar: "the part around bone 3 (joints 3-4)", "the loose piece of 20 triangles around bone 3 (joints 3-4)".
+fn part_name(part: AvatarPart) -> String {
+    match part.loose {
+        Some(triangles) => format!("the loose piece of {triangles} triangles around {}", bone_name(part.bone)),
+        None => format!("the part around {}", bone_name(part.bone)),
     }
 }
 

@@ -47,8 +47,13 @@ pub fn find(problem: &Problem, body: &Body, objective: &mut Objective, at: Confi
     let contacts = contacts(problem, &full, barrier, at);
     let (squeezed, held) =
         groups(&problem.triangles, &contacts, NEAR * barrier.settings().dhat(CollisionGroup::Avatar));
-    let reporter =
-        Reporter { problem, body, contacts: &contacts, dhat: barrier.settings().dhat(CollisionGroup::Avatar) };
+    let reporter = Reporter {
+        problem,
+        body,
+        full: &full,
+        contacts: &contacts,
+        dhat: barrier.settings().dhat(CollisionGroup::Avatar),
+    };
 
     let strongest = |groups: &[Group]| groups.first().map_or(0.0, |group| group.resistance);
     let (most_squeezed, most) = (strongest(&squeezed), strongest(&squeezed).max(strongest(&held)));
@@ -273,6 +278,7 @@ fn groups(cloth: &[[u32; 3]], contacts: &[Contact], near: f64) -> (Vec<Group>, V
 struct Reporter<'a> {
     problem: &'a Problem,
     body: &'a Body,
+    full: &'a FullSize<'a>,
     contacts: &'a [Contact],
     dhat: f64,
 }
@@ -318,6 +324,7 @@ impl Reporter<'_> {
         AvatarPart {
             bone: bone.map(|index| Bone { index, joints: self.problem.bones[index as usize] }),
             triangle: self.body.triangle(projected.origins[contact.piece as usize]),
+            loose: self.full.loose(contact.part),
         }
     }
 }

@@ -23,6 +23,9 @@ const SHARE: f64 = 0.25;
 /// Pairs whose triangles are tested for lying inside the body as a whole.
 const OVERLAP_PAIRS: usize = 3;
 
+/// A connected piece with less than this share of the triangles of the largest is a loose piece.
+const LOOSE: f64 = 0.5;
+
 /// What moves with one bone and hangs together: the bone, and the number of the connected piece.
 pub type Part = (Option<u32>, u32);
 
@@ -45,6 +48,8 @@ pub struct FullSize<'a> {
     to_welded: Vec<u32>,
     /// The connected piece of each vertex.
     pieces: Vec<u32>,
+    /// The triangles of each connected piece.
+    sizes: Vec<usize>,
     /// Up to this distance, things touch.
     touching: f64,
 }
@@ -57,8 +62,10 @@ impl<'a> FullSize<'a> {
         let welded = |v: u32| to_welded[v as usize];
         let links = mesh.triangles.iter().flat_map(|&[a, b, c]| [[welded(a), welded(b)], [welded(b), welded(c)]]);
         let (labels, _) = label_pieces(places.len(), links);
-        let pieces = to_welded.iter().map(|&w| labels[w as usize]).collect();
-        Self { problem, avatar_triangles: body.avatar_size()[1], to_welded, pieces, touching }
+        let pieces: Vec<u32> = to_welded.iter().map(|&w| labels[w as usize]).collect();
+        let mut sizes = vec![0; places.len()];
+        mesh.triangles.iter().for_each(|&[a, ..]| sizes[pieces[a as usize] as usize] += 1);
+        Self { problem, avatar_triangles: body.avatar_size()[1], to_welded, pieces, sizes, touching }
     }
 
     /// The part that a piece of the projected avatar belongs to.
@@ -66,6 +73,13 @@ impl<'a> FullSize<'a> {
         let projected = &self.problem.projected;
         let [corner, ..] = self.problem.avatar.triangles[projected.origins[piece as usize] as usize];
         (projected.bones[piece as usize], self.pieces[corner as usize])
+    }
+
+    /// How many triangles the connected piece of a part has, where that is a loose piece beside a body much larger.
+    pub fn loose(&self, part: Part) -> Option<usize> {
+        let size = self.sizes[part.1 as usize];
+        let largest = self.sizes.iter().copied().max().unwrap_or(0);
+        ((size as f64) < LOOSE * largest as f64).then_some(size)
     }
 
     /// The triangles of the body that belong to `part` wholly or partly, ascending.

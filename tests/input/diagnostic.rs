@@ -181,7 +181,7 @@ fn every_sentence_is_made_of_its_data() {
 
 #[test]
 fn a_blockage_names_bones_and_triangles_and_what_helps() {
-    let part = |triangle, bone| AvatarPart { bone, triangle };
+    let part = |triangle, bone| AvatarPart { bone, triangle, loose: None };
     let other = Bone { index: 9, joints: [10, 11] };
     let squeezed = |second, same, gap| Diagnostic::InflationSqueezed {
         garment: 55,
@@ -233,5 +233,11 @@ fn a_blockage_names_bones_and_triangles_and_what_helps() {
     {
         assert!(held.to_string().contains(words), "{held}");
     }
+    let loose = AvatarPart { loose: Some(20), ..part(avatar(120), Some(BONE)) };
+    let held = Diagnostic::InflationHeld { garment: 55, part: loose, held: 3, distance: 0.002 };
+    assert!(
+        held.to_string().contains("holds back the loose piece of 20 triangles around bone 4 (joints 5-7)"),
+        "{held}"
+    );
     assert!(!held.to_string().contains("between"));
 }
