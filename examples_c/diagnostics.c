@@ -29,6 +29,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
     [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",
     [BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED] = "settings_adjusted",
+    [BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER] = "kept_together",
     [BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR] = "welded_near",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};

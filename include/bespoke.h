@@ -299,6 +299,9 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
   /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
   BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED = 26,
+  /// Borders of the garment that lie on or beside another part of it, such as the fronts of a placket or a shirt over
+  /// trousers, and keep their place there. A vertex is named and the triangle beside it; the distance is the largest.
+  BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER = 28,
   /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
   /// vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR = 29,

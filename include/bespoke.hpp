@@ -139,6 +139,7 @@ enum class DiagnosticKind : std::uint32_t {
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
     settings_adjusted = BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED,
+    kept_together = BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER,
     welded_near = BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR,
 };
 

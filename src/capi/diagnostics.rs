@@ -63,6 +63,9 @@ pub enum BespokeDiagnosticKind {
     ForeignPart = 20,
     /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
     SettingsAdjusted = 26,
+    /// Borders of the garment that lie on or beside another part of it, such as the fronts of a placket or a shirt over
+    /// trousers, and keep their place there. A vertex is named and the triangle beside it; the distance is the largest.
+    KeptTogether = 28,
     /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
     /// vertices are named.
     WeldedNear = 29,
@@ -183,6 +186,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,
+            DiagnosticKind::KeptTogether => BespokeDiagnosticKind::KeptTogether,
             DiagnosticKind::WeldedNear => BespokeDiagnosticKind::WeldedNear,
         };
         let severity = match diagnostic.severity() {

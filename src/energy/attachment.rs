@@ -144,3 +144,33 @@ impl Energy for Attachment {
         });
     }
 }
+
+/// The same term under a name of its own, for borders that are held to what they lie on.
+#[derive(Clone, Debug, Default)]
+pub struct Borders(pub Attachment);
+
+impl Energy for Borders {
+    fn name(&self) -> &'static str {
+        "borders"
+    }
+
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn memory(&self) -> u64 {
+        self.0.memory()
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        self.0.value(at, range)
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        self.0.derivatives(at, range, sink);
+    }
+
+    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        self.0.stencils(visit);
+    }
+}

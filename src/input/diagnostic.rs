@@ -96,6 +96,8 @@ pub enum DiagnosticKind {
     ForeignPart,
     /// The inflation stalled with the caller's settings of the contact, and was done with others.
     SettingsAdjusted,
+    /// Borders of the garment that lie on or beside another part of it, such as the fronts of a placket, and keep to it.
+    KeptTogether,
     /// Open seams whose sides are a hair apart, which are closed.
     WeldedNear,
 }
@@ -210,6 +212,17 @@ pub enum Diagnostic {
         /// The triangle nearest to it, of the piece that holds it.
         host: u32,
         /// The distance between the two.
+        distance: f64,
+    },
+    /// Borders of the garment lie on or beside other parts of it, and are held there.
+    KeptTogether {
+        /// How many vertices.
+        vertices: usize,
+        /// The one that is nearest to what it is held to.
+        vertex: u32,
+        /// The triangle that holds it.
+        triangle: u32,
+        /// The largest distance over which one is held.
         distance: f64,
     },
     /// Open seams of the garment whose sides are a hair apart are closed.
@@ -403,6 +416,7 @@ impl Diagnostic {
             Self::NonManifoldEdge { .. } => DiagnosticKind::NonManifoldEdge,
             Self::UnusedVertex { .. } => DiagnosticKind::UnusedVertex,
             Self::LoosePiece { .. } => DiagnosticKind::LoosePiece,
+            Self::KeptTogether { .. } => DiagnosticKind::KeptTogether,
             Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
             Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
             Self::NearContact { .. } => DiagnosticKind::NearContact,
@@ -431,6 +445,7 @@ impl Diagnostic {
             | Self::FlatTriangle { .. }
             | Self::UnusedVertex { .. }
             | Self::LoosePiece { .. }
+            | Self::KeptTogether { .. }
             | Self::WeldedNear { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. } => Severity::Note,
@@ -468,6 +483,7 @@ impl Diagnostic {
             Self::UnusedVertex { vertex: v }
             | Self::PinNotReached { vertex: v, .. }
             | Self::RigidGroupBent { vertex: v, .. } => vec![vertex(v)],
+            Self::KeptTogether { vertex: v, triangle: t, .. } => vec![vertex(v), triangle(t)],
             Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
             Self::SelfIntersection { triangles, .. } | Self::ResultSelfIntersection { triangles } => {
                 triangles.map(triangle).into()
@@ -500,6 +516,7 @@ impl Diagnostic {
     pub fn distance(&self) -> f64 {
         match *self {
             Self::LoosePiece { distance, .. }
+            | Self::KeptTogether { distance, .. }
             | Self::PinNotReached { distance, .. }
             | Self::RigidGroupBent { distance, .. }
             | Self::InflationHeld { distance, .. } => distance,

@@ -42,6 +42,11 @@ impl Display for Diagnostic {
                 "garment: the loose piece of {vertices} vertices with triangle {triangle} is held to the piece beside it, near \
                  triangle {host}"
             ),
+            Self::KeptTogether { vertices, vertex, triangle, .. } => write!(
+                f,
+                "garment: {vertices} vertices on its borders lie on or beside another part of it and keep their place there, such \
+                 as vertex {vertex} at triangle {triangle}"
+            ),
             Self::WeldedNear { places, first, gap } => {
                 let first: Vec<String> = first.iter().map(u32::to_string).collect();
                 write!(

@@ -120,6 +120,10 @@ impl Model for Objective {
             terms.push(Term { energy: inflation, weight: 1.0 });
         }
         if let Some(fit) = &self.fit {
+            // While the avatar grows, borders give way like all that is held by nothing: a garment needs the room.
+            if !shape.borders.is_empty() {
+                terms.push(Term { energy: &shape.borders, weight: w.surface_weight });
+            }
             terms.push(Term { energy: fit, weight: w.fit_weight });
         }
         terms

@@ -60,6 +60,12 @@ fn every_sentence_is_made_of_its_data() {
             "garment: the loose piece of 7 vertices with triangle 40 is held to the piece beside it, near triangle 11".into(),
         ),
         (
+            Diagnostic::KeptTogether { vertices: 12, vertex: 5, triangle: 40, distance: 0.01 },
+            "garment: 12 vertices on its borders lie on or beside another part of it and keep their place there, such as vertex \
+             5 at triangle 40"
+                .into(),
+        ),
+        (
             Diagnostic::WeldedNear { places: 3, first: vec![4, 9], gap: 2e-5 },
             "garment: open seams with gaps of up to 2.0e-5 are closed in 3 places (the first: vertices 4, 9); weld_distance \
              says how near is one place"

@@ -1,4 +1,4 @@
-//! What belongs together stays together: seams that are open by a hair.
+//! What belongs together stays together: seams, plackets, a shirt over trousers.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use glam::DVec3;
 
-use crate::small::session;
+use crate::small::{session, tube};
 
 const ROWS: u32 = 16;
 const COLUMNS: u32 = 20;
@@ -61,4 +61,43 @@ fn a_seam_that_is_open_by_a_hair_comes_out_closed() {
     open.set_options(Options { weld_distance: 0.0, ..Options::default() }).unwrap();
     assert!(widest(&dressed(&mut open, &garment)) > 0.0);
     assert!(!has(&open, DiagnosticKind::WeldedNear));
+}
+
+/// A placket of two fronts that overlap by 0.1 and are 0.012 apart.
+#[test]
+fn a_placket_keeps_its_overlap_and_its_gap() {
+    let garment = wrapped(-0.6, 0.7, 0.0..TAU + 0.33, |share| 0.3 + 0.012 * share);
+    let mut session = session(1.0, DVec3::ZERO);
+    let x = dressed(&mut session, &garment);
+    assert!(has(&session, DiagnosticKind::KeptTogether));
+    // Between the borders of each row: along the arm's surface, and away from it.
+    let relation = |[a, b]: [DVec3; 2]| {
+        let out = DVec3::new(a.x + b.x - 0.4 * a.z.max(0.0), a.y + b.y, 0.0).normalize();
+        ((b - a).reject_from_normalized(out).length(), (b - a).dot(out))
+    };
+    for (row, (was, is)) in borders(&garment.positions).zip(borders(&x)).enumerate() {
+        let ((overlap, gap), (overlap_now, gap_now)) = (relation(was), relation(is));
+        println!("{row}: {overlap:.4} {gap:.4} -> {overlap_now:.4} {gap_now:.4}");
+        assert!((0.5..2.0).contains(&(overlap_now / overlap)), "{row}: {overlap} {overlap_now}");
+        assert!((0.5..2.0).contains(&(gap_now / gap)), "{row}: {gap} {gap_now}");
+    }
+}
+
+/// A shirt over trousers, 0.015 outside them and 0.1 beyond their waist.
+#[test]
+fn a_shirt_over_trousers_keeps_its_overlap() {
+    let mut garment = tube(-0.6, 0.05, |_, _| 0.3, 10, 20, false);
+    let trousers = garment.positions.len();
+    let shirt = tube(-0.05, 0.7, |_, _| 0.315, 12, 20, false);
+    garment.positions.extend(&shirt.positions);
+    garment.triangles.extend(shirt.triangles.iter().map(|t| t.map(|v| v + trousers as u32)));
+    let mut session = session(1.0, DVec3::ZERO);
+    let x = dressed(&mut session, &garment);
+    assert!(has(&session, DiagnosticKind::KeptTogether));
+    let (waist, hem) = (trousers - 20..trousers, trousers..trousers + 20);
+    for (w, h) in waist.zip(hem) {
+        let (was, is) = (garment.positions[w].z - garment.positions[h].z, x[w].z - x[h].z);
+        println!("{was:.4} -> {is:.4}");
+        assert!((0.5..2.0).contains(&(is / was)), "{was} {is}");
+    }
 }

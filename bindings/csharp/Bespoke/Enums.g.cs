@@ -254,6 +254,13 @@ namespace Bespoke
         SettingsAdjusted = 26,
 
         /// <summary>
+        /// Borders of the garment that lie on or beside another part of it, such as the fronts of a placket or a shirt
+        /// over trousers, and keep their place there. A vertex is named and the triangle beside it; the distance is the
+        /// largest.
+        /// </summary>
+        KeptTogether = 28,
+
+        /// <summary>
         /// Open seams of the garment whose sides are within <c>Options</c>.weld_distance, which are closed. The first
         /// vertices are named.
         /// </summary>

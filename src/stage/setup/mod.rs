@@ -6,6 +6,7 @@ pub mod hanging_pieces;
 pub mod layer_skin;
 pub mod loop_axis;
 pub mod loose_pieces;
+pub mod near_borders;
 pub mod normalization;
 pub mod pin_targets;
 pub mod problem;

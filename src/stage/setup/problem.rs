@@ -138,8 +138,10 @@ impl Problem {
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
-        let (shape, loose) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
+        let (shape, loose, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
         diagnostics.extend(loose.diagnostics(|t| inputs.weld.triangle_of[t as usize]));
+        let (vertices, triangles) = (&inputs.weld.vertex_of, &inputs.weld.triangle_of);
+        diagnostics.extend(borders.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
         let source_body = inputs.source_avatar.map(|mesh| {
             ClosestPoint::new(&TriangleMesh {
                 positions: source_normalization.normalise_all(&mesh.positions),
