@@ -6,6 +6,7 @@
 //! results depend. The third tree, of [`crate::verify`], is separate on purpose: the verifier uses none of the
 //! contact code.
 
+pub mod alignment;
 pub mod bvh;
 pub mod closest_point;
 pub mod mesh;

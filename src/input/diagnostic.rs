@@ -72,6 +72,8 @@ pub enum DiagnosticKind {
     UnusedVertex,
     /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
     LoosePiece,
+    /// A piece of the garment that is around no bone, and is carried by the body beside it.
+    CarriedPiece,
     /// Two garment triangles that pass through each other, or touch, before anything has moved.
     SelfIntersection,
     /// Parts of the garment, or garment and skeleton, that are so near at the start that the minimum separation is lowered.
@@ -233,6 +235,21 @@ pub enum Diagnostic {
         first: Vec<u32>,
         /// The widest gap, in the garment's unit.
         gap: f64,
+    },
+    /// A piece of the garment is around no bone, and is carried along with the body beside it.
+    CarriedPiece {
+        /// How many vertices the piece has.
+        vertices: usize,
+        /// A triangle of the piece.
+        triangle: u32,
+        /// The bone nearest to it.
+        bone: Bone,
+        /// Its distance from the source body, or from the bone.
+        distance: f64,
+        /// The distance is that from the source body.
+        from_body: bool,
+        /// It keeps its shape.
+        stiff: bool,
     },
     /// Two garment triangles intersect before anything has moved.
     SelfIntersection {
@@ -418,6 +435,7 @@ impl Diagnostic {
             Self::LoosePiece { .. } => DiagnosticKind::LoosePiece,
             Self::KeptTogether { .. } => DiagnosticKind::KeptTogether,
             Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
+            Self::CarriedPiece { .. } => DiagnosticKind::CarriedPiece,
             Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
             Self::NearContact { .. } => DiagnosticKind::NearContact,
             Self::BoneMoved { .. } | Self::CycleCut { .. } | Self::AvatarPenetrates { .. } => {
@@ -447,6 +465,7 @@ impl Diagnostic {
             | Self::LoosePiece { .. }
             | Self::KeptTogether { .. }
             | Self::WeldedNear { .. }
+            | Self::CarriedPiece { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
@@ -484,6 +503,7 @@ impl Diagnostic {
             | Self::PinNotReached { vertex: v, .. }
             | Self::RigidGroupBent { vertex: v, .. } => vec![vertex(v)],
             Self::KeptTogether { vertex: v, triangle: t, .. } => vec![vertex(v), triangle(t)],
+            Self::CarriedPiece { triangle: t, bone, .. } => vec![triangle(t), bone.element()],
             Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
             Self::SelfIntersection { triangles, .. } | Self::ResultSelfIntersection { triangles } => {
                 triangles.map(triangle).into()
@@ -517,6 +537,7 @@ impl Diagnostic {
         match *self {
             Self::LoosePiece { distance, .. }
             | Self::KeptTogether { distance, .. }
+            | Self::CarriedPiece { distance, .. }
             | Self::PinNotReached { distance, .. }
             | Self::RigidGroupBent { distance, .. }
             | Self::InflationHeld { distance, .. } => distance,

@@ -56,6 +56,17 @@ impl Display for Diagnostic {
                     first.join(", ")
                 )
             }
+            Self::CarriedPiece { vertices, triangle, bone, distance, from_body, stiff } => {
+                let [a, b] = bone.joints;
+                let from = if *from_body { "the source avatar" } else { "that bone" };
+                let keeps = if *stiff { "keeps its shape" } else { "gives way" };
+                write!(
+                    f,
+                    "garment: the piece of {vertices} vertices with triangle {triangle} is around no bone; it is carried by \
+                     the body at the bone between joints {a} and {b}, {distance:.1e} from {from} (the skeleton is 2 long), \
+                     and {keeps}"
+                )
+            }
             Self::SelfIntersection { triangles: [s, t], touches, strict } => {
                 let how = if *touches { "touch within rounding" } else { "intersect" };
                 let fate = match strict {

@@ -56,8 +56,8 @@ pub(super) struct Run {
     held: u64,
     /// Bytes of the distance field, as estimated.
     expected: u64,
-    /// The distance field, once it is there.
-    distance: Option<Arc<Field>>,
+    /// The distance field and the seconds that it took, once it is there.
+    distance: Option<(Arc<Field>, f64)>,
     /// What the result falls short of, or what holds the garment where there is none.
     pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
@@ -83,8 +83,15 @@ impl Run {
         let begun = Instant::now();
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
-        let (problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
-        let field = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
+        let (mut problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
+        let mut field = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
+        let mut distance = None;
+        if !problem.carried.is_empty() {
+            // Where carried pieces go is known with the distance only.
+            let (built, seconds) = field.wait()?;
+            problem.settle_carried(&built);
+            distance = Some((Arc::new(built), seconds));
+        }
         let state = State { x: problem.rest.clone(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
@@ -107,7 +114,7 @@ impl Run {
             field,
             held,
             expected,
-            distance: None,
+            distance,
             doublings: 0,
             must_widen: false,
             report,
@@ -242,11 +249,13 @@ impl Run {
         }
         let options = &self.options;
         let clock = Instant::now();
-        let (field, seconds) = self.field.wait()?;
+        if self.distance.is_none() {
+            let (field, seconds) = self.field.wait()?;
+            self.distance = Some((Arc::new(field), seconds));
+        }
+        let Some((field, seconds)) = self.distance.clone() else { return Ok(()) };
         self.report.field_seconds = seconds;
         self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
-        let field = Arc::new(field);
-        self.distance = Some(field.clone());
         let stop = &self.context.stop;
         let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
         if let Some(settings) = self.attempts.settings() {
@@ -266,7 +275,7 @@ impl Run {
 
     /// Bytes of the distance field.
     fn field_memory(&self) -> u64 {
-        self.distance.as_ref().map_or(self.expected, |field| field.memory() + field.closest_point().memory())
+        self.distance.as_ref().map_or(self.expected, |(field, _)| field.memory() + field.closest_point().memory())
     }
 
     /// The memory that is left for objective and solver.

@@ -67,8 +67,13 @@ fn report_bent_groups(problem: &Problem, groups: &[Group], x: &[DVec3], diagnost
         let distances = group.iter().map(|&(v, target)| (v, x[v as usize].distance(target)));
         distances.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     };
-    let bent: Vec<(usize, (u32, f64))> =
-        groups.iter().map(worst).enumerate().filter(|(_, (_, distance))| *distance > MAX_BEND).collect();
+    let bent: Vec<(usize, (u32, f64))> = groups
+        .iter()
+        .take(problem.callers_groups)
+        .map(worst)
+        .enumerate()
+        .filter(|(_, (_, distance))| *distance > MAX_BEND)
+        .collect();
     Diagnostic::list(diagnostics, &bent, |&(group, (v, distance))| Diagnostic::RigidGroupBent {
         group,
         vertex: problem.weld.vertex_of[v as usize],

@@ -113,6 +113,9 @@ impl Model for Objective {
         if !shape.pins.is_empty() {
             terms.push(Term { energy: &shape.pins, weight: w.pin_weight });
         }
+        if !shape.carry.is_empty() {
+            terms.push(Term { energy: &shape.carry, weight: w.surface_weight });
+        }
         if !shape.rigid.is_empty() {
             terms.push(Term { energy: &shape.rigid, weight: RIGIDITY });
         }

@@ -2,6 +2,7 @@
 
 mod attachment;
 mod barrier;
+mod carry;
 mod curve;
 mod distortion;
 mod fit;

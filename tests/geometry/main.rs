@@ -1,5 +1,6 @@
 //! Meshes, search trees and closest points against brute force and known answers.
 
+mod alignment;
 mod bvh;
 mod closest_point;
 mod mesh;

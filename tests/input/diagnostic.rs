@@ -72,6 +72,19 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::CarriedPiece {
+                vertices: 7,
+                triangle: 40,
+                bone: BONE,
+                distance: 0.02,
+                from_body: true,
+                stiff: true,
+            },
+            "garment: the piece of 7 vertices with triangle 40 is around no bone; it is carried by the body at the bone \
+             between joints 5 and 7, 2.0e-2 from the source avatar (the skeleton is 2 long), and keeps its shape"
+                .into(),
+        ),
+        (
             Diagnostic::SelfIntersection { triangles: [1, 2], touches: false, strict: true },
             "garment: triangles 1 and 2 intersect before anything has moved, which the option strict refuses".into(),
         ),

@@ -5,6 +5,7 @@ mod attempts;
 mod avatar_parts;
 mod blocked;
 mod cancel;
+mod carried;
 mod determinism;
 mod distortion;
 mod fit_controls;

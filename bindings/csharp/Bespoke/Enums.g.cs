@@ -249,6 +249,13 @@ namespace Bespoke
         ForeignPart = 20,
 
         /// <summary>
+        /// A piece of the garment that is around no bone, such as a cape or a badge, and is carried along with the body
+        /// beside it. A triangle of it is named and the bone nearest to it; the distance is that from the source
+        /// avatar, or from the bone where there is none.
+        /// </summary>
+        CarriedPiece = 22,
+
+        /// <summary>
         /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
         /// </summary>
         SettingsAdjusted = 26,

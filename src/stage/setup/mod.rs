@@ -1,5 +1,8 @@
 //! From the inputs to the terms of the objective: what is derived once, before anything moves.
 
+pub mod bone_map;
+pub mod carried_pieces;
+pub mod carried_places;
 pub mod contact_distances;
 pub mod fit_region;
 pub mod hanging_pieces;

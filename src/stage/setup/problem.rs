@@ -5,12 +5,17 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::bone_map::BoneMap;
+use super::carried_pieces::{self, CarriedPiece};
+use super::carried_places::CarriedPlaces;
 use super::contact_distances::ContactDistances;
 use super::fit_region::fit_region;
+use super::hanging_pieces::HangingPieces;
 use super::layer_skin::skin_with_layers;
+use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
-use super::shape::Shape;
+use super::shape::{HeldPieces, Shape};
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -23,6 +28,7 @@ use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
 use crate::memory::bytes;
 use crate::options::Options;
+use crate::sdf::Field;
 use crate::stage::start::projection::{ProjectedAvatar, project, project_with};
 use crate::stage::start::weight_check::contradictions;
 use crate::stage::start::{enclosure, open_ends, repair};
@@ -30,6 +36,9 @@ use crate::verify::{intersections, intersections_with_cancel};
 
 /// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
 const MAX_OFFSET: f64 = 1.0;
+
+/// The clearance of carried pieces in d-hat, at least: beyond the barrier.
+const CARRIED_IN_DHAT: f64 = 1.5;
 
 /// What a caller handed in, in the internal coordinate system but not yet normalised.
 pub struct Inputs<'a> {
@@ -89,6 +98,10 @@ pub struct Problem {
     pub offset: f64,
     /// Pairs of garment triangles that intersect at the start, the lower index first.
     pub initial_intersections: Vec<[u32; 2]>,
+    /// The pieces that are around no bone, and where they go.
+    pub carried: CarriedPlaces,
+    /// Rigid groups of the caller: those of the shape that come first.
+    pub callers_groups: usize,
     /// The distances that contact keeps.
     pub distances: ContactDistances,
 }
@@ -133,29 +146,53 @@ impl Problem {
         let callers = &inputs.weld.triangle_of;
         let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
         cancel.check()?;
-        enclosure::check(garment, &segments)?;
+        let source_body = inputs.source_avatar.map(|mesh| TriangleMesh {
+            positions: source_normalization.normalise_all(&mesh.positions),
+            triangles: mesh.triangles.clone(),
+        });
+        let source_tree = source_body.as_ref().map(ClosestPoint::new);
+        let mut loose = LoosePieces::find(&garment.positions, &garment.triangles);
+        let hanging = HangingPieces::find(&garment.positions, &garment.triangles, source, &loose);
+        loose.holds.extend(hanging.holds);
+        loose.hanging = hanging.pieces;
+        let pieces = carried_pieces::find(garment, &loose, &segments, source, source_tree.as_ref());
+        if !carried_pieces::is_whole(garment, &pieces) {
+            enclosure::check(garment, &segments)?;
+        }
         cancel.check()?;
+        let bodies = source_body.as_ref().map(|body| [&body.positions[..], avatar.avatar_positions()]);
+        let carried = if pieces.is_empty() {
+            CarriedPlaces::default()
+        } else {
+            let map = BoneMap::new(source, target, bodies);
+            CarriedPlaces::new(garment, &pieces, &map, source_tree.as_ref(), options.designed_clearance)
+        };
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
-        let (shape, loose, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, options);
+        let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
+        let (shape, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
         diagnostics.extend(loose.diagnostics(|t| inputs.weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&inputs.weld.vertex_of, &inputs.weld.triangle_of);
         diagnostics.extend(borders.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
-        let source_body = inputs.source_avatar.map(|mesh| {
-            ClosestPoint::new(&TriangleMesh {
-                positions: source_normalization.normalise_all(&mesh.positions),
-                triangles: mesh.triangles.clone(),
-            })
+        Diagnostic::list(diagnostics, &pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
+            vertices: piece.vertices.len(),
+            triangle: inputs.weld.triangle_of[piece.triangle as usize],
+            bone: Bone { index: piece.bone, joints: source.bones[piece.bone as usize] },
+            distance: piece.distance,
+            from_body: source_tree.is_some(),
+            stiff: piece.stiff,
         });
-        let mut fit_weights = match (inputs.fit_weights, &source_body) {
+        let mut fit_weights = match (inputs.fit_weights, &source_tree) {
             (Some(weights), _) => weights.to_vec(),
             (None, Some(body)) => fit_region(&garment.positions, body, options.fit_distance),
             (None, None) => vec![1.0; garment.positions.len()],
         };
         if inputs.fit_weights.is_none() {
-            // What hangs on another piece has its place from that.
-            loose.hanging.iter().flat_map(|piece| &piece.vertices).for_each(|&v| fit_weights[v as usize] = 0.0);
+            // What hangs on another piece has its place from that, and the place of what is carried has its clearance already.
+            let placed =
+                loose.hanging.iter().map(|piece| &piece.vertices).chain(pieces.iter().map(|piece| &piece.vertices));
+            placed.flatten().for_each(|&v| fit_weights[v as usize] = 0.0);
         }
         let Normalised { garment, avatar, .. } = normalised;
         let fitted = avatar.fitted().map_or_else(
@@ -177,11 +214,22 @@ impl Problem {
             bones: inputs.source_skeleton.bones.clone(),
             shape: Arc::new(shape),
             fit_weights,
-            source_body,
+            source_body: source_tree,
             offset,
             initial_intersections,
+            carried,
+            callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).count(),
             distances,
         })
+    }
+
+    /// Brings the carried pieces to their clearances from the avatar, whose distance is `field`.
+    pub fn settle_carried(&mut self, field: &Field) {
+        self.carried.settle(field, CARRIED_IN_DHAT * self.distances.dhat, self.offset);
+        let carry = self.carried.term();
+        if let Some(shape) = Arc::get_mut(&mut self.shape) {
+            shape.carry = carry;
+        }
     }
 
     /// Bytes that it holds, but for the shape terms, which the objectives count.

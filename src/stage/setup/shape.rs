@@ -1,11 +1,16 @@
 //! The shape terms: what holds the garment to its design.
 
-use super::hanging_pieces::HangingPieces;
+use std::collections::HashSet;
+
+use glam::DVec3;
+
+use super::carried_places::CarriedPlaces;
 use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::near_borders::NearBorders;
 use super::pin_targets::{self, PinRequest};
-use crate::energy::attachment::{Attachment, Borders};
+use crate::energy::attachment::{Attachment, Borders, SizeHold};
+use crate::energy::carry::Carry;
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
 use crate::energy::position::{MovingAxis, Position};
@@ -24,6 +29,8 @@ pub struct Shape {
     pub attachment: Attachment,
     /// Borders held to what they lie on, in the fit.
     pub borders: Borders,
+    /// Carried pieces.
+    pub carry: Carry,
     /// Curvature of the boundary curves (Eq. 5).
     pub curvature: Curvature,
     /// Torsion of the boundary curves.
@@ -32,44 +39,78 @@ pub struct Shape {
     pub position: Position,
     /// Pinned vertices.
     pub pins: Pins,
-    /// Rigid groups.
+    /// Rigid groups: the caller's, and after them the carried pieces that are stiff.
     pub rigid: Rigid,
 }
 
+/// Pieces of a garment that have their place from something else than the bones inside of them.
+pub struct HeldPieces<'a> {
+    /// Those that are held to others.
+    pub loose: &'a LoosePieces,
+    /// What keeps the size of those that are near nothing.
+    pub sizes: &'a [SizeHold],
+    /// Those that the body carries.
+    pub carried: &'a CarriedPlaces,
+}
+
+impl HeldPieces<'_> {
+    /// What keeps sizes, but for those of carried pieces, whose size is the body's.
+    fn sizes(&self) -> Vec<SizeHold> {
+        let carried: HashSet<u32> = self.carried.pieces().flat_map(|piece| piece.vertices.iter().copied()).collect();
+        self.sizes.iter().filter(|size| !carried.contains(&size.vertices[0])).copied().collect()
+    }
+}
+
 impl Shape {
-    /// The terms of `garment` as designed, between the skeletons `source` and `target`; and the pieces and borders that are
-    /// held to others. `pins` has at most one entry a vertex, `rigid_groups` each vertex in one group at most.
+    /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that
+    /// something else holds; the borders that are held to others are found. `pins` has at most one entry a vertex, `rigid_groups` each vertex in one
+    /// group at most.
     pub fn new(
         garment: &TriangleMesh,
         source: &Skeleton,
         target: &Skeleton,
         pins: &[PinRequest],
         rigid_groups: &[Vec<u32>],
+        held: &HeldPieces<'_>,
         options: &Options,
-    ) -> (Self, LoosePieces, NearBorders) {
+    ) -> (Self, NearBorders) {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
         let topology = Topology::new(rest.len(), triangles);
-        let mut loose = LoosePieces::find(rest, triangles);
-        let hanging = HangingPieces::find(rest, triangles, source, &loose);
-        loose.holds.extend(hanging.holds);
-        loose.hanging = hanging.pieces;
         let mut is_held = vec![false; rest.len()];
-        loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
+        held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
+        held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         let near = NearBorders::find(rest, triangles, &topology, &is_held);
         let whole = without_caps(rest, triangles);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let shape = Self {
             surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
-            attachment: Attachment::new(rest, &loose.holds, &hanging.sizes),
+            attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
             borders: Borders(Attachment::new(rest, &near.holds, &[])),
+            carry: held.carried.term(),
             curvature: Curvature::new(rest, &topology.loops),
             torsion: Torsion::new(rest, &topology.loops),
             position: position(garment, &topology, &is_held, source, target),
             pins: Pins::new(pin_targets::resolve(rest, triangles, pins, source, target)),
-            rigid: Rigid::new(rest, rigid_groups),
+            rigid: rigid(rest, rigid_groups, held.carried),
         };
-        (shape, loose, near)
+        (shape, near)
     }
+}
+
+/// The term of the caller's groups and of the stiff carried pieces, but for those of which a part is in a group already. The
+/// pieces have the size that they have on the target body.
+fn rigid(rest: &[DVec3], groups: &[Vec<u32>], carried: &CarriedPlaces) -> Rigid {
+    let mut is_grouped = vec![false; rest.len()];
+    groups.iter().flatten().for_each(|&v| is_grouped[v as usize] = true);
+    let (mut rest, mut groups) = (rest.to_vec(), groups.to_vec());
+    for (vertices, scaled) in carried.stiff() {
+        if vertices.iter().any(|&v| is_grouped[v as usize]) {
+            continue;
+        }
+        vertices.iter().zip(scaled).for_each(|(&v, p)| rest[v as usize] = p);
+        groups.push(vertices.to_vec());
+    }
+    Rigid::new(&rest, &groups)
 }
 
 /// The position term of the boundary loops that follow bones.
@@ -84,7 +125,7 @@ fn position(
     let mut axes: Vec<MovingAxis> = Vec::new();
     let mut constraints = Vec::new();
     for (curve, axis) in topology.loops.iter().zip(choose_loop_axes(rest, &topology.loops, source, target)) {
-        // A piece that is held to another one, such as a button, has no place of its own along a bone.
+        // A piece that is held to another one, such as a button, or carried, has no place of its own along a bone.
         if let Some(axis) = axis
             && !is_held[curve.vertices[0] as usize]
         {

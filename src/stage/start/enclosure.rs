@@ -91,9 +91,7 @@ impl Enclosures {
 /// # Errors
 /// `NotEnclosed`.
 pub fn check(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> Result<()> {
-    if Enclosures::find(garment, segments).any()
-        || surrounded(&garment.positions, garment.triangles.clone(), segments).encloses
-    {
+    if encloses(garment, segments) {
         return Ok(());
     }
     Err(Error::new(
@@ -101,6 +99,12 @@ pub fn check(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> Result<()> {
         "garment: it does not enclose the source skeleton and is around none of its bones; move one onto the other, and make \
          sure that both are in one coordinate system and unit",
     ))
+}
+
+/// Whether any piece of `garment` encloses any of `segments`, or all of them together do.
+pub fn encloses(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> bool {
+    Enclosures::find(garment, segments).any()
+        || surrounded(&garment.positions, garment.triangles.clone(), segments).encloses
 }
 
 /// The segments that `triangles` surround, as planes show it: across the segments, and the piece's own where it is flat.
@@ -212,11 +216,14 @@ fn principal_axes(mut m: DMat3) -> [DVec3; 3] {
 /// The share of the garment for which this holds: it encloses the nearest point of `segments`, in the plane across them.
 pub fn enclosed_share(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> f64 {
     let corners: Vec<u32> = garment.triangles.iter().flatten().copied().collect();
-    let enclosed: Vec<bool> = corners
-        .par_iter()
-        .step_by(corners.len().div_ceil(SAMPLES).max(1))
-        .map(|&v| encloses_nearest(garment, segments, garment.positions[v as usize]))
-        .collect();
+    let sampled = corners.iter().step_by(corners.len().div_ceil(SAMPLES).max(1));
+    let samples: Vec<DVec3> = sampled.map(|&v| garment.positions[v as usize]).collect();
+    enclosed_share_at(garment, segments, &samples)
+}
+
+/// The same for `samples` in place of the garment's own points.
+pub fn enclosed_share_at(garment: &TriangleMesh, segments: &[[DVec3; 2]], samples: &[DVec3]) -> f64 {
+    let enclosed: Vec<bool> = samples.par_iter().map(|&p| encloses_nearest(garment, segments, p)).collect();
     let count = enclosed.iter().filter(|&&is_enclosed| is_enclosed).count();
     count as f64 / enclosed.len().max(1) as f64
 }

@@ -1,0 +1,325 @@
+//! Which pieces of a garment are carried: those around no bone, such as a cape, a backpack, a badge or an earring.
+//!
+//! Pieces that hang together, for one is held to the other or they nearly touch, are one. Such a piece is carried if
+//! - neither it nor the garment with it encloses the bones beside it; or the garment does so as well without it, and the piece
+//!   is not sewn to the others along its borders, as the panels of a coat are;
+//! - it is near enough to the body, and neither tiny nor huge beside it: else it is in another place or unit;
+//! - it is no tube: a piece with two openings is for a limb to go through.
+//!
+//! It is stiff where it is small, or closed and thick; else it is soft.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::loose_pieces::LoosePieces;
+use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
+use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::input::skeleton::Skeleton;
+use crate::stage::start::enclosure::{enclosed_share_at, encloses};
+
+/// Corners of a piece from which its enclosure is tested.
+const SAMPLES: usize = 64;
+/// The garment encloses the bones beside a piece where this share of its corners says so.
+const MIN_ENCLOSED_SHARE: f64 = 0.1;
+/// The garment encloses bones without a piece as well as with it where the shares differ by a factor above this.
+const AS_WELL: f64 = 0.9;
+/// Pieces that are tested, the largest first: it bounds the time for a garment of thousands of sequins.
+const MOST_PIECES: usize = 64;
+/// Two pieces hang together where they are nearer than this share of the larger one's size, or that of the smaller one's.
+const NEAR_LARGER: f64 = 0.05;
+const NEAR_SMALLER: f64 = 0.5;
+/// A border vertex nearer than this to another piece may be sewn to it, and a piece is sewn where this share of its is.
+const SEAM: f64 = 0.02;
+const SEWN: f64 = 0.5;
+/// Farther from all bones, or from the source body, nothing is carried; the skeleton is 2 long.
+const MAX_FROM_BONE: f64 = 0.5;
+const MAX_FROM_BODY: f64 = 0.3;
+/// Smaller or larger than this is in another unit.
+const SIZES: [f64; 2] = [0.015, 4.0];
+/// An opening is a boundary loop whose area is more than this share of its squared length: a circle has 0.08.
+const ROUND: f64 = 0.02;
+/// An opening for a limb is longer than this share of the piece's size.
+const WIDE: f64 = 0.4;
+/// What is smaller than this is stiff: badges, glasses, earrings.
+const SMALL: f64 = 0.3;
+/// A closed piece is thick where its volume is more than this share of its area to the power of 1.5: a cube has 0.07, a plate
+/// of 20 : 20 : 1 has 0.015.
+const THICK: f64 = 0.015;
+/// A piece is closed where at most this share of its edges are borders: game models leave out what nobody sees.
+const OPEN_EDGES: f64 = 0.1;
+/// Of pieces that hang together, the largest decides whether they are thick, and those of this share of its area whether they
+/// are tubes.
+const LARGE: f64 = 0.5;
+
+/// A piece that is carried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarriedPiece {
+    /// Its vertices, ascending.
+    pub vertices: Vec<u32>,
+    /// Its triangle of lowest index.
+    pub triangle: u32,
+    /// The bone nearest to its nearest vertex, by its index in the source skeleton.
+    pub bone: u32,
+    /// Its distance from the source body, or from that bone where there is none.
+    pub distance: f64,
+    /// It keeps its shape.
+    pub stiff: bool,
+}
+
+/// Some of the pieces of a garment.
+struct Part {
+    vertices: Vec<u32>,
+    /// Its triangles, by their indices in the garment, ascending.
+    triangles: Vec<u32>,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Part {
+    fn size(&self) -> f64 {
+        self.low.distance(self.high)
+    }
+
+    fn gap(&self, other: &Self) -> f64 {
+        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
+    }
+
+    fn mesh(&self, garment: &TriangleMesh) -> TriangleMesh {
+        mesh_of(garment, self.triangles.iter().copied())
+    }
+
+    fn samples(&self, garment: &TriangleMesh) -> Vec<DVec3> {
+        let corners: Vec<u32> = self.triangles.iter().flat_map(|&t| garment.triangles[t as usize]).collect();
+        let step = corners.len().div_ceil(SAMPLES).max(1);
+        corners.iter().step_by(step).map(|&v| garment.positions[v as usize]).collect()
+    }
+
+    fn merge(&mut self, other: Self) {
+        self.vertices.extend(other.vertices);
+        self.vertices.sort_unstable();
+        self.triangles.extend(other.triangles);
+        self.triangles.sort_unstable();
+        (self.low, self.high) = (self.low.min(other.low), self.high.max(other.high));
+    }
+}
+
+fn mesh_of(garment: &TriangleMesh, triangles: impl Iterator<Item = u32>) -> TriangleMesh {
+    TriangleMesh {
+        positions: garment.positions.clone(),
+        triangles: triangles.map(|t| garment.triangles[t as usize]).collect(),
+    }
+}
+
+/// The carried pieces of `garment`, in the order of their lowest vertices. `loose` are its pieces that are held to others,
+/// `segments` the bones as far as there is anything on them, `source_body` the body that it was designed on.
+pub fn find(
+    garment: &TriangleMesh,
+    loose: &LoosePieces,
+    segments: &[[DVec3; 2]],
+    source: &Skeleton,
+    source_body: Option<&ClosestPoint>,
+) -> Vec<CarriedPiece> {
+    let mut parts = parts(garment, loose);
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    parts.sort_by(|a, b| b.size().total_cmp(&a.size()).then(a.vertices[0].cmp(&b.vertices[0])));
+    parts.truncate(MOST_PIECES);
+    let is_free = |part: &Part| is_around_no_bone(garment, part, segments);
+    let free: Vec<bool> = parts.par_iter().map(is_free).collect();
+    let mut free = free.iter();
+    parts.retain(|_| *free.next().unwrap_or(&false));
+    let joined = join_near(garment, parts);
+    let mut carried: Vec<CarriedPiece> =
+        joined.iter().filter_map(|part| carry(garment, part, source, source_body)).collect();
+    carried.sort_by_key(|piece| piece.vertices[0]);
+    carried
+}
+
+/// True where `carried` are all the triangles of `garment`.
+pub fn is_whole(garment: &TriangleMesh, carried: &[CarriedPiece]) -> bool {
+    let mut is_carried = vec![false; garment.positions.len()];
+    carried.iter().flat_map(|piece| &piece.vertices).for_each(|&v| is_carried[v as usize] = true);
+    garment.triangles.iter().all(|t| is_carried[t[0] as usize])
+}
+
+/// The connected pieces, those that are held together with what holds them.
+fn parts(garment: &TriangleMesh, loose: &LoosePieces) -> Vec<Part> {
+    let sides = garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
+    let holds = loose.all().map(|piece| [piece.vertices[0], garment.triangles[piece.host as usize][0]]);
+    let (labels, count) = label_pieces(garment.positions.len(), sides.chain(holds));
+    let empty =
+        || Part { vertices: Vec::new(), triangles: Vec::new(), low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+    let mut parts: Vec<Part> = (0..count).map(|_| empty()).collect();
+    for ((v, &label), &p) in (0u32..).zip(&labels).zip(&garment.positions) {
+        if label != NO_PIECE {
+            let part = &mut parts[label as usize];
+            part.vertices.push(v);
+            (part.low, part.high) = (part.low.min(p), part.high.max(p));
+        }
+    }
+    for (k, t) in (0u32..).zip(&garment.triangles) {
+        parts[labels[t[0] as usize] as usize].triangles.push(k);
+    }
+    parts.retain(|part| !part.triangles.is_empty());
+    parts
+}
+
+/// Whether `part` has no bone that it is there to enclose.
+fn is_around_no_bone(garment: &TriangleMesh, part: &Part, segments: &[[DVec3; 2]]) -> bool {
+    let (own, samples) = (part.mesh(garment), part.samples(garment));
+    if encloses(&own, segments) {
+        return false;
+    }
+    if part.triangles.len() == garment.triangles.len() {
+        return true;
+    }
+    let whole = enclosed_share_at(garment, segments, &samples);
+    if whole < MIN_ENCLOSED_SHARE {
+        return true;
+    }
+    let mut own = part.triangles.iter().peekable();
+    let others = (0..garment.triangles.len() as u32).filter(|t| own.next_if_eq(&t).is_none());
+    let others = mesh_of(garment, others);
+    enclosed_share_at(&others, segments, &samples) >= AS_WELL * whole && !is_sewn(garment, part, &others)
+}
+
+/// Whether most of the border of `part` is at `others`.
+fn is_sewn(garment: &TriangleMesh, part: &Part, others: &TriangleMesh) -> bool {
+    let topology = Topology::new(garment.positions.len(), &part.mesh(garment).triangles);
+    let border: Vec<u32> = topology.loops.iter().flat_map(|l| l.vertices.iter().copied()).collect();
+    let tree = ClosestPoint::new(others);
+    let near = border.iter().filter(|&&v| tree.distance(garment.positions[v as usize]) < SEAM).count();
+    near as f64 > SEWN * border.len() as f64
+}
+
+/// Joins parts that nearly touch.
+fn join_near(garment: &TriangleMesh, parts: Vec<Part>) -> Vec<Part> {
+    let trees: Vec<ClosestPoint> = parts.par_iter().map(|part| ClosestPoint::new(&part.mesh(garment))).collect();
+    let mut links: Vec<[u32; 2]> = Vec::new();
+    for (i, a) in parts.iter().enumerate() {
+        links.push([i as u32; 2]);
+        for (j, b) in parts.iter().enumerate().skip(i + 1) {
+            let (small, large) = (a.size().min(b.size()), a.size().max(b.size()));
+            let near = (NEAR_LARGER * large).max(NEAR_SMALLER * small);
+            let is_near = |&v: &u32| trees[i].distance(garment.positions[v as usize]) < near;
+            if a.gap(b) < near && b.vertices.iter().any(is_near) {
+                links.push([i as u32, j as u32]);
+            }
+        }
+    }
+    let (labels, count) = label_pieces(parts.len(), links.into_iter());
+    let mut joined: Vec<Option<Part>> = (0..count).map(|_| None).collect();
+    for (part, label) in parts.into_iter().zip(labels) {
+        match &mut joined[label as usize] {
+            Some(first) => first.merge(part),
+            slot => *slot = Some(part),
+        }
+    }
+    joined.into_iter().flatten().collect()
+}
+
+/// How `part` is carried; none where nothing is near enough, or where it is no such thing.
+fn carry(
+    garment: &TriangleMesh,
+    part: &Part,
+    source: &Skeleton,
+    source_body: Option<&ClosestPoint>,
+) -> Option<CarriedPiece> {
+    let size = part.size();
+    if !(SIZES[0]..=SIZES[1]).contains(&size) {
+        return None;
+    }
+    let from_bones = part.vertices.iter().filter_map(|&v| nearest_bone(source, garment.positions[v as usize]));
+    let (from_bone, bone) = from_bones.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let from_body = source_body.map(|body| {
+        let distances = part.vertices.iter().map(|&v| body.distance(garment.positions[v as usize]));
+        distances.fold(f64::INFINITY, f64::min)
+    });
+    if from_bone > MAX_FROM_BONE || from_body.is_some_and(|distance| distance > MAX_FROM_BODY) {
+        return None;
+    }
+    let shells = shells(garment, part);
+    if shells.iter().any(|shell| shell.area >= LARGE * shells[0].area && shell.is_tube()) {
+        return None;
+    }
+    Some(CarriedPiece {
+        vertices: part.vertices.clone(),
+        triangle: part.triangles[0],
+        bone,
+        distance: from_body.unwrap_or(from_bone),
+        stiff: size <= SMALL || shells.first().is_some_and(Shell::is_thick),
+    })
+}
+
+/// The distance of `p` from the nearest bone, and that bone.
+fn nearest_bone(source: &Skeleton, p: DVec3) -> Option<(f64, u32)> {
+    let distance = |ends: &[u32; 2]| {
+        let [a, b] = ends.map(|joint| source.joints[joint as usize]);
+        closest_on_segment(p, a, b - a).distance(p)
+    };
+    source.bones.iter().map(distance).zip(0..).min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// A connected surface with its topology.
+struct Shell {
+    mesh: TriangleMesh,
+    topology: Topology,
+    area: f64,
+}
+
+/// The connected surfaces of `part`, the largest first.
+fn shells(garment: &TriangleMesh, part: &Part) -> Vec<Shell> {
+    let all: Vec<[u32; 3]> = part.triangles.iter().map(|&t| garment.triangles[t as usize]).collect();
+    let links = all.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
+    let (labels, count) = label_pieces(garment.positions.len(), links);
+    let mut triangles = vec![Vec::new(); count];
+    all.iter().for_each(|t| triangles[labels[t[0] as usize] as usize].push(*t));
+    let shell = |triangles: Vec<[u32; 3]>| {
+        let topology = Topology::new(garment.positions.len(), &triangles);
+        let area = triangles.iter().map(|t| triangle_area(t.map(|v| garment.positions[v as usize]))).sum();
+        Shell { mesh: TriangleMesh { positions: garment.positions.clone(), triangles }, topology, area }
+    };
+    let mut shells: Vec<Shell> = triangles.into_iter().map(shell).collect();
+    shells.sort_by(|a, b| b.area.total_cmp(&a.area));
+    shells
+}
+
+impl Shell {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.mesh.triangles.iter().flatten().map(|&v| self.mesh.positions[v as usize])
+    }
+
+    /// Whether there are two openings that are wide beside it.
+    fn is_tube(&self) -> bool {
+        let low = self.corners().fold(DVec3::INFINITY, DVec3::min);
+        let high = self.corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let is_opening = |vertices: &Vec<u32>| {
+            let points: Vec<DVec3> = vertices.iter().map(|&v| self.mesh.positions[v as usize]).collect();
+            let (mut area, mut length) = (DVec3::ZERO, 0.0);
+            for (k, &p) in points.iter().enumerate() {
+                let next = points[(k + 1) % points.len()];
+                area += 0.5 * (p - points[0]).cross(next - points[0]);
+                length += p.distance(next);
+            }
+            area.length() > ROUND * length * length && length > WIDE * low.distance(high)
+        };
+        self.topology.loops.iter().filter(|l| is_opening(&l.vertices)).count() > 1
+    }
+
+    /// Whether it is closed, but for a little, and thick.
+    fn is_thick(&self) -> bool {
+        let border: usize = self.topology.loops.iter().map(|l| l.vertices.len()).sum::<usize>()
+            + self.topology.open_boundaries.iter().map(Vec::len).sum::<usize>();
+        if border as f64 > OPEN_EDGES * self.topology.edges.len() as f64 {
+            return false;
+        }
+        let centre = self.corners().sum::<DVec3>() / (3 * self.mesh.triangles.len()).max(1) as f64;
+        let volume = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| self.mesh.positions[v as usize] - centre);
+            a.cross(b).dot(c) / 6.0
+        };
+        let volume: f64 = self.mesh.triangles.iter().map(volume).sum();
+        volume.abs() > THICK * self.area.powf(1.5)
+    }
+}

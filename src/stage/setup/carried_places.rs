@@ -1,0 +1,293 @@
+//! Where carried pieces go.
+//!
+//! Each vertex goes along with the bones around it ([`BoneMap`]). Then the piece is brought to its clearance,
+//!
+//! ```text
+//! D(p_v) = c_v = max(s k |source body - rest_v| + offset, 2 dhat),
+//! ```
+//!
+//! D the signed distance to the target body with what it wears, s the scale of the similarity nearest to the map of the piece,
+//! and k the option `designed_clearance`. Without a source body the piece touches the target body where it comes nearest to it,
+//! for it is worn, and is as much looser elsewhere as the map has it. A soft piece moves vertex by vertex, along normals of the
+//! body that are smoothed over the piece. A stiff one keeps the shape of that similarity, and moves and turns as a whole: what is
+//! near to the body decides.
+
+use glam::{DQuat, DVec3};
+
+use super::bone_map::BoneMap;
+use super::carried_pieces::CarriedPiece;
+use crate::energy::carry::{Carried, Carry};
+use crate::geometry::alignment::Similarity;
+use crate::geometry::closest_point::ClosestPoint;
+use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::sdf::Field;
+
+/// A displacement by this share of a piece's size costs as much as a strain of 1.
+const LEVER: f64 = 0.25;
+/// A stiff piece goes along with the bones that are the nearest ones of this share of it.
+const SUPPORTS: f64 = 0.3;
+/// It turns by this angle at most to lie against the body, in radians: so that a ring beside an ear does not turn over.
+const MAX_TURN: f64 = 0.3;
+/// Rounds in which normals are smoothed over a piece.
+const SMOOTHINGS: usize = 6;
+/// Rounds in which a piece is brought to its clearance.
+const SOFT_ROUNDS: usize = 8;
+const STIFF_ROUNDS: usize = 60;
+/// Rounds in which a stiff piece is moved clear of the body.
+const CLEARING_ROUNDS: usize = 40;
+/// Between points of a stiff piece that are to be clear of the body, and parts of a triangle's side at most.
+const SPACING: f64 = 0.02;
+const MAX_PARTS: usize = 16;
+/// The smallest cosine between a smoothed normal and the body's that divides the way that is left.
+const MIN_COSINE: f64 = 0.5;
+/// A vertex of a stiff piece counts for its clearance with 1 / (1 + (d / r)^2)^2, d its clearance beyond the least, and r this
+/// share of its size; the rest of it stays.
+const NEAR: f64 = 0.1;
+const STAYS: f64 = 0.02;
+/// Without a source body, this share of the vertices of a soft piece is nearer than where it touches: single ones may be inside of another
+/// part of the body, such as an arm.
+const OUTLIERS: f64 = 0.05;
+
+/// A carried piece with its places.
+struct Piece {
+    carried: CarriedPiece,
+    /// Its triangles, by positions in `vertices` of the piece.
+    triangles: Vec<[u32; 3]>,
+    rest: Vec<DVec3>,
+    /// Where its vertices go.
+    places: Vec<DVec3>,
+    /// The area around each vertex.
+    areas: Vec<f64>,
+    /// The distance of each vertex from the source body, times the scale.
+    designed: Option<Vec<f64>>,
+    size: f64,
+    /// The similarity nearest to its map along the bones.
+    similarity: Similarity,
+}
+
+/// The carried pieces of a garment.
+#[derive(Default)]
+pub struct CarriedPlaces {
+    pieces: Vec<Piece>,
+}
+
+impl CarriedPlaces {
+    /// The places of the `carried` pieces of `garment` by `map` alone. `source_body` is what it was designed on, and
+    /// `looseness` the option `designed_clearance`.
+    pub fn new(
+        garment: &TriangleMesh,
+        carried: &[CarriedPiece],
+        map: &BoneMap,
+        source_body: Option<&ClosestPoint>,
+        looseness: f64,
+    ) -> Self {
+        let mut local = vec![u32::MAX; garment.positions.len()];
+        let mut owner = vec![u32::MAX; garment.positions.len()];
+        for (k, piece) in (0u32..).zip(carried) {
+            for (i, &v) in (0u32..).zip(&piece.vertices) {
+                (local[v as usize], owner[v as usize]) = (i, k);
+            }
+        }
+        let mut triangles: Vec<Vec<[u32; 3]>> = vec![Vec::new(); carried.len()];
+        for t in &garment.triangles {
+            if let Some(own) = triangles.get_mut(owner[t[0] as usize] as usize) {
+                own.push(t.map(|v| local[v as usize]));
+            }
+        }
+        let designed = |rest: &[DVec3], scale: f64| {
+            let at = |body: &ClosestPoint| rest.iter().map(|&p| scale * looseness * body.distance(p)).collect();
+            source_body.map(at)
+        };
+        let piece = |(carried, triangles): (&CarriedPiece, Vec<[u32; 3]>)| {
+            let rest: Vec<DVec3> = carried.vertices.iter().map(|&v| garment.positions[v as usize]).collect();
+            let areas = vertex_areas(&rest, &triangles);
+            let stiff_map = carried.stiff.then(|| map.around(&rest, &areas, SUPPORTS));
+            let map = stiff_map.as_ref().unwrap_or(map);
+            let mapped: Vec<DVec3> = rest.iter().map(|&p| map.apply(p)).collect();
+            let similarity = Similarity::nearest(&rest, &mapped, &areas, None);
+            let places = if carried.stiff { rest.iter().map(|&p| similarity.apply(p)).collect() } else { mapped };
+            Piece {
+                carried: carried.clone(),
+                designed: designed(&rest, similarity.scale),
+                size: size(&rest),
+                triangles,
+                rest,
+                places,
+                areas,
+                similarity,
+            }
+        };
+        Self { pieces: carried.iter().zip(triangles).map(piece).collect() }
+    }
+
+    /// True without any.
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// The carried pieces.
+    pub fn pieces(&self) -> impl Iterator<Item = &CarriedPiece> {
+        self.pieces.iter().map(|piece| &piece.carried)
+    }
+
+    /// The vertices of each stiff piece, and its rest positions at the size that it has on the target body.
+    pub fn stiff(&self) -> impl Iterator<Item = (&[u32], Vec<DVec3>)> {
+        let scaled = |piece: &Piece| piece.rest.iter().map(|&p| piece.similarity.scale * p).collect();
+        self.pieces.iter().filter(|p| p.carried.stiff).map(move |p| (&p.carried.vertices[..], scaled(p)))
+    }
+
+    /// Brings all pieces to their clearances from the body of `field`: `least` at least, and the designed one and `offset`.
+    pub fn settle(&mut self, field: &Field, least: f64, offset: f64) {
+        for piece in &mut self.pieces {
+            piece.settle(field, least, offset);
+        }
+    }
+
+    /// The term that draws the garment's vertices there.
+    pub fn term(&self) -> Carry {
+        let mut elements = Vec::new();
+        for piece in &self.pieces {
+            let lever = LEVER * piece.size;
+            let vertices = piece.carried.vertices.iter().zip(&piece.rest).zip(&piece.places).zip(&piece.areas);
+            elements.extend(vertices.map(|(((&vertex, &start), &end), area)| {
+                let weight = area / (lever * lever);
+                Carried { vertex, start, end, weight }
+            }));
+        }
+        Carry::new(elements)
+    }
+}
+
+impl Piece {
+    fn settle(&mut self, field: &Field, least: f64, offset: f64) {
+        let distances: Vec<f64> = self.places.iter().map(|&p| field.value(p)).collect();
+        let wanted: Vec<f64> = match &self.designed {
+            Some(designed) => designed.iter().map(|d| (d + offset).max(least)).collect(),
+            None => {
+                let outliers = if self.carried.stiff { 0.0 } else { OUTLIERS };
+                let touching = low_quantile(&distances, outliers);
+                distances.iter().map(|d| (d - touching).max(0.0) + offset.max(least)).collect()
+            }
+        };
+        if self.carried.stiff {
+            self.settle_stiff(field, &wanted);
+            self.clear(field, least);
+        } else {
+            self.settle_soft(field, &wanted);
+        }
+    }
+
+    fn settle_soft(&mut self, field: &Field, wanted: &[f64]) {
+        for _ in 0..SOFT_ROUNDS {
+            let now: Vec<(f64, DVec3)> = self.places.iter().map(|&p| field.value_gradient(p)).collect();
+            let slopes: Vec<DVec3> = now.iter().map(|(_, slope)| slope.normalize_or_zero()).collect();
+            let normals = self.smoothed(slopes.clone());
+            for (k, place) in self.places.iter_mut().enumerate() {
+                let cosine = normals[k].dot(slopes[k]).max(MIN_COSINE);
+                *place += normals[k] * ((wanted[k] - now[k].0) / cosine);
+            }
+        }
+    }
+
+    fn settle_stiff(&mut self, field: &Field, wanted: &[f64]) {
+        let nearest = wanted.iter().copied().fold(f64::INFINITY, f64::min);
+        let reach = NEAR * self.similarity.scale * self.size;
+        let counts = |wanted: &f64| {
+            let ratio = (wanted - nearest) / reach;
+            1.0 / (1.0 + ratio * ratio).powi(2)
+        };
+        let counts: Vec<f64> = wanted.iter().map(counts).collect();
+        let weights: Vec<f64> = counts.iter().zip(&self.areas).map(|(c, area)| (c + STAYS) * area).collect();
+        for _ in 0..STIFF_ROUNDS {
+            let moved: Vec<DVec3> = (0..self.places.len())
+                .map(|k| {
+                    let (distance, slope) = field.value_gradient(self.places[k]);
+                    let share = counts[k] / (counts[k] + STAYS);
+                    self.places[k] + share * (wanted[k] - distance) * slope.normalize_or_zero()
+                })
+                .collect();
+            let mut placed = Similarity::nearest(&self.rest, &moved, &weights, Some(self.similarity.scale));
+            placed.rotation = turned(self.similarity.rotation, placed.rotation);
+            self.places = self.rest.iter().map(|&p| placed.apply(p)).collect();
+        }
+    }
+
+    /// Moves a stiff piece as a whole until nothing of its surface is nearer than `least`, each time as its nearest point asks
+    /// for: an edge of the body may be inside of a triangle whose corners are outside.
+    fn clear(&mut self, field: &Field, least: f64) {
+        let mut points = self.samples();
+        let mut moved = DVec3::ZERO;
+        for _ in 0..CLEARING_ROUNDS {
+            let distances = points.iter().map(|&p| field.value(p)).enumerate();
+            let Some((nearest, distance)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            if distance >= least {
+                break;
+            }
+            let (_, slope) = field.value_gradient(points[nearest]);
+            let step = slope.normalize_or_zero() * (1.1 * least - distance);
+            points.iter_mut().for_each(|p| *p += step);
+            moved += step;
+        }
+        self.places.iter_mut().for_each(|p| *p += moved);
+    }
+
+    /// Its vertices, and points of its triangles at most [`SPACING`] apart.
+    fn samples(&self) -> Vec<DVec3> {
+        let mut points = self.places.clone();
+        for t in &self.triangles {
+            let [a, b, c] = t.map(|v| self.places[v as usize]);
+            let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+            let parts = ((longest / SPACING).ceil() as usize).clamp(1, MAX_PARTS);
+            for i in 0..=parts {
+                for j in 0..=parts - i {
+                    let [v, w] = [i, j].map(|k| k as f64 / parts as f64);
+                    points.push(a + v * (b - a) + w * (c - a));
+                }
+            }
+        }
+        points
+    }
+
+    /// Unit vectors of the vertices, averaged over the triangles at them.
+    fn smoothed(&self, mut vectors: Vec<DVec3>) -> Vec<DVec3> {
+        for _ in 0..SMOOTHINGS {
+            let mut sums = vectors.clone();
+            for t in &self.triangles {
+                let mean = t.iter().map(|&v| vectors[v as usize]).sum::<DVec3>();
+                t.iter().for_each(|&v| sums[v as usize] += mean);
+            }
+            vectors = sums.into_iter().map(|sum| sum.normalize_or_zero()).collect();
+        }
+        vectors
+    }
+}
+
+/// `to`, or where that is farther from `from` than [`MAX_TURN`], the rotation so far on the way.
+fn turned(from: DQuat, to: DQuat) -> DQuat {
+    let angle = from.angle_between(to);
+    if angle > MAX_TURN { from.slerp(to, MAX_TURN / angle) } else { to }
+}
+
+/// The diagonal of the bounding box.
+fn size(points: &[DVec3]) -> f64 {
+    let low = points.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let high = points.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+    low.distance(high)
+}
+
+/// A third of the triangles at each vertex, and a little of the mean: a vertex of slivers is carried too.
+fn vertex_areas(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
+    let mut areas = vec![0.0; points.len()];
+    for t in triangles {
+        let share = triangle_area(t.map(|v| points[v as usize])) / 3.0;
+        t.iter().for_each(|&v| areas[v as usize] += share);
+    }
+    let mean = areas.iter().sum::<f64>() / areas.len().max(1) as f64;
+    areas.iter().map(|area| area.max(0.01 * mean)).collect()
+}
+
+fn low_quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0)
+}
