@@ -32,6 +32,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER] = "kept_together",
     [BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR] = "welded_near",
     [BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE] = "carried_piece",
+    [BESPOKE_DIAGNOSTIC_KIND_UNTANGLED] = "untangled",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

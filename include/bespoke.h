@@ -309,6 +309,9 @@ enum BespokeDiagnosticKind
   /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
   /// vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR = 29,
+  /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
+  /// fewer such pairs of triangles than the design. The first pair is named.
+  BESPOKE_DIAGNOSTIC_KIND_UNTANGLED = 27,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -395,7 +398,7 @@ enum BespokePartRole
  {
   /// Body, unless its connected piece is recognised as no part of the body, such as a floor or a dome: then it is
   /// ignored, and a diagnostic says so. The default.
-  BESPOKE_PART_ROLE_AUTO = 0,
+  BESPOKE_PART_ROLE_AUTOMATIC = 0,
   /// Body: the garment is fitted to it and does not pass through it. It is left out in no case.
   BESPOKE_PART_ROLE_BODY = 1,
   /// The garment does not pass through it, but is not drawn to it, such as hair that hangs over a coat.
@@ -888,7 +891,7 @@ BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
 /// State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
 
-/// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTO, the library
+/// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTOMATIC, the library
 /// leaves out pieces that are no part of the body, with a diagnostic, and takes all else for body. With the option strict
 /// it leaves nothing out.
 ///

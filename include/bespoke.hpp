@@ -142,6 +142,7 @@ enum class DiagnosticKind : std::uint32_t {
     settings_adjusted = BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED,
     kept_together = BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER,
     welded_near = BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR,
+    untangled = BESPOKE_DIAGNOSTIC_KIND_UNTANGLED,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.
@@ -170,7 +171,7 @@ enum class ElementKind : std::uint32_t {
 
 /// What a triangle of the avatar is to the garment: BespokePartRole.
 enum class PartRole : std::uint32_t {
-    auto = BESPOKE_PART_ROLE_AUTO,
+    automatic = BESPOKE_PART_ROLE_AUTOMATIC,
     body = BESPOKE_PART_ROLE_BODY,
     collision = BESPOKE_PART_ROLE_COLLISION,
     ignored = BESPOKE_PART_ROLE_IGNORED,

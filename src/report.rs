@@ -82,8 +82,8 @@ pub struct Report {
     pub min_separation: f64,
     /// Whether the fit ended by its tolerance, and not by the limit of iterations.
     pub converged: bool,
-    /// Pairs of garment triangles that intersect or touch at the start, which are exempted from contact until they
-    /// separate.
+    /// Pairs of garment triangles that intersect or touch as designed. They are pulled apart before the start, or exempted
+    /// from contact until they separate.
     pub initial_self_intersections: usize,
     /// Garment vertices and triangles.
     pub garment_size: [usize; 2],

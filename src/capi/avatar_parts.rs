@@ -12,7 +12,7 @@ use crate::session::PartRole;
 pub enum BespokePartRole {
     /// Body, unless its connected piece is recognised as no part of the body, such as a floor or a dome: then it is
     /// ignored, and a diagnostic says so. The default.
-    Auto = 0,
+    Automatic = 0,
     /// Body: the garment is fitted to it and does not pass through it. It is left out in no case.
     Body = 1,
     /// The garment does not pass through it, but is not drawn to it, such as hair that hangs over a coat.
@@ -23,7 +23,7 @@ pub enum BespokePartRole {
 
 const ROLES: &str = "avatar parts";
 
-/// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTO, the library
+/// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTOMATIC, the library
 /// leaves out pieces that are no part of the body, with a diagnostic, and takes all else for body. With the option strict
 /// it leaves nothing out.
 ///
@@ -47,13 +47,13 @@ pub unsafe extern "C" fn bespoke_session_set_avatar_parts(
             let mut parsed = Vec::with_capacity(numbers.len());
             for (triangle, number) in numbers.into_iter().enumerate() {
                 parsed.push(match number {
-                    0 => PartRole::Auto,
+                    0 => PartRole::Automatic,
                     1 => PartRole::Body,
                     2 => PartRole::Collision,
                     3 => PartRole::Ignored,
                     _ => {
                         return invalid(format!(
-                            "{ROLES}: triangle {triangle} has role {number}; roles go from 0 to 3"
+                            "avatar parts: triangle {triangle} has role {number}; roles go from 0 to 3"
                         ));
                     }
                 });

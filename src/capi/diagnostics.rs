@@ -73,6 +73,9 @@ pub enum BespokeDiagnosticKind {
     /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
     /// vertices are named.
     WeldedNear = 29,
+    /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
+    /// fewer such pairs of triangles than the design. The first pair is named.
+    Untangled = 27,
 }
 
 /// How much a diagnostic matters.
@@ -193,6 +196,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::KeptTogether => BespokeDiagnosticKind::KeptTogether,
             DiagnosticKind::WeldedNear => BespokeDiagnosticKind::WeldedNear,
             DiagnosticKind::CarriedPiece => BespokeDiagnosticKind::CarriedPiece,
+            DiagnosticKind::Untangled => BespokeDiagnosticKind::Untangled,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

@@ -65,7 +65,7 @@ fn rotation_of(a: &DMat3) -> DQuat {
         let turn = torque / (dot.abs() + f64::MIN_POSITIVE);
         // Beyond a radian the direction of the turn is right, its size is not.
         let turn = turn.clamp_length_max(1.0);
-        if !(turn.length() > SMALL_TURN) {
+        if turn.length() <= SMALL_TURN || turn.is_nan() {
             break;
         }
         rotation = (DQuat::from_scaled_axis(turn) * rotation).normalize();

@@ -13,7 +13,7 @@ use crate::geometry::mesh::TriangleMesh;
 pub enum PartRole {
     /// Body, unless its piece is recognised as no part of the body.
     #[default]
-    Auto,
+    Automatic,
     /// The garment is fitted to it and does not pass through it.
     Body,
     /// The garment does not pass through it, but is not fitted to it.
@@ -87,7 +87,7 @@ impl Body {
     /// # Errors
     /// Those of [`Self::new`], and `InvalidMesh` where no triangle is left that the garment can be fitted to.
     pub fn with_roles(avatar: &Arc<TriangleMesh>, layers: &[Arc<TriangleMesh>], roles: &[PartRole]) -> Result<Self> {
-        if roles.iter().all(|role| matches!(role, PartRole::Auto | PartRole::Body)) {
+        if roles.iter().all(|role| matches!(role, PartRole::Automatic | PartRole::Body)) {
             return Self::new(avatar, layers);
         }
         let kept: Vec<u32> = (0u32..).zip(roles).filter(|(_, r)| **r != PartRole::Ignored).map(|(t, _)| t).collect();

@@ -102,6 +102,8 @@ pub enum DiagnosticKind {
     KeptTogether,
     /// Open seams whose sides are a hair apart, which are closed.
     WeldedNear,
+    /// The garment passed through itself in the design, and begins pulled apart there.
+    Untangled,
 }
 
 /// How much a diagnostic matters.
@@ -401,6 +403,15 @@ pub enum Diagnostic {
         /// What `inflation_barrier_weight` was in it.
         inflation_barrier_weight: f64,
     },
+    /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly.
+    Untangled {
+        /// Pairs of triangles that intersected in the design and do not at the start.
+        pairs: usize,
+        /// Pairs that intersect still.
+        remaining: usize,
+        /// The first two of those pulled apart.
+        first: [u32; 2],
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -450,6 +461,7 @@ impl Diagnostic {
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
+            Self::Untangled { .. } => DiagnosticKind::Untangled,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -467,7 +479,8 @@ impl Diagnostic {
             | Self::WeldedNear { .. }
             | Self::CarriedPiece { .. }
             | Self::NearContact { .. }
-            | Self::SettingsAdjusted { .. } => Severity::Note,
+            | Self::SettingsAdjusted { .. }
+            | Self::Untangled { .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
             | Self::SelfIntersection { strict: false, .. }
             | Self::BoneMoved { .. }
@@ -505,9 +518,9 @@ impl Diagnostic {
             Self::KeptTogether { vertex: v, triangle: t, .. } => vec![vertex(v), triangle(t)],
             Self::CarriedPiece { triangle: t, bone, .. } => vec![triangle(t), bone.element()],
             Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
-            Self::SelfIntersection { triangles, .. } | Self::ResultSelfIntersection { triangles } => {
-                triangles.map(triangle).into()
-            }
+            Self::SelfIntersection { triangles, .. }
+            | Self::ResultSelfIntersection { triangles }
+            | Self::Untangled { first: triangles, .. } => triangles.map(triangle).into(),
             Self::BoneMoved { bone, ref triangles, .. } => {
                 std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
             }

@@ -218,6 +218,17 @@ impl Display for Diagnostic {
                  {attempts} succeeded, with inflation_dhat {inflation_dhat} and inflation_barrier_weight \
                  {inflation_barrier_weight}; set these to save the time of the others"
             ),
+            Self::Untangled { pairs, remaining, first: [s, t] } => {
+                write!(
+                    f,
+                    "garment: {pairs} pairs of triangles that pass through each other as designed, such as {s} and {t}, are pulled \
+                     apart before the fit; "
+                )?;
+                match remaining {
+                    0 => f.write_str("none is left"),
+                    _ => write!(f, "{remaining} pairs are left as they were"),
+                }
+            }
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }

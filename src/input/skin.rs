@@ -158,7 +158,7 @@ impl SkinWeights {
     }
 
     /// Joints with their weights, ascending, each once.
-    fn weights(&self, vertex: usize) -> &[(u32, f64)] {
+    pub fn weights(&self, vertex: usize) -> &[(u32, f64)] {
         let first = if vertex == 0 { 0 } else { self.ends[vertex - 1] };
         &self.influences[first..self.ends[vertex]]
     }

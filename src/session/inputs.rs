@@ -99,7 +99,7 @@ impl Session {
         Ok(())
     }
 
-    /// The role of each triangle of the avatar. Optional: [`PartRole::Auto`] for all.
+    /// The role of each triangle of the avatar. Optional: [`PartRole::Automatic`] for all.
     ///
     /// # Errors
     /// `InvalidState`. The number is compared with that of the avatar's triangles by `prepare`.
@@ -331,7 +331,7 @@ impl Inputs {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Vec<PartRole>> {
         let count = avatar.triangles.len();
-        let mut roles = self.roles.as_ref().map_or_else(|| vec![PartRole::Auto; count], |roles| roles.to_vec());
+        let mut roles = self.roles.as_ref().map_or_else(|| vec![PartRole::Automatic; count], |roles| roles.to_vec());
         if roles.len() != count {
             return Err(Error::new(
                 ErrorKind::InvalidArgument,
@@ -343,7 +343,7 @@ impl Inputs {
             positions: avatar.positions.clone(),
             triangles: own.iter().map(|&t| avatar.triangles[t as usize]).collect(),
         };
-        let mut found = foreign_parts::find(&part, target, |t| roles[own[t as usize] as usize] != PartRole::Auto);
+        let mut found = foreign_parts::find(&part, target, |t| roles[own[t as usize] as usize] != PartRole::Automatic);
         found.iter_mut().flat_map(|part| &mut part.triangles).for_each(|t| *t = own[*t as usize]);
         Diagnostic::list(diagnostics, &found, |part| part.diagnostic(!self.options.strict));
         if !self.options.strict {

@@ -92,7 +92,7 @@ impl Run {
             problem.settle_carried(&built);
             distance = Some((Arc::new(built), seconds));
         }
-        let state = State { x: problem.rest.clone(), t: 0.0 };
+        let state = State { x: problem.initial_state(false).0.to_vec(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
         let held = inputs.memory() + problem.memory();
@@ -172,7 +172,9 @@ impl Run {
             }
         };
         if stage == Stage::Fit && ended {
-            self.shortfalls = self.attempts.adjustment().into_iter().collect();
+            let as_designed = self.attempts.settings().is_some_and(|settings| settings.as_designed);
+            let untangling = if as_designed { None } else { self.problem.untangling() };
+            self.shortfalls = self.attempts.adjustment().into_iter().chain(untangling).collect();
             self.shortfalls.extend(finish::finish(&self.problem, &mut self.objective, &mut self.state)?);
             self.newton.forget_values();
         }
@@ -198,14 +200,17 @@ impl Run {
     /// Where the inflation has stalled, begins another attempt with other settings. False where all were tried.
     fn try_again(&mut self) -> Result<bool> {
         let (t, iterations) = (self.state.t, self.iterations());
-        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, t, iterations) else {
+        let untangled = self.problem.untangled.is_some();
+        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, t, iterations, untangled)
+        else {
             return Ok(false);
         };
         self.step = Step::Inflate(Inflation::another(iterations));
         let stop = &self.context.stop;
         let objective = self.problem.another_inflation(&settings, &self.options, stop);
         stop.check()?;
-        let state = State { x: self.problem.rest.clone(), t: 0.0 };
+        self.initial_intersections = objective.contact.exempt_pairs().triangle_pairs().into();
+        let state = State { x: self.problem.initial_state(settings.as_designed).0.to_vec(), t: 0.0 };
         let budget = self.remaining_budget().reserving(objective.memory());
         self.newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
         let stalled = (std::mem::replace(&mut self.objective, objective), std::mem::replace(&mut self.state, state));
@@ -223,6 +228,7 @@ impl Run {
                 && farthest.1.t > self.state.t
             {
                 (self.objective, self.state) = *farthest;
+                self.initial_intersections = self.objective.contact.exempt_pairs().triangle_pairs().into();
             }
             if self.attempts.settings().is_some() {
                 error.message = stalled_message(self.state.t);
@@ -348,7 +354,8 @@ fn initial_report(problem: &Problem, body: &Body, objective: &Objective, threads
         avatar_size: body.avatar_size(),
         projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
         min_separation: objective.contact.min_separation(),
-        initial_self_intersections: objective.contact.exempt_pairs().triangle_pairs().len(),
+        initial_self_intersections: problem.designed_intersections.len() - problem.initial_state(false).1.len()
+            + objective.contact.exempt_pairs().triangle_pairs().len(),
         threads,
         ..Report::default()
     }

@@ -17,6 +17,8 @@ pub struct Settings {
     pub inflation_dhat: f64,
     /// Weight of the barrier.
     pub inflation_barrier_weight: f64,
+    /// The garment begins as designed, and not pulled apart where it passes through itself.
+    pub as_designed: bool,
 }
 
 /// Factors on d-hat and weight of the first attempt, in the order in which they are tried.
@@ -45,15 +47,21 @@ impl Attempts {
     }
 
     /// The settings of the next attempt, after one that stalled at `t`, with so many iterations in all. `options` and
-    /// `distances` are those of the first. None where all were tried.
+    /// `distances` are those of the first; `untangled` where the garment was pulled apart for it. None where all were tried.
     pub fn next(
         &mut self,
         options: &Options,
         distances: &ContactDistances,
         t: f64,
         iterations: u32,
+        untangled: bool,
     ) -> Option<Settings> {
-        let [dhat, weight] = *FACTORS.get(self.begun)?;
+        // What was pulled apart begins as designed after one other attempt: it may be in the way of itself.
+        let (as_designed, [dhat, weight]) = match (untangled, self.begun) {
+            (true, 1) => (true, [1.0, 1.0]),
+            (true, k) if k > 1 => (true, *FACTORS.get(k - 2)?),
+            (_, k) => (false, *FACTORS.get(k)?),
+        };
         if iterations >= MOST_ITERATIONS {
             return None;
         }
@@ -66,13 +74,16 @@ impl Attempts {
         self.settings = Some(Settings {
             inflation_dhat: (dhat * distances.inflation_dhat).max(narrowest).clamp(DHAT[0], DHAT[1]),
             inflation_barrier_weight: (weight * options.inflation_barrier_weight).clamp(WEIGHT[0], WEIGHT[1]),
+            as_designed,
         });
         self.settings
     }
 
     /// What is said of a result, where it was found with other settings than the caller's.
     pub fn adjustment(&self) -> Option<Diagnostic> {
-        self.settings.map(|settings| Diagnostic::SettingsAdjusted {
+        let settings = self.settings?;
+        // The second attempt on a garment that was pulled apart is with the caller's, on the garment as designed.
+        (!settings.as_designed || self.begun > 2).then_some(Diagnostic::SettingsAdjusted {
             stalled_at: self.first_t,
             attempts: self.begun + 1,
             inflation_dhat: settings.inflation_dhat,

@@ -24,11 +24,16 @@ impl Problem {
         cancel: &Cancel,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Objective> {
-        let at = Configuration { x: &self.rest, t: 0.0 };
+        let (x, intersections) = self.initial_state(false);
+        let at = Configuration { x, t: 0.0 };
         let mut objective = self.growing(options, cancel);
-        objective.contact.initialise(at, &self.initial_intersections);
+        objective.contact.initialise(at, intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
-        report_initial_intersections(self, initial_intersections, options.strict, diagnostics);
+        let mut designed = self.designed_intersections.clone();
+        designed.extend(initial_intersections);
+        designed.sort_unstable();
+        designed.dedup();
+        report_initial_intersections(self, &designed, options.strict, diagnostics);
         if options.strict && !initial_intersections.is_empty() {
             return Err(intersects_itself(self, initial_intersections));
         }
@@ -78,9 +83,17 @@ impl Problem {
         let mut objective = self.growing(options, cancel);
         objective.contact.set_inflation_dhat(settings.inflation_dhat);
         objective.set_contact(settings.inflation_dhat, settings.inflation_barrier_weight);
-        let at = Configuration { x: &self.rest, t: 0.0 };
-        objective.contact.initialise(at, &self.initial_intersections);
+        let (x, intersections) = self.initial_state(settings.as_designed);
+        objective.contact.initialise(Configuration { x, t: 0.0 }, intersections);
         objective
+    }
+
+    /// What a result says that began pulled apart.
+    pub fn untangling(&self) -> Option<Diagnostic> {
+        let left = &self.untangled.as_ref()?.remaining;
+        let mut apart = self.designed_intersections.iter().filter(|pair| left.binary_search(pair).is_err());
+        let first = apart.next()?.map(|t| self.weld.triangle_of[t as usize]);
+        Some(Diagnostic::Untangled { pairs: 1 + apart.count(), remaining: left.len(), first })
     }
 }
 
@@ -93,7 +106,7 @@ fn report_initial_intersections(
 ) {
     Diagnostic::list(diagnostics, initial_intersections, |pair| Diagnostic::SelfIntersection {
         triangles: pair.map(|t| problem.weld.triangle_of[t as usize]),
-        touches: problem.initial_intersections.binary_search(pair).is_err(),
+        touches: problem.designed_intersections.binary_search(pair).is_err(),
         strict,
     });
 }

@@ -52,7 +52,7 @@ fn without_layers_it_is_the_avatar_itself() {
 #[test]
 fn roles_leave_triangles_out_and_keep_the_callers_numbers() {
     let (avatar, layers) = (strip(4, 0.0), [strip(2, 1.0)]);
-    let roles = [PartRole::Ignored, PartRole::Body, PartRole::Collision, PartRole::Auto];
+    let roles = [PartRole::Ignored, PartRole::Body, PartRole::Collision, PartRole::Automatic];
     let body = Body::with_roles(&avatar, &layers, &roles).unwrap();
     assert_eq!((body.avatar_size(), body.avatar_positions()), ([6, 3], &avatar.positions[..]));
     assert_eq!(body.mesh.triangles[..3], avatar.triangles[1..]);
@@ -65,7 +65,11 @@ fn roles_leave_triangles_out_and_keep_the_callers_numbers() {
     // The roles stay with other positions.
     assert_eq!(body.with_mesh(TriangleMesh::clone(&body.mesh)), body);
     // Nothing is said: it is the avatar itself.
-    let plain =
-        Body::with_roles(&avatar, &[], &[PartRole::Auto, PartRole::Body, PartRole::Auto, PartRole::Auto]).unwrap();
+    let plain = Body::with_roles(
+        &avatar,
+        &[],
+        &[PartRole::Automatic, PartRole::Body, PartRole::Automatic, PartRole::Automatic],
+    )
+    .unwrap();
     assert!(Arc::ptr_eq(&plain.mesh, &avatar) && plain.fitted().is_none());
 }

@@ -55,7 +55,7 @@ fn a_floor_is_left_out_and_the_result_is_the_one_without_it() {
     // Said by the caller, it is no finding.
     let mut told = session(1.0, DVec3::ZERO);
     told.set_target_avatar(both.clone()).unwrap();
-    let mut roles = vec![PartRole::Auto; own];
+    let mut roles = vec![PartRole::Automatic; own];
     roles.extend([PartRole::Ignored; 2]);
     told.set_avatar_parts(roles.clone()).unwrap();
     let (found, told) = run(told);

@@ -117,7 +117,8 @@ fn what_has_come_apart_stays_apart() {
     let corner = |k: u32| tip as u32 + 1 + k % count;
     garment.triangles.extend((0..count).map(|k| [tip as u32, corner(k), corner(k + 1)]));
 
-    let problem = problem(&garment);
+    let mut problem = problem(&garment);
+    assert!(problem.untangled.take().is_some(), "it begins pulled apart, and here as designed");
     let options = Options::default();
     let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new()).unwrap();
     assert_eq!(

@@ -18,8 +18,7 @@ struct Scene {
 
 fn body(kind: Kind) -> Scene {
     let body = sample(kind);
-    let skeleton =
-        Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.map(|b| b.map(|j| j as u32)).to_vec() };
+    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
     let mesh = TriangleMesh { positions: body.mesh.positions.clone(), triangles: body.mesh.triangles.clone() };
     Scene { own: mesh.triangles.len(), mesh, skeleton }
 }

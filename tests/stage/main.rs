@@ -1,6 +1,7 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
 mod blockage;
+mod contour;
 mod enclosure;
 mod fit_region;
 mod foreign_parts;
@@ -11,4 +12,5 @@ mod open_ends;
 mod pin_targets;
 mod projection;
 mod repair;
+mod untangle;
 mod weight_check;

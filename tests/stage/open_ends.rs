@@ -12,8 +12,7 @@ use glam::DVec3;
 /// A body in the normalised space, z up, with its skeleton.
 fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
     let body = sample(kind);
-    let skeleton =
-        Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.map(|b| b.map(|j| j as u32)).to_vec() };
+    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
     let normalization = Normalization::of(&skeleton, "").unwrap();
     let positions = normalization.normalise_all(&body.mesh.positions);
     let joints = normalization.normalise_all(&skeleton.joints);

@@ -18,8 +18,7 @@ struct Scene {
 
 fn body(kind: Kind) -> Scene {
     let body = sample(kind);
-    let skeleton =
-        Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.map(|b| b.map(|j| j as u32)).to_vec() };
+    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
     let normalization = Normalization::of(&skeleton, "").unwrap();
     let largest = |v: usize| (0..body.skin.len()).max_by(|&a, &b| body.skin[a][v].total_cmp(&body.skin[b][v])).unwrap();
     let joints = (0..body.mesh.positions.len()).map(|v| largest(v) as u32).collect();
@@ -44,9 +43,9 @@ impl Scene {
             assert!(found.vertices.contains(v));
         }
         let cleaned = skin.without(&found.vertices);
-        for v in 0..count {
+        for (v, &joint) in joints.iter().enumerate().take(count) {
             let is_found = found.vertices.binary_search(&(v as u32)).is_ok();
-            assert_eq!(cleaned.dominant_joint(v), (!is_found).then_some(joints[v]));
+            assert_eq!(cleaned.dominant_joint(v), (!is_found).then_some(joint));
         }
         found.vertices
     }

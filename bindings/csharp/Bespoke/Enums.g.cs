@@ -272,6 +272,12 @@ namespace Bespoke
         /// vertices are named.
         /// </summary>
         WeldedNear = 29,
+
+        /// <summary>
+        /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result
+        /// has fewer such pairs of triangles than the design. The first pair is named.
+        /// </summary>
+        Untangled = 27,
     }
 
     /// <summary>How much a diagnostic matters.</summary>
@@ -334,7 +340,7 @@ namespace Bespoke
         /// Body, unless its connected piece is recognised as no part of the body, such as a floor or a dome: then it is
         /// ignored, and a diagnostic says so. The default.
         /// </summary>
-        Auto = 0,
+        Automatic = 0,
 
         /// <summary>
         /// Body: the garment is fitted to it and does not pass through it. It is left out in no case.

@@ -271,7 +271,7 @@ namespace Bespoke
 
         /// <summary>
         /// Optional: what each triangle of the avatar is to the garment. Without it, or with
-        /// <see cref="PartRole.Auto"/>, pieces that are no part of the body are left out with a diagnostic, and all else
+        /// <see cref="PartRole.Automatic"/>, pieces that are no part of the body are left out with a diagnostic, and all else
         /// is body.
         /// </summary>
         /// <param name="roles">A number of <see cref="PartRole"/> for each triangle of the avatar.</param>

@@ -30,10 +30,14 @@ use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::stage::start::projection::{ProjectedAvatar, project, project_with};
+use crate::stage::start::untangle::{Untangled, untangle};
 use crate::stage::start::weight_check::contradictions;
 use crate::stage::start::{enclosure, open_ends, repair};
 use crate::verify::{intersections, intersections_with_cancel};
 
+/// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: what is left is
+/// locked between layers that may not pass each other any more, and the inflation mostly stalls.
+const MOST_TANGLED: f64 = 0.1;
 /// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
 const MAX_OFFSET: f64 = 1.0;
 
@@ -76,6 +80,8 @@ pub struct Problem {
     pub target_normalization: Normalization,
     /// The garment as designed.
     pub rest: Vec<DVec3>,
+    /// The garment pulled apart where it passes through itself as designed, if that could be done.
+    pub untangled: Option<Untangled>,
     /// Its triangles.
     pub triangles: Vec<[u32; 3]>,
     /// Maps to the caller's indices.
@@ -96,12 +102,12 @@ pub struct Problem {
     pub source_body: Option<ClosestPoint>,
     /// The clearance to aim at in addition to the designed one.
     pub offset: f64,
-    /// Pairs of garment triangles that intersect at the start, the lower index first.
-    pub initial_intersections: Vec<[u32; 2]>,
     /// The pieces that are around no bone, and where they go.
     pub carried: CarriedPlaces,
     /// Rigid groups of the caller: those of the shape that come first.
     pub callers_groups: usize,
+    /// Pairs of garment triangles that intersect in the design, the lower index first.
+    pub designed_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
     pub distances: ContactDistances,
 }
@@ -141,7 +147,7 @@ impl Problem {
         if distances != ContactDistances::of(options) {
             diagnostics.push(Diagnostic::CoarseCoordinates { min_separation: distances.min_separation });
         }
-        let initial_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
+        let designed_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
         let callers = &inputs.weld.triangle_of;
         let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
@@ -167,6 +173,7 @@ impl Problem {
             let map = BoneMap::new(source, target, bodies);
             CarriedPlaces::new(garment, &pieces, &map, source_tree.as_ref(), options.designed_clearance)
         };
+        let untangled = pulled_apart(garment, &designed_intersections, &projected, options.strict, cancel)?;
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
@@ -206,6 +213,7 @@ impl Problem {
             source_normalization,
             target_normalization,
             rest: garment.positions,
+            untangled,
             triangles: garment.triangles,
             weld: inputs.weld.clone(),
             avatar: avatar.mesh,
@@ -216,9 +224,9 @@ impl Problem {
             fit_weights,
             source_body: source_tree,
             offset,
-            initial_intersections,
             carried,
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).count(),
+            designed_intersections,
             distances,
         })
     }
@@ -242,7 +250,17 @@ impl Problem {
             + triangles.into_iter().map(bytes).sum::<u64>()
             + bytes(&projected.bones)
             + bytes(&self.fit_weights)
+            + self.untangled.as_ref().map_or(0, |untangled| bytes(&untangled.start))
             + self.source_body.as_ref().map_or(0, ClosestPoint::memory)
+    }
+
+    /// Where the garment begins, and the pairs of its triangles that intersect there: pulled apart where that could be done and
+    /// `as_designed` is not asked for.
+    pub fn initial_state(&self, as_designed: bool) -> (&[DVec3], &[[u32; 2]]) {
+        match &self.untangled {
+            Some(untangled) if !as_designed => (&untangled.start, &untangled.remaining),
+            _ => (&self.rest, &self.designed_intersections),
+        }
     }
 
     /// The garment and `avatar`, as contact has them.
@@ -351,6 +369,28 @@ fn project_beyond_ends(
         Diagnostic::EndWithoutBone { bone, reach: open.reach, mended: mended.is_some() }
     }));
     Ok(mended.unwrap_or_else(|| project(avatar, target, source, skin)))
+}
+
+/// `garment` pulled apart where it passes through itself, unless that brings it into the shrunk avatar. A `strict` caller asks
+/// for a refusal, so nothing is pulled apart for him.
+fn pulled_apart(
+    garment: &TriangleMesh,
+    designed_intersections: &[[u32; 2]],
+    projected: &ProjectedAvatar,
+    strict: bool,
+    cancel: &Cancel,
+) -> Result<Option<Untangled>> {
+    if strict {
+        return Ok(None);
+    }
+    let Some(untangled) = untangle(garment, designed_intersections, cancel)? else { return Ok(None) };
+    if untangled.remaining.len() as f64 > MOST_TANGLED * designed_intersections.len() as f64 {
+        return Ok(None);
+    }
+    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
+    let pulled = TriangleMesh { positions: untangled.start.clone(), triangles: garment.triangles.clone() };
+    let hits = intersections_with_cancel(&pulled, Some(&shrunk), 1, cancel)?.count;
+    Ok((hits == 0).then_some(untangled))
 }
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.

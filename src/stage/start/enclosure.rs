@@ -195,11 +195,11 @@ fn principal_axes(mut m: DMat3) -> [DVec3; 3] {
     // Each sweep squares the error.
     for _ in 0..12 {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            let off = m.col(q)[p];
-            if off == 0.0 {
+            let mixed = m.col(q)[p];
+            if mixed == 0.0 {
                 continue;
             }
-            let angle = 0.5 * (2.0 * off).atan2(m.col(q)[q] - m.col(p)[p]);
+            let angle = 0.5 * (2.0 * mixed).atan2(m.col(q)[q] - m.col(p)[p]);
             let (sine, cosine) = angle.sin_cos();
             let mut turn = DMat3::IDENTITY;
             turn.col_mut(p)[p] = cosine;

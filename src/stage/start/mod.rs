@@ -2,6 +2,7 @@
 //! skeleton itself leaves the garment, it is bent around it or retracted.
 
 pub mod bent_skeleton;
+pub mod contour;
 pub mod enclosure;
 pub mod foreign_parts;
 pub mod offset_grid;
@@ -10,5 +11,6 @@ pub mod path_search;
 pub mod projection;
 pub mod repair;
 pub mod section;
+pub mod untangle;
 pub mod weight_check;
 pub mod winding;

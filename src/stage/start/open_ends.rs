@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::projection::attach;
+use super::projection::{OpenEnd, attach};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
@@ -21,17 +21,6 @@ const LAST: f64 = 0.15;
 const MIN_REACH: f64 = 0.25;
 /// As many vertices lie there at least.
 const FEWEST: usize = 8;
-
-/// An end of a bone beyond which the body goes on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OpenEnd {
-    /// The bone.
-    pub bone: u32,
-    /// Which of its joints: 0 or 1.
-    pub end: usize,
-    /// How far the body reaches beyond the joint, in the normalised space.
-    pub reach: f64,
-}
 
 /// The open ends of `target`, the skeleton of `avatar`, leaf joints apart, which always are.
 pub fn find(avatar: &TriangleMesh, target: &Skeleton, skin: Option<&SkinWeights>) -> Vec<OpenEnd> {

@@ -12,7 +12,6 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::open_ends::OpenEnd;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 use crate::input::skin::SkinWeights;
@@ -36,6 +35,17 @@ pub struct ProjectedAvatar {
     pub origins: Vec<u32>,
     /// Where each of the caller's vertices is on the skeleton at t = 0.
     pub locations: Vec<Location>,
+}
+
+/// An end of a bone beyond which the body goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenEnd {
+    /// The bone.
+    pub bone: u32,
+    /// Which of its joints: 0 or 1.
+    pub end: usize,
+    /// How far the body reaches beyond the joint, in the normalised space.
+    pub reach: f64,
 }
 
 #[derive(Clone, Copy)]

@@ -17,6 +17,8 @@ use crate::input::weld::weld_vertices;
 const FARTHER: f64 = 0.25;
 /// ...and by this factor.
 const TIMES_FARTHER: f64 = 3.0;
+/// Weights of this share of the largest are a second opinion: a vertex with one for the nearest bone contradicts nothing.
+const ALMOST: f64 = 0.5;
 /// The flesh beyond a leaf joint counts up to so many lengths of its bone.
 const LEAF_REACH: f64 = 1.0;
 /// Sectors around a bone, and stations along it, for which it is asked what lies there.
@@ -64,7 +66,9 @@ pub fn contradictions(avatar: &TriangleMesh, target: &Skeleton, skin: &SkinWeigh
         .into_par_iter()
         .map(|v| {
             let joint = if used[v] { skin.dominant_joint(v) } else { None };
-            place(&graph, target, &frames, avatar.positions[v], joint)
+            let place = place(&graph, target, &frames, avatar.positions[v], joint);
+            let contradicts = place.contradicts && !binds_to(skin, v, target.bones[place.near as usize]);
+            Place { contradicts, ..place }
         })
         .collect();
     let weighted = places.iter().filter(|p| p.joint.is_some()).count();
@@ -84,6 +88,13 @@ pub fn contradictions(avatar: &TriangleMesh, target: &Skeleton, skin: &SkinWeigh
     let first: Vec<u32> = vertices.iter().copied().filter(clear).take(4).collect();
     let example = first.first().map(|&v| places[v as usize]);
     Contradictions { vertices, first, example: example.and_then(|p| Some((p.joint?, p.near))), weighted }
+}
+
+/// Whether the weights of vertex `v` bind it to one of these joints almost as much as to any.
+fn binds_to(skin: &SkinWeights, v: usize, joints: [u32; 2]) -> bool {
+    let weights = skin.weights(v);
+    let largest = weights.iter().map(|&(_, weight)| weight).fold(0.0, f64::max);
+    weights.iter().any(|&(joint, weight)| joints.contains(&joint) && weight >= ALMOST * largest)
 }
 
 /// Two axes across a bone.

@@ -5,23 +5,38 @@ use std::process::Output;
 
 use serde_json::Value;
 
+use testing::caller::Mesh;
+
 use super::{Folder, numbers, obj, retarget, root, succeed, tube};
 
-/// A garment around a body with a second part right beside it: at full size the two overlap, and nothing fits between.
+/// Vertices of a box.
+const BOX: u32 = 8;
+
+/// A box: eight corners and twelve triangles.
+fn block(low: [f32; 3], high: [f32; 3]) -> Mesh {
+    let corner = |k: usize| std::array::from_fn(|i| if k >> i & 1 == 0 { low[i] } else { high[i] });
+    let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let triangles = sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    ((0..8).map(corner).collect(), triangles.collect())
+}
+
+/// A garment around one of two boxes, each on a bone of its own. At full size they overlap, and nothing fits between.
 fn wedged(name: &str) -> Folder {
     let folder = Folder::new(name);
-    let garment = tube(0.2, -0.5, 0.5, 16, 9);
-    let (mut positions, mut triangles) = tube(0.26, -0.9, 0.9, 14, 15);
-    let count = positions.len() as u32;
-    let (beside, more) = (positions.clone(), triangles.clone());
-    positions.extend(beside.iter().map(|[x, y, z]| [x + 0.5, *y, *z]));
-    triangles.extend(more.iter().map(|triangle| triangle.map(|v| v + count)));
-    let joints = [[0.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 1.0, 0.0], [0.5, -1.0, 0.0]];
-    let skeleton = obj(&joints, &[], &[[0, 1], [1, 2], [2, 3], [3, 4]]);
+    let garment = tube(0.3, -0.5, 0.5, 12, 20);
+    let (mut positions, mut triangles) = block([-0.5, -0.9, -0.4], [0.5, 0.9, 0.4]);
+    let (beside, more) = block([0.4, -0.7, -0.3], [1.4, 0.7, 0.3]);
+    positions.extend(beside);
+    triangles.extend(more.iter().map(|triangle| triangle.map(|v| v + BOX)));
+    let joints = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0]];
+    let skeleton = obj(&joints, &[], &[[0, 1], [2, 3], [1, 3]]);
     folder.write("g.obj", &obj(&garment.0, &garment.1, &[]));
     folder.write("a.obj", &obj(&positions, &triangles, &[]));
     folder.write("s.obj", &skeleton);
     folder.write("t.obj", &skeleton);
+    // The boxes belong to joints 0 and 2, which have one bone each.
+    let row = |joint| (0..2 * BOX).map(|v| if joint == v / BOX * 2 { "1" } else { "0" }).collect::<Vec<_>>().join(" ");
+    folder.write("skin.txt", &(0..4).map(row).collect::<Vec<_>>().join("\n"));
     folder
 }
 
@@ -75,7 +90,7 @@ fn partial(folder: &Folder, name: &str, input: &str, status: &str) -> f64 {
 fn a_wedged_garment_leaves_a_report_and_what_was_reached() {
     let folder = wedged("wedged");
     folder.write("out.obj", "the result of an earlier run\n");
-    let options = ["--report", "r.json", "--keep-partial", "p.obj"];
+    let options = ["--skin-weights", "skin.txt", "--report", "r.json", "--keep-partial", "p.obj"];
     let words = ["the avatar cannot grow beyond"];
     let said = fails(&folder, &options, &words, &["p.avatar.obj", "p.obj", "r.json"]);
     names_options_that_exist(said.lines().next().unwrap_or_default());
@@ -100,7 +115,7 @@ fn a_wedged_garment_leaves_a_report_and_what_was_reached() {
 
     // What was kept is where the avatar had grown to: nearer to its bone than at full size, and farther than at the start.
     let radius =
-        |name: &str| numbers(&folder.read(name), "v ").iter().take(14 * 15).map(|p| p[0].hypot(p[2])).sum::<f32>();
+        |name: &str| numbers(&folder.read(name), "v ").iter().take(BOX as usize).map(|p| p[0].hypot(p[2])).sum::<f32>();
     assert!(radius("p.avatar.obj") < radius("a.obj"));
 }
 

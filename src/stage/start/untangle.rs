@@ -1,0 +1,195 @@
+//! Untangling: a garment that passes through itself as it was designed is pulled apart before the inflation begins, where
+//! that takes small displacements.
+//!
+//! Vertices walk down the gradient of the length of the intersection contours ([`super::contour`]) until a contour is gone. The
+//! design stays what it is: only the start of the solve moves, and the shape terms then restore the shape on the right side
+//! of the contact. What is not untangled stays as it was, so that no pair of triangles intersects that did not in the design.
+
+use glam::DVec3;
+
+use super::contour::contour_length;
+use crate::control::Cancel;
+use crate::error::Result;
+use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces};
+use crate::verify::intersections_with_cancel;
+
+/// Steps at most.
+const MAX_STEPS: usize = 120;
+/// Steps without fewer intersections or a shorter contour, after which it ends.
+const PATIENCE: usize = 24;
+/// The longest displacement of a step, in mean lengths of the edges at a vertex.
+const STRIDE: f64 = 0.15;
+/// The farthest that a vertex may end from its place in the design, in the same measure.
+const FARTHEST: f64 = 2.5;
+/// How often a step is averaged over neighbours.
+const SMOOTHING: usize = 2;
+/// Steps that help nothing, after which the stride is halved.
+const HALVED_AFTER: usize = 6;
+/// How much farther than necessary the vertices go, the first of these with which nothing new intersects.
+const MARGINS: [f64; 5] = [1.0, 0.7, 0.4, 0.2, 0.1];
+/// How often it is tried, each time with what could not be pulled apart left as it is.
+const ROUNDS: usize = 4;
+/// Rings of vertices around what is left as it is that stay as well.
+const FROZEN_RINGS: usize = 3;
+
+/// A garment whose initial self-intersections were pulled apart, wholly or partly.
+pub struct Untangled {
+    /// Where the vertices begin.
+    pub start: Vec<DVec3>,
+    /// The pairs of triangles that still intersect: some of those that did.
+    pub remaining: Vec<[u32; 2]>,
+}
+
+/// Pulls apart what intersects in `garment`, whose intersecting pairs of triangles are `pairs`, in ascending order. None where
+/// nothing could be done.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn untangle(garment: &TriangleMesh, pairs: &[[u32; 2]], cancel: &Cancel) -> Result<Option<Untangled>> {
+    if pairs.is_empty() {
+        return Ok(None);
+    }
+    let mut descent = Descent::new(garment);
+    for _ in 0..ROUNDS {
+        let start = descent.run(pairs, cancel)?;
+        let remaining = intersecting_pairs(garment, &start, cancel)?;
+        let is_new = |pair: &&[u32; 2]| pairs.binary_search(pair).is_err();
+        let new: Vec<[u32; 2]> = remaining.iter().filter(is_new).copied().collect();
+        if new.is_empty() {
+            let untangled = Untangled { start, remaining };
+            return if untangled.remaining.len() < pairs.len() {
+                descent.with_margin(untangled, cancel)
+            } else {
+                Ok(None)
+            };
+        }
+        // What could not be pulled apart stays as designed, with what is around it, and the rest is tried again.
+        descent.freeze(&new, &remaining);
+    }
+    Ok(None)
+}
+
+fn intersecting_pairs(garment: &TriangleMesh, positions: &[DVec3], cancel: &Cancel) -> Result<Vec<[u32; 2]>> {
+    let mesh = TriangleMesh { positions: positions.to_vec(), triangles: garment.triangles.clone() };
+    Ok(intersections_with_cancel(&mesh, None, usize::MAX, cancel)?.pairs)
+}
+
+struct Descent<'a> {
+    garment: &'a TriangleMesh,
+    topology: Topology,
+    /// Mean length of the edges at each vertex.
+    lengths: Vec<f64>,
+    /// Edges at each vertex.
+    degrees: Vec<f64>,
+    /// Vertices that stay where they are.
+    is_frozen: Vec<bool>,
+}
+
+impl<'a> Descent<'a> {
+    fn new(garment: &'a TriangleMesh) -> Self {
+        let count = garment.positions.len();
+        let topology = Topology::new(count, &garment.triangles);
+        let lengths = topology.mean_edge_lengths(&garment.positions);
+        let mut degrees = vec![0.0; count];
+        topology.edges.iter().flatten().for_each(|&v| degrees[v as usize] += 1.0);
+        Self { garment, topology, lengths, degrees, is_frozen: vec![false; count] }
+    }
+
+    /// Walks down the length of the contours, and returns the positions with the fewest intersections on the way.
+    fn run(&self, pairs: &[[u32; 2]], cancel: &Cancel) -> Result<Vec<DVec3>> {
+        let mut positions = self.garment.positions.clone();
+        let mut pairs = self.movable(pairs);
+        let mut best = (usize::MAX, f64::INFINITY, positions.clone());
+        let (mut since, mut stride) = (0, STRIDE);
+        for _ in 0..MAX_STEPS {
+            let (length, gradient) = contour_length(&positions, &self.garment.triangles, &pairs);
+            if (pairs.len(), length) < (best.0, best.1) {
+                best = (pairs.len(), length, positions.clone());
+                since = 0;
+            }
+            if pairs.is_empty() || since >= PATIENCE {
+                break;
+            }
+            since += 1;
+            if since % HALVED_AFTER == 0 {
+                stride *= 0.5;
+            }
+            self.displace(&mut positions, &self.displacement(&gradient, stride));
+            pairs = self.movable(&intersecting_pairs(self.garment, &positions, cancel)?);
+        }
+        Ok(best.2)
+    }
+
+    /// The pairs of which something may move.
+    fn movable(&self, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        let corners = |pair: &[u32; 2]| pair.map(|t| self.garment.triangles[t as usize]);
+        let moves = |pair: &&[u32; 2]| corners(pair).iter().flatten().any(|&v| !self.is_frozen[v as usize]);
+        pairs.iter().filter(moves).copied().collect()
+    }
+
+    /// The step of each vertex, smoothed over the surface.
+    fn displacement(&self, gradient: &[DVec3], stride: f64) -> Vec<DVec3> {
+        let mut step: Vec<DVec3> = gradient.iter().map(|g| -*g / g.length().max(1.0)).collect();
+        let longest = |step: &[DVec3]| step.iter().map(|d| d.length()).fold(0.0, f64::max);
+        let before = longest(&step);
+        for _ in 0..SMOOTHING {
+            let mut sums = vec![DVec3::ZERO; step.len()];
+            for &[a, b] in &self.topology.edges {
+                sums[a as usize] += step[b as usize];
+                sums[b as usize] += step[a as usize];
+            }
+            for ((d, sum), degree) in step.iter_mut().zip(sums).zip(&self.degrees) {
+                *d = 0.5 * (*d + sum / degree.max(1.0));
+            }
+        }
+        let scale = (before / longest(&step).max(f64::MIN_POSITIVE)).min(2.0);
+        step.iter().zip(&self.lengths).map(|(d, length)| stride * length * scale * *d).collect()
+    }
+
+    fn displace(&self, positions: &mut [DVec3], step: &[DVec3]) {
+        for (v, p) in positions.iter_mut().enumerate().filter(|&(v, _)| !self.is_frozen[v]) {
+            let design = self.garment.positions[v];
+            *p = design + (*p + step[v] - design).clamp_length_max(FARTHEST * self.lengths[v]);
+        }
+    }
+
+    /// Goes on the way that the vertices went, so that something is left between the layers.
+    fn with_margin(&self, mut untangled: Untangled, cancel: &Cancel) -> Result<Option<Untangled>> {
+        for further in MARGINS {
+            let mut start = untangled.start.clone();
+            for (p, &design) in start.iter_mut().zip(&self.garment.positions) {
+                *p += further * (*p - design);
+            }
+            let remaining = intersecting_pairs(self.garment, &start, cancel)?;
+            if remaining.iter().all(|pair| untangled.remaining.binary_search(pair).is_ok()) {
+                untangled = Untangled { start, remaining };
+                break;
+            }
+        }
+        Ok(Some(untangled))
+    }
+
+    /// Freezes the triangles of the pairs in `new`, those of the pairs in `remaining` that hang together with them, and what is
+    /// around them.
+    fn freeze(&mut self, new: &[[u32; 2]], remaining: &[[u32; 2]]) {
+        let corners = |t: u32| self.garment.triangles[t as usize];
+        let chain = |pair: &[u32; 2]| {
+            let [[a, b, c], [d, e, f]] = pair.map(corners);
+            [[a, b], [b, c], [c, d], [d, e], [e, f]]
+        };
+        let links = remaining.iter().flat_map(chain);
+        let (clusters, _) = label_pieces(self.is_frozen.len(), links);
+        let mut bad: Vec<u32> = new.iter().map(|&[t, _]| clusters[corners(t)[0] as usize]).collect();
+        bad.sort_unstable();
+        let in_bad = |v: usize| clusters[v] != NO_PIECE && bad.binary_search(&clusters[v]).is_ok();
+        let mut freezes: Vec<bool> = (0..clusters.len()).map(in_bad).collect();
+        for _ in 0..FROZEN_RINGS {
+            let before = freezes.clone();
+            for &[a, b] in &self.topology.edges {
+                freezes[a as usize] |= before[b as usize];
+                freezes[b as usize] |= before[a as usize];
+            }
+        }
+        self.is_frozen.iter_mut().zip(freezes).for_each(|(frozen, freezes)| *frozen |= freezes);
+    }
+}
