@@ -33,6 +33,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR] = "welded_near",
     [BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE] = "carried_piece",
     [BESPOKE_DIAGNOSTIC_KIND_UNTANGLED] = "untangled",
+    [BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP] = "opening_cap",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

@@ -80,6 +80,9 @@ static const Entry entries[] = {
     {"--strict", "", CHOICE, FIELD(library.strict), 1,
      "refuse a garment that intersects itself, instead of exempting those triangles from contact\n"
      "until they separate"},
+    {"--keep-caps", "", CHOICE, FIELD(library.keep_caps), 1,
+     "refuse a garment that is closed where bones leave it, as at neck, cuffs and hems, instead of\n"
+     "leaving these triangles out while it is fitted"},
     {"", "", TEXT, 0, 0, "\nFor experts; the skeleton is 2 long in all lengths:\n"},
     {"--surface-weight", "W", WEIGHT, FIELD(library.surface_weight), 0, "how strongly the design keeps its shape (1)"},
     {"--curve-weight", "W", WEIGHT, FIELD(curve_weight), 0,

@@ -312,6 +312,9 @@ enum BespokeDiagnosticKind
   /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
   /// fewer such pairs of triangles than the design. The first pair is named.
   BESPOKE_DIAGNOSTIC_KIND_UNTANGLED = 27,
+  /// Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried along
+  /// with their rim, and not verified, for the body passes through them. The bone is named, and the first three of them.
+  BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP = 21,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -489,8 +492,10 @@ typedef struct BespokeOptions {
   /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are exempted
   /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later.
   uint32_t strict;
-  /// 0.
-  uint32_t reserved;
+  /// 1: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems, stay, and the
+  /// garment is refused for them. Default 0: they are left out while it is fitted, go with their rim, and are named by
+  /// bespoke_session_read_diagnostics. They are not verified: the body passes through them.
+  uint32_t keep_caps;
   /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
   /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.

@@ -143,6 +143,7 @@ enum class DiagnosticKind : std::uint32_t {
     kept_together = BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER,
     welded_near = BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR,
     untangled = BESPOKE_DIAGNOSTIC_KIND_UNTANGLED,
+    opening_cap = BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.
@@ -736,6 +737,10 @@ struct Options {
     /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
     /// exempted from contact until they separate and named by Session::read_diagnostics; none are added later.
     bool strict = false;
+    /// True: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems, stay,
+    /// and the garment is refused for them. Default false: they are left out while it is fitted, go with their rim, and
+    /// are named by Session::read_diagnostics. They are not verified: the body passes through them.
+    bool keep_caps = false;
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
     /// Expert. Weight of the curvature of boundary curves. Default 1. weight_off possible.
@@ -777,6 +782,7 @@ struct Options {
         options.weld_distance = weld_distance;
         options.memory_limit = memory_limit;
         options.strict = strict ? 1 : 0;
+        options.keep_caps = keep_caps ? 1 : 0;
         options.surface_weight = surface_weight;
         options.curvature_weight = curvature_weight;
         options.torsion_weight = torsion_weight;
@@ -812,6 +818,7 @@ struct Options {
         options.weld_distance = read.weld_distance;
         options.memory_limit = read.memory_limit;
         options.strict = read.strict != 0;
+        options.keep_caps = read.keep_caps != 0;
         options.surface_weight = read.surface_weight;
         options.curvature_weight = read.curvature_weight;
         options.torsion_weight = read.torsion_weight;

@@ -31,6 +31,9 @@ macro_rules! option_table {
             /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact; and
             /// take skin weights and the avatar's pieces as they are, instead of mending what contradicts the rest.
             strict: bool = false;
+            /// Refuse a garment that is closed by caps where bones leave it, instead of leaving the caps out while it is
+            /// fitted.
+            keep_caps: bool = false;
             /// Weight of the surface term (Eq. 2).
             surface_weight: f64 = 1.0, in NotNegative, off = 0.0;
             /// Weight of the curvature of boundary curves (Eq. 5).

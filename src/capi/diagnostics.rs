@@ -76,6 +76,9 @@ pub enum BespokeDiagnosticKind {
     /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
     /// fewer such pairs of triangles than the design. The first pair is named.
     Untangled = 27,
+    /// Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried along
+    /// with their rim, and not verified, for the body passes through them. The bone is named, and the first three of them.
+    OpeningCap = 21,
 }
 
 /// How much a diagnostic matters.
@@ -197,6 +200,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::WeldedNear => BespokeDiagnosticKind::WeldedNear,
             DiagnosticKind::CarriedPiece => BespokeDiagnosticKind::CarriedPiece,
             DiagnosticKind::Untangled => BespokeDiagnosticKind::Untangled,
+            DiagnosticKind::OpeningCap => BespokeDiagnosticKind::OpeningCap,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

@@ -55,8 +55,10 @@ pub struct BespokeOptions {
     /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are exempted
     /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later.
     pub strict: u32,
-    /// 0.
-    pub reserved: u32,
+    /// 1: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems, stay, and the
+    /// garment is refused for them. Default 0: they are left out while it is fitted, go with their rim, and are named by
+    /// bespoke_session_read_diagnostics. They are not verified: the body passes through them.
+    pub keep_caps: u32,
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
     /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
@@ -207,7 +209,6 @@ macro_rules! cross {
             fn from_options(options: Options) -> Self {
                 Self {
                     struct_size: size_of::<Self>() as u32,
-                    reserved: 0,
                     $($name: options.$name.write(),)*
                 }
             }

@@ -104,6 +104,8 @@ pub enum DiagnosticKind {
     WeldedNear,
     /// The garment passed through itself in the design, and begins pulled apart there.
     Untangled,
+    /// A cap that closes an opening of the garment where a bone leaves it, left out while the garment is fitted.
+    OpeningCap,
 }
 
 /// How much a diagnostic matters.
@@ -412,6 +414,14 @@ pub enum Diagnostic {
         /// The first two of those pulled apart.
         first: [u32; 2],
     },
+    /// A patch of triangles closes an opening of the garment where a bone leaves it. It is left out while the garment is
+    /// fitted, and goes with its rim.
+    OpeningCap {
+        /// The bone.
+        bone: Bone,
+        /// The triangles, ascending.
+        triangles: Vec<u32>,
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -462,6 +472,7 @@ impl Diagnostic {
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
             Self::Untangled { .. } => DiagnosticKind::Untangled,
+            Self::OpeningCap { .. } => DiagnosticKind::OpeningCap,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -490,7 +501,8 @@ impl Diagnostic {
             | Self::RigidGroupBent { .. }
             | Self::EndWithoutBone { .. }
             | Self::WeightsContradict { .. }
-            | Self::ForeignPart { .. } => Severity::Warning,
+            | Self::ForeignPart { .. }
+            | Self::OpeningCap { .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
             | Self::ResultSelfIntersection { .. }
@@ -523,6 +535,9 @@ impl Diagnostic {
             | Self::Untangled { first: triangles, .. } => triangles.map(triangle).into(),
             Self::BoneMoved { bone, ref triangles, .. } => {
                 std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
+            }
+            Self::OpeningCap { bone, ref triangles } => {
+                std::iter::once(bone.element()).chain(triangles.iter().take(3).map(|&t| triangle(t))).collect()
             }
             Self::CycleCut { ref triangles } => triangles.iter().map(|&t| triangle(t)).collect(),
             Self::AvatarPenetrates { garment, bone, avatar } => {

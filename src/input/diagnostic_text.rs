@@ -229,6 +229,19 @@ impl Display for Diagnostic {
                     _ => write!(f, "{remaining} pairs are left as they were"),
                 }
             }
+            Self::OpeningCap { bone, triangles } => {
+                let [a, b] = bone.joints;
+                let named: Vec<String> = triangles.iter().take(8).map(u32::to_string).collect();
+                let dots = if triangles.len() > named.len() { ", ..." } else { "" };
+                write!(
+                    f,
+                    "garment: the bone between joints {a} and {b} leaves it through a cap, triangles {}{dots} ({} in all), taken \
+                     for an opening: left out while it is fitted, carried along with the rim, and not verified, for the body \
+                     passes through; delete them in the result, or set keep_caps to refuse them",
+                    named.join(", "),
+                    triangles.len()
+                )
+            }
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }

@@ -96,6 +96,23 @@ impl Weld {
         means
     }
 
+    /// Without the triangles of the welded garment that are `removed`; its vertices stay. Of the caller's triangles those that
+    /// it had, and their duplicates, are left out.
+    pub fn without(&self, removed: &[bool]) -> Self {
+        let stay: Vec<u32> = (0u32..).zip(removed).filter(|(_, removed)| !**removed).map(|(t, _)| t).collect();
+        let renumbered = |t: u32| stay.binary_search(&t).ok().map(|k| k as u32);
+        Self {
+            mesh: TriangleMesh {
+                positions: self.mesh.positions.clone(),
+                triangles: stay.iter().map(|&t| self.mesh.triangles[t as usize]).collect(),
+            },
+            to_welded: self.to_welded.clone(),
+            vertex_of: self.vertex_of.clone(),
+            triangle_of: stay.iter().map(|&t| self.triangle_of[t as usize]).collect(),
+            to_kept: self.to_kept.iter().map(|kept| kept.and_then(renumbered)).collect(),
+        }
+    }
+
     fn report_degenerate(&self, diagnostics: &mut Vec<Diagnostic>, garment: &TriangleMesh, collapsed: &[Collapsed]) {
         Diagnostic::list(diagnostics, collapsed, |&Collapsed { triangle, kept }| Diagnostic::CollapsedTriangle {
             triangle,

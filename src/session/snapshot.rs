@@ -54,7 +54,9 @@ impl Snapshot {
     }
 
     pub(super) fn garment_positions(&self) -> Vec<DVec3> {
-        let welded: Vec<DVec3> = self.x.iter().map(|&p| self.restored(p)).collect();
+        let mut x = self.x.clone();
+        self.problem.caps.iter().for_each(|cap| cap.carry(&self.problem.rest, &mut x));
+        let welded: Vec<DVec3> = x.iter().map(|&p| self.restored(p)).collect();
         self.problem.weld.scatter(&welded)
     }
 

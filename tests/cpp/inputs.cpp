@@ -193,6 +193,7 @@ void fields_of_options() {
     options.memory_limit = 23;
     options.surface_form = SurfaceForm::printed;
     options.strict = true;
+    options.keep_caps = true;
     const BespokeOptions c = options.get();
     value = 0.0;
     for (const double field :
@@ -202,7 +203,7 @@ void fields_of_options() {
         CHECK(field == ++value);
     }
     CHECK(c.threads == 21 && c.max_iterations == 22 && c.memory_limit == 23 && c.strict == 1);
-    CHECK(c.surface_form == BESPOKE_SURFACE_FORM_PRINTED && c.reserved == 0);
+    CHECK(c.surface_form == BESPOKE_SURFACE_FORM_PRINTED && c.keep_caps == 1);
 
 #if __cplusplus >= 202002L
     const BespokeOptions named = Options{.threads = 3, .voxel_size = 0.1}.get();

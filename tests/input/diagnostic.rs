@@ -142,6 +142,13 @@ fn every_sentence_is_made_of_its_data() {
             "result: garment triangle 7 and triangle 1 of layer 2 intersect".into(),
         ),
         (
+            Diagnostic::OpeningCap { bone: BONE, triangles: (0..12).collect() },
+            "garment: the bone between joints 5 and 7 leaves it through a cap, triangles 0, 1, 2, 3, 4, 5, 6, 7, ... (12 in \
+             all), taken for an opening: left out while it is fitted, carried along with the rim, and not verified, for the \
+             body passes through; delete them in the result, or set keep_caps to refuse them"
+                .into(),
+        ),
+        (
             Diagnostic::PinNotReached { vertex: 12, distance: 0.25 },
             "garment: pinned vertex 12 ends 2.5e-1 from its place, in units in which the skeleton is 2 long: the body is in its \
              way, or the garment holds it back; a higher pin_weight helps against the garment"

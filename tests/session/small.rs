@@ -194,6 +194,7 @@ fn a_sleeve_half_beside_its_arm_comes_out_right() {
 #[test]
 fn a_garment_that_shuts_the_arm_in_is_refused_with_the_place() {
     let mut session = session(1.0, DVec3::ZERO);
+    session.set_options(Options { keep_caps: true, ..Options::default() }).unwrap();
     let bag = tube(-0.6, 0.7, |z, _| 0.3 + 0.03 * (12.0 * z).sin(), 16, 20, true);
     session.set_garment(bag, Precision::F64).unwrap();
     let error = session.prepare().unwrap_err();

@@ -1,6 +1,7 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
 mod blockage;
+mod caps;
 mod contour;
 mod enclosure;
 mod fit_region;

@@ -278,6 +278,13 @@ namespace Bespoke
         /// has fewer such pairs of triangles than the design. The first pair is named.
         /// </summary>
         Untangled = 27,
+
+        /// <summary>
+        /// Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried
+        /// along with their rim, and not verified, for the body passes through them. The bone is named, and the first
+        /// three of them.
+        /// </summary>
+        OpeningCap = 21,
     }
 
     /// <summary>How much a diagnostic matters.</summary>

@@ -52,7 +52,7 @@ namespace Bespoke
         internal double weld_distance;
         internal ulong memory_limit;
         internal uint strict;
-        internal uint reserved;
+        internal uint keep_caps;
         internal double surface_weight;
         internal double curvature_weight;
         internal double torsion_weight;

@@ -58,6 +58,14 @@ namespace Bespoke
         /// </summary>
         public bool Strict { get; set; }
 
+        /// <summary>
+        /// True: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems,
+        /// stay, and the garment is refused for them. Default false: they are left out while it is fitted, go with
+        /// their rim, and are named by <c>Session.ReadDiagnostics</c>. They are not verified: the body passes through
+        /// them.
+        /// </summary>
+        public bool KeepCaps { get; set; }
+
         /// <summary>Expert. Weight of the surface term, which keeps the design's shape. Default 1.</summary>
         public double SurfaceWeight { get; set; }
 
@@ -126,6 +134,7 @@ namespace Bespoke
                 WeldDistance = native.weld_distance,
                 MemoryLimit = native.memory_limit,
                 Strict = native.strict != 0,
+                KeepCaps = native.keep_caps != 0,
                 SurfaceWeight = native.surface_weight,
                 CurvatureWeight = native.curvature_weight,
                 TorsionWeight = native.torsion_weight,
@@ -156,6 +165,7 @@ namespace Bespoke
                 weld_distance = WeldDistance,
                 memory_limit = MemoryLimit,
                 strict = Strict ? 1u : 0u,
+                keep_caps = KeepCaps ? 1u : 0u,
                 surface_weight = SurfaceWeight,
                 curvature_weight = CurvatureWeight,
                 torsion_weight = TorsionWeight,

@@ -1,6 +1,7 @@
 //! From the inputs to the terms of the objective: what is derived once, before anything moves.
 
 pub mod bone_map;
+pub mod cap_motion;
 pub mod carried_pieces;
 pub mod carried_places;
 pub mod contact_distances;

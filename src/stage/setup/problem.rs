@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::bone_map::BoneMap;
+use super::cap_motion::CapMotion;
 use super::carried_pieces::{self, CarriedPiece};
 use super::carried_places::CarriedPlaces;
 use super::contact_distances::ContactDistances;
@@ -29,6 +30,7 @@ use crate::input::weld::Weld;
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
+use crate::stage::start::caps::Caps;
 use crate::stage::start::projection::{ProjectedAvatar, project, project_with};
 use crate::stage::start::untangle::{Untangled, untangle};
 use crate::stage::start::weight_check::contradictions;
@@ -82,9 +84,11 @@ pub struct Problem {
     pub rest: Vec<DVec3>,
     /// The garment pulled apart where it passes through itself as designed, if that could be done.
     pub untangled: Option<Untangled>,
-    /// Its triangles.
+    /// Its triangles, without its caps.
     pub triangles: Vec<[u32; 3]>,
-    /// Maps to the caller's indices.
+    /// The caps, which are left out.
+    pub caps: Vec<CapMotion>,
+    /// Maps to the caller's indices, whose caps are no triangles of the welded garment.
     pub weld: Arc<Weld>,
     /// The avatar with its layers at full size, their own vertices and triangles.
     pub avatar: Arc<TriangleMesh>,
@@ -125,7 +129,20 @@ impl Problem {
         cancel: &Cancel,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Self> {
-        let normalised = Normalised::new(inputs, options)?;
+        let mut normalised = Normalised::new(inputs, options)?;
+        cancel.check()?;
+        let Normalised { source, target, avatar, .. } = &normalised;
+        let believed = inputs.skin.map(|skin| believed_skin(skin, avatar, target, options.strict, diagnostics));
+        let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
+        let skin = skin.as_deref();
+        let caps = if options.keep_caps {
+            Caps::default()
+        } else {
+            // As it begins; what comes later, such as a head that starts beyond the collar, needs the openings.
+            repair::find_caps(&normalised.garment, &project(&avatar.mesh, target, source, skin), source, cancel)?
+        };
+        cancel.check()?;
+        let (weld, motions) = normalised.open(&caps, &inputs.weld, diagnostics);
         let Normalised {
             source_normalization,
             target_normalization,
@@ -135,10 +152,6 @@ impl Problem {
             ref avatar,
             offset,
         } = normalised;
-        cancel.check()?;
-        let believed = inputs.skin.map(|skin| believed_skin(skin, avatar, target, options.strict, diagnostics));
-        let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
-        let skin = skin.as_deref();
         let mut projected =
             project_beyond_ends(garment, &avatar.mesh, [target, source], skin, options.strict, diagnostics)?;
         cancel.check()?;
@@ -149,8 +162,9 @@ impl Problem {
         }
         let designed_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
         cancel.check()?;
-        let callers = &inputs.weld.triangle_of;
-        let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)?;
+        let callers = &weld.triangle_of;
+        let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)
+            .map_err(|error| with_reason(error, &caps))?;
         cancel.check()?;
         let source_body = inputs.source_avatar.map(|mesh| TriangleMesh {
             positions: source_normalization.normalise_all(&mesh.positions),
@@ -179,12 +193,12 @@ impl Problem {
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
         let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
         let (shape, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
-        diagnostics.extend(loose.diagnostics(|t| inputs.weld.triangle_of[t as usize]));
-        let (vertices, triangles) = (&inputs.weld.vertex_of, &inputs.weld.triangle_of);
+        diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
+        let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
         diagnostics.extend(borders.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
         Diagnostic::list(diagnostics, &pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
             vertices: piece.vertices.len(),
-            triangle: inputs.weld.triangle_of[piece.triangle as usize],
+            triangle: weld.triangle_of[piece.triangle as usize],
             bone: Bone { index: piece.bone, joints: source.bones[piece.bone as usize] },
             distance: piece.distance,
             from_body: source_tree.is_some(),
@@ -215,7 +229,8 @@ impl Problem {
             rest: garment.positions,
             untangled,
             triangles: garment.triangles,
-            weld: inputs.weld.clone(),
+            caps: motions,
+            weld,
             avatar: avatar.mesh,
             fitted,
             projected,
@@ -318,6 +333,43 @@ impl Normalised {
             offset,
         })
     }
+
+    /// Takes the caps out of the garment. Returns the weld without them and how they move, and adds to `diagnostics`.
+    fn open(
+        &mut self,
+        found: &Caps,
+        weld: &Arc<Weld>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> (Arc<Weld>, Vec<CapMotion>) {
+        if found.caps.is_empty() {
+            return (weld.clone(), Vec::new());
+        }
+        let garment = &mut self.garment;
+        let mut removed = vec![false; garment.triangles.len()];
+        found.caps.iter().flat_map(|cap| &cap.triangles).for_each(|&t| removed[t as usize] = true);
+        let mut kept = vec![false; garment.positions.len()];
+        let stays = garment.triangles.iter().zip(&removed).filter(|(_, removed)| !**removed).map(|(t, _)| *t);
+        let triangles: Vec<[u32; 3]> = stays.collect();
+        triangles.iter().flatten().for_each(|&v| kept[v as usize] = true);
+        let motions = found.caps.iter().map(|cap| CapMotion::new(garment, &cap.triangles, &kept)).collect();
+        Diagnostic::list(diagnostics, &found.caps, |cap| Diagnostic::OpeningCap {
+            bone: Bone { index: cap.bone, joints: self.source.bones[cap.bone as usize] },
+            triangles: cap.triangles.iter().map(|&t| weld.triangle_of[t as usize]).collect(),
+        });
+        garment.triangles = triangles;
+        (Arc::new(weld.without(&removed)), motions)
+    }
+}
+
+/// Says why what closes the garment at a bone was not taken for a cap.
+fn with_reason(mut error: Error, caps: &Caps) -> Error {
+    if let Some(reason) = caps.refused
+        && error.kind == ErrorKind::NotEnclosed
+    {
+        error.message +=
+            &format!("; what closes it there is not taken for the cap of an opening: it {}", reason.reason());
+    }
+    error
 }
 
 /// `skin` where it can be believed: the nearest bone decides for vertices whose weights contradict their positions, unless

@@ -2,6 +2,7 @@
 //! skeleton itself leaves the garment, it is bent around it or retracted.
 
 pub mod bent_skeleton;
+pub mod caps;
 pub mod contour;
 pub mod enclosure;
 pub mod foreign_parts;

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::caps::Caps;
 use super::enclosure;
 use super::path_search::{PathSearch, SearchSettings, SkeletonPath, enclosing_planes};
 use super::projection::ProjectedAvatar;
@@ -76,6 +77,24 @@ pub fn resolve(
     diagnostics.extend(repairs(&penetrations, &path, source));
     *projected = start;
     Ok(path.bent.segments(&extents))
+}
+
+/// The caps of `garment` that the shrunk avatar, `projected` onto `source`, passes through.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn find_caps(
+    garment: &TriangleMesh,
+    projected: &ProjectedAvatar,
+    source: &Skeleton,
+    cancel: &Cancel,
+) -> Result<Caps> {
+    let penetrations = find_penetrations(garment, projected, cancel)?;
+    let mut through: Vec<(u32, u32)> =
+        penetrations.iter().filter_map(|p| p.bone.map(|bone| (p.garment, bone))).collect();
+    through.sort_unstable();
+    through.dedup();
+    Ok(Caps::find(garment, &through, source, &extents(projected, source)))
 }
 
 fn find_penetrations(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Penetration>> {
