@@ -233,7 +233,8 @@ fn an_avatar_with_skin_weights_takes_layers_without() {
 #[test]
 fn a_layer_that_penetrates_is_named() {
     let mut session = session(1.0, DVec3::ZERO);
-    // Closed around the middle of the arm: what reaches out of it at both ends cannot be put inside.
+    // Closed around the middle of the arm, and meant so: what reaches out of it at both ends cannot be put inside.
+    session.set_options(Options { keep_caps: true, ..Options::default() }).unwrap();
     session.set_garment(tube(-0.6, 0.6, |_, _| 0.3, 16, 16, true), Precision::F32).unwrap();
     let inside = tube(-0.4, 0.4, |_, _| 0.2, 8, 8, true);
     session.set_target_avatar(inside.clone()).unwrap();
