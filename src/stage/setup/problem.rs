@@ -39,7 +39,7 @@ use crate::verify::{intersections, intersections_with_cancel};
 
 /// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: what is left is
 /// locked between layers that may not pass each other any more, and the inflation mostly stalls.
-const MOST_TANGLED: f64 = 0.1;
+const MOST_REMAINING: f64 = 0.1;
 /// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
 const MAX_OFFSET: f64 = 1.0;
 
@@ -436,7 +436,7 @@ fn pulled_apart(
         return Ok(None);
     }
     let Some(untangled) = untangle(garment, designed_intersections, cancel)? else { return Ok(None) };
-    if untangled.remaining.len() as f64 > MOST_TANGLED * designed_intersections.len() as f64 {
+    if untangled.remaining.len() as f64 > MOST_REMAINING * designed_intersections.len() as f64 {
         return Ok(None);
     }
     let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
