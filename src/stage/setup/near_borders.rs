@@ -4,9 +4,9 @@
 //! Nothing but the body holds two such parts to each other, and it lets a placket gape and a shirt ride up. So in the fit each
 //! vertex of a boundary loop is held to the nearest triangle
 //!
-//! - that is within [`REACH`] of it,
+//! - that is within `REACH` of it,
 //! - whose side that looks out is the same: two trouser legs that touch look at each other, and may part,
-//! - and that is another piece, or as far as [`APART`] along the surface: the end of a slit holds itself.
+//! - and that is another piece, or as far as `APART` along the surface: the end of a slit holds itself.
 //!
 //! Pieces that are held as a whole are left out, on both sides.
 
@@ -150,7 +150,7 @@ impl<'a> Garment<'a> {
         Some((Hold { vertex: v, triangle: self.triangles[t as usize], distance, area }, t))
     }
 
-    /// The vertices within [`APART`] of `v` along edges, ascending (Dijkstra).
+    /// The vertices within `APART` of `v` along edges, ascending (Dijkstra).
     fn within(&self, v: u32) -> Vec<u32> {
         let mut heap = BinaryHeap::from([(std::cmp::Reverse(Length(0.0)), v)]);
         let mut done: Vec<u32> = Vec::new();
