@@ -51,9 +51,9 @@ impl Caller {
         unsafe { read(self.session, bespoke_session_read_garment_vertices, is_double) }
     }
 
-    /// Options under which a run takes milliseconds.
+    /// Options under which a run takes milliseconds, and all triangles of the garment are kept off the body.
     pub fn set_options(&self, max_iterations: u32, voxel: f64, threads: u32) {
-        let options = BespokeOptions { max_iterations, voxel_size: voxel, threads, ..no_options() };
+        let options = BespokeOptions { max_iterations, voxel_size: voxel, threads, keep_caps: 1, ..no_options() };
         // SAFETY: the session is alive and the struct as large as it says.
         let status = unsafe { bespoke_session_set_options(self.session, &options) };
         assert_eq!(self.after("set_options", status), BespokeStatus::Ok, "{}", self.message());
