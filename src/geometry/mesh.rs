@@ -12,6 +12,19 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
+    /// Triangles of their own corners, which share no vertices: corner c of triangle k is vertex 3 k + c.
+    pub fn from_corners(corners: impl IntoIterator<Item = [DVec3; 3]>) -> Self {
+        let positions: Vec<DVec3> = corners.into_iter().flatten().collect();
+        let triangles = (0..positions.len() as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        Self { positions, triangles }
+    }
+
+    /// The corners of a triangle.
+    #[inline]
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
     /// Area of each triangle.
     pub fn areas(&self) -> Vec<f64> {
         self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()
@@ -29,9 +42,14 @@ pub fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {
 pub const NO_AREA: f64 = 1e-6;
 
 /// False for a degenerate triangle: its corners lie on a line or in a point, up to [`NO_AREA`].
-pub fn has_area([a, b, c]: [DVec3; 3]) -> bool {
+pub fn has_area(corners: [DVec3; 3]) -> bool {
+    is_wide(corners, NO_AREA)
+}
+
+/// Whether the doubled area of a triangle is more than this share of its longest edge squared.
+pub fn is_wide([a, b, c]: [DVec3; 3], share: f64) -> bool {
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-    (b - a).cross(c - a).length() > NO_AREA * longest
+    (b - a).cross(c - a).length() > share * longest
 }
 
 /// Two triangles over one edge: `t1 = (v1, v2, v3)` and `t2 = (v2, v1, v4)`, as in Eq. 2 of the paper.

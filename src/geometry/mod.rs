@@ -10,4 +10,5 @@ pub mod alignment;
 pub mod bvh;
 pub mod closest_point;
 pub mod mesh;
+pub mod piece;
 pub mod sliver_caps;

@@ -29,6 +29,19 @@ fn undirected([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 impl Skeleton {
+    /// The bones, those at a leaf joint longer there by `reach` times their length: hands, feet and the head have no bones in
+    /// many skeletons.
+    pub fn lengthened(&self, reach: f64) -> Vec<[DVec3; 2]> {
+        let mut degree = vec![0u32; self.joints.len()];
+        self.bones.iter().flatten().for_each(|&joint| degree[joint as usize] += 1);
+        let beyond = |joint: u32| if degree[joint as usize] == 1 { reach } else { 0.0 };
+        let lengthened = |&[j, k]: &[u32; 2]| {
+            let (a, b) = (self.joints[j as usize], self.joints[k as usize]);
+            [a - beyond(j) * (b - a), b + beyond(k) * (b - a)]
+        };
+        self.bones.iter().map(lengthened).collect()
+    }
+
     /// Refuses a skeleton that cannot be used; `name` names it in error messages ("target skeleton").
     ///
     /// A bone of zero length is accepted and acts as a point.

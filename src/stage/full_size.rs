@@ -120,10 +120,7 @@ impl<'a> FullSize<'a> {
 
     /// Whether triangles of `pairs` intersect the part on the other side, neighbours apart.
     fn meet(&self, pairs: &[Pair]) -> bool {
-        let mesh = |triangles: &[u32]| TriangleMesh {
-            positions: triangles.iter().flat_map(|&t| self.corners(t)).collect(),
-            triangles: (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
-        };
+        let mesh = |triangles: &[u32]| TriangleMesh::from_corners(triangles.iter().map(|&t| self.corners(t)));
         let same = pairs.iter().any(|pair| pair.parts[0] == pair.parts[1]);
         let mut parts: Vec<Part> = pairs.iter().flat_map(|pair| pair.parts).collect();
         parts.sort_unstable();

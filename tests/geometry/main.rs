@@ -4,4 +4,5 @@ mod alignment;
 mod bvh;
 mod closest_point;
 mod mesh;
+mod piece;
 mod sliver_caps;

@@ -89,6 +89,20 @@ fn size_and_middle() {
 }
 
 #[test]
+fn only_leaf_joints_lengthen_bones() {
+    let skeleton = tee();
+    let graph = BoneGraph::new(&skeleton);
+    for (&[j, k], [a, b]) in skeleton.bones.iter().zip(skeleton.lengthened(0.5)) {
+        let [p, q] = [j, k].map(|joint| skeleton.joints[joint as usize]);
+        let length = |is_leaf: bool| if is_leaf { 0.5 * p.distance(q) } else { 0.0 };
+        let along = (q - p).normalize();
+        assert!(a.distance(p - length(graph.is_leaf(j)) * along) < 1e-12);
+        assert!(b.distance(q + length(graph.is_leaf(k)) * along) < 1e-12);
+    }
+    assert!(skeleton.bones.iter().flatten().any(|&joint| !graph.is_leaf(joint)));
+}
+
+#[test]
 fn ways_along_bones() {
     let graph = BoneGraph::new(&tee());
     assert_eq!((graph.degree(1), graph.bones_at(1)), (4, &[0, 1, 2, 4][..]));

@@ -13,7 +13,8 @@ use rayon::prelude::*;
 
 use super::loose_pieces::LoosePieces;
 use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
-use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::piece::Piece;
 use crate::input::skeleton::Skeleton;
 use crate::stage::start::enclosure::{enclosed_share_at, encloses};
 
@@ -66,43 +67,19 @@ pub struct CarriedPiece {
     pub stiff: bool,
 }
 
-/// Some of the pieces of a garment.
-struct Part {
-    vertices: Vec<u32>,
-    /// Its triangles, by their indices in the garment, ascending.
-    triangles: Vec<u32>,
-    low: DVec3,
-    high: DVec3,
+/// `garment` with the triangles of `part` alone.
+fn own_mesh(garment: &TriangleMesh, part: &Piece) -> TriangleMesh {
+    mesh_of(garment, part.triangles.iter().copied())
 }
 
-impl Part {
-    fn size(&self) -> f64 {
-        self.low.distance(self.high)
-    }
-
-    fn gap(&self, other: &Self) -> f64 {
-        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
-    }
-
-    fn mesh(&self, garment: &TriangleMesh) -> TriangleMesh {
-        mesh_of(garment, self.triangles.iter().copied())
-    }
-
-    fn samples(&self, garment: &TriangleMesh) -> Vec<DVec3> {
-        let corners: Vec<u32> = self.triangles.iter().flat_map(|&t| garment.triangles[t as usize]).collect();
-        let step = corners.len().div_ceil(SAMPLES).max(1);
-        corners.iter().step_by(step).map(|&v| garment.positions[v as usize]).collect()
-    }
-
-    fn merge(&mut self, other: Self) {
-        self.vertices.extend(other.vertices);
-        self.vertices.sort_unstable();
-        self.triangles.extend(other.triangles);
-        self.triangles.sort_unstable();
-        (self.low, self.high) = (self.low.min(other.low), self.high.max(other.high));
-    }
+/// Points of `part` from which its enclosure is tested.
+fn samples(garment: &TriangleMesh, part: &Piece) -> Vec<DVec3> {
+    let corners: Vec<u32> = part.triangles.iter().flat_map(|&t| garment.triangles[t as usize]).collect();
+    let step = corners.len().div_ceil(SAMPLES).max(1);
+    corners.iter().step_by(step).map(|&v| garment.positions[v as usize]).collect()
 }
 
+/// `garment` with some of its triangles.
 fn mesh_of(garment: &TriangleMesh, triangles: impl Iterator<Item = u32>) -> TriangleMesh {
     TriangleMesh {
         positions: garment.positions.clone(),
@@ -119,13 +96,15 @@ pub fn find(
     source: &Skeleton,
     source_body: Option<&ClosestPoint>,
 ) -> Vec<CarriedPiece> {
-    let mut parts = parts(garment, loose);
+    // What is held to another piece goes with it.
+    let holds = loose.all().map(|piece| [piece.vertices[0], garment.triangles[piece.host as usize][0]]);
+    let mut parts = Piece::find(&garment.positions, &garment.triangles, holds);
     if parts.is_empty() {
         return Vec::new();
     }
     parts.sort_by(|a, b| b.size().total_cmp(&a.size()).then(a.vertices[0].cmp(&b.vertices[0])));
     parts.truncate(MOST_PIECES);
-    let is_free = |part: &Part| is_around_no_bone(garment, part, segments);
+    let is_free = |part: &Piece| is_around_no_bone(garment, part, segments);
     let free: Vec<bool> = parts.par_iter().map(is_free).collect();
     let mut free = free.iter();
     parts.retain(|_| *free.next().unwrap_or(&false));
@@ -143,31 +122,9 @@ pub fn is_whole(garment: &TriangleMesh, carried: &[CarriedPiece]) -> bool {
     garment.triangles.iter().all(|t| is_carried[t[0] as usize])
 }
 
-/// The connected pieces, those that are held together with what holds them.
-fn parts(garment: &TriangleMesh, loose: &LoosePieces) -> Vec<Part> {
-    let sides = garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
-    let holds = loose.all().map(|piece| [piece.vertices[0], garment.triangles[piece.host as usize][0]]);
-    let (labels, count) = label_pieces(garment.positions.len(), sides.chain(holds));
-    let empty =
-        || Part { vertices: Vec::new(), triangles: Vec::new(), low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-    let mut parts: Vec<Part> = (0..count).map(|_| empty()).collect();
-    for ((v, &label), &p) in (0u32..).zip(&labels).zip(&garment.positions) {
-        if label != NO_PIECE {
-            let part = &mut parts[label as usize];
-            part.vertices.push(v);
-            (part.low, part.high) = (part.low.min(p), part.high.max(p));
-        }
-    }
-    for (k, t) in (0u32..).zip(&garment.triangles) {
-        parts[labels[t[0] as usize] as usize].triangles.push(k);
-    }
-    parts.retain(|part| !part.triangles.is_empty());
-    parts
-}
-
 /// Whether `part` has no bone that it is there to enclose.
-fn is_around_no_bone(garment: &TriangleMesh, part: &Part, segments: &[[DVec3; 2]]) -> bool {
-    let (own, samples) = (part.mesh(garment), part.samples(garment));
+fn is_around_no_bone(garment: &TriangleMesh, part: &Piece, segments: &[[DVec3; 2]]) -> bool {
+    let (own, samples) = (own_mesh(garment, part), samples(garment, part));
     if encloses(&own, segments) {
         return false;
     }
@@ -185,8 +142,8 @@ fn is_around_no_bone(garment: &TriangleMesh, part: &Part, segments: &[[DVec3; 2]
 }
 
 /// Whether most of the border of `part` is at `others`.
-fn is_sewn(garment: &TriangleMesh, part: &Part, others: &TriangleMesh) -> bool {
-    let topology = Topology::new(garment.positions.len(), &part.mesh(garment).triangles);
+fn is_sewn(garment: &TriangleMesh, part: &Piece, others: &TriangleMesh) -> bool {
+    let topology = Topology::new(garment.positions.len(), &own_mesh(garment, part).triangles);
     let border: Vec<u32> = topology.loops.iter().flat_map(|l| l.vertices.iter().copied()).collect();
     let tree = ClosestPoint::new(others);
     let near = border.iter().filter(|&&v| tree.distance(garment.positions[v as usize]) < SEAM).count();
@@ -194,8 +151,8 @@ fn is_sewn(garment: &TriangleMesh, part: &Part, others: &TriangleMesh) -> bool {
 }
 
 /// Joins parts that nearly touch.
-fn join_near(garment: &TriangleMesh, parts: Vec<Part>) -> Vec<Part> {
-    let trees: Vec<ClosestPoint> = parts.par_iter().map(|part| ClosestPoint::new(&part.mesh(garment))).collect();
+fn join_near(garment: &TriangleMesh, parts: Vec<Piece>) -> Vec<Piece> {
+    let trees: Vec<ClosestPoint> = parts.par_iter().map(|part| ClosestPoint::new(&own_mesh(garment, part))).collect();
     let mut links: Vec<[u32; 2]> = Vec::new();
     for (i, a) in parts.iter().enumerate() {
         links.push([i as u32; 2]);
@@ -209,7 +166,7 @@ fn join_near(garment: &TriangleMesh, parts: Vec<Part>) -> Vec<Part> {
         }
     }
     let (labels, count) = label_pieces(parts.len(), links.into_iter());
-    let mut joined: Vec<Option<Part>> = (0..count).map(|_| None).collect();
+    let mut joined: Vec<Option<Piece>> = (0..count).map(|_| None).collect();
     for (part, label) in parts.into_iter().zip(labels) {
         match &mut joined[label as usize] {
             Some(first) => first.merge(part),
@@ -222,7 +179,7 @@ fn join_near(garment: &TriangleMesh, parts: Vec<Part>) -> Vec<Part> {
 /// How `part` is carried; none where nothing is near enough, or where it is no such thing.
 fn carry(
     garment: &TriangleMesh,
-    part: &Part,
+    part: &Piece,
     source: &Skeleton,
     source_body: Option<&ClosestPoint>,
 ) -> Option<CarriedPiece> {
@@ -269,7 +226,7 @@ struct Shell {
 }
 
 /// The connected surfaces of `part`, the largest first.
-fn shells(garment: &TriangleMesh, part: &Part) -> Vec<Shell> {
+fn shells(garment: &TriangleMesh, part: &Piece) -> Vec<Shell> {
     let all: Vec<[u32; 3]> = part.triangles.iter().map(|&t| garment.triangles[t as usize]).collect();
     let links = all.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
     let (labels, count) = label_pieces(garment.positions.len(), links);

@@ -15,10 +15,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::loose_pieces::{Host, LoosePiece, LoosePieces, Piece, as_host, pieces, reach, vertex_areas};
+use super::loose_pieces::{Host, LoosePiece, LoosePieces, as_host, reach, vertex_areas};
 use crate::energy::attachment::{Hold, SizeHold};
 use crate::geometry::closest_point::Closest;
-use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::piece::Piece;
 use crate::input::skeleton::Skeleton;
 use crate::stage::start::section::Section;
 
@@ -58,12 +58,13 @@ type Found = (usize, Vec<Hold>, LoosePiece);
 impl HangingPieces {
     /// The hanging pieces of a garment with vertices `rest` around `skeleton`; `loose` are those that are held already.
     pub fn find(rest: &[DVec3], triangles: &[[u32; 3]], skeleton: &Skeleton, loose: &LoosePieces) -> Self {
-        let pieces = pieces(rest, triangles);
+        let pieces = Piece::find(rest, triangles, []);
         let mut is_loose = vec![false; rest.len()];
         loose.pieces.iter().for_each(|piece| is_loose[piece.vertices[0] as usize] = true);
+        let bones = skeleton.lengthened(LEAF_REACH);
         let mut rooted: Vec<bool> = pieces
             .par_iter()
-            .map(|piece| is_loose[piece.vertices[0] as usize] || is_around_a_bone(piece, rest, triangles, skeleton))
+            .map(|piece| is_loose[piece.vertices[0] as usize] || is_around_a_bone(piece, rest, triangles, &bones))
             .collect();
         if rooted.iter().all(|&is_rooted| is_rooted) {
             return Self::default();
@@ -96,19 +97,10 @@ impl HangingPieces {
     }
 }
 
-/// Whether the body passes through `piece`: it encloses a point of a bone, in the plane across that.
-fn is_around_a_bone(piece: &Piece, rest: &[DVec3], triangles: &[[u32; 3]], skeleton: &Skeleton) -> bool {
-    let mut mesh = TriangleMesh::default();
-    for (k, &t) in (0u32..).zip(&piece.triangles) {
-        mesh.positions.extend(triangles[t as usize].map(|v| rest[v as usize]));
-        mesh.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
-    }
-    let mut degree = vec![0_u32; skeleton.joints.len()];
-    skeleton.bones.iter().flatten().for_each(|&joint| degree[joint as usize] += 1);
-    skeleton.bones.iter().any(|bone| {
-        let [a, b] = bone.map(|joint| skeleton.joints[joint as usize]);
-        let [before, after] = bone.map(|joint| if degree[joint as usize] == 1 { LEAF_REACH } else { 0.0 });
-        let (a, b) = (a - (b - a) * before, b + (b - a) * after);
+/// Whether the body passes through `piece`: it encloses a point of one of `bones`, in the plane across that.
+fn is_around_a_bone(piece: &Piece, rest: &[DVec3], triangles: &[[u32; 3]], bones: &[[DVec3; 2]]) -> bool {
+    let mesh = piece.mesh(rest, triangles);
+    bones.iter().any(|&[a, b]| {
         let Some([from, to]) = clipped(a, b, piece) else { return false };
         (0..SAMPLES).any(|k| {
             let point = a.lerp(b, from + (to - from) * (f64::from(k) + 0.5) / f64::from(SAMPLES));

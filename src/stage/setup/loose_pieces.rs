@@ -13,7 +13,8 @@ use rayon::prelude::*;
 
 use crate::energy::attachment::Hold;
 use crate::geometry::closest_point::ClosestPoint;
-use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::mesh::{TriangleMesh, is_wide, triangle_area};
+use crate::geometry::piece::Piece;
 use crate::input::diagnostic::Diagnostic;
 
 /// A loose piece has at most this fraction of its host's area.
@@ -29,7 +30,7 @@ const MOST: f64 = 0.9;
 const HOSTS: usize = 32;
 
 /// A host triangle whose doubled area is below this share of its longest edge squared is too thin to hold anything.
-const THIN: f64 = 1e-2;
+pub(super) const THIN: f64 = 1e-2;
 
 /// The area around a vertex counts as at least this fraction of the mean square of the edges there: a piece of single edges or
 /// of slivers is held too.
@@ -59,30 +60,6 @@ pub struct LoosePieces {
     pub holds: Vec<Hold>,
 }
 
-/// A connected part of the garment.
-#[derive(Default)]
-pub(super) struct Piece {
-    /// Its vertices, ascending.
-    pub vertices: Vec<u32>,
-    /// Its triangles, ascending.
-    pub triangles: Vec<u32>,
-    pub area: f64,
-    /// Its bounding box.
-    pub low: DVec3,
-    pub high: DVec3,
-}
-
-impl Piece {
-    pub fn size(&self) -> f64 {
-        self.low.distance(self.high)
-    }
-
-    /// Distance between the bounding boxes.
-    pub fn gap(&self, other: &Self) -> f64 {
-        (self.low - other.high).max(other.low - self.high).max(DVec3::ZERO).length()
-    }
-}
-
 /// A piece that others can be held to.
 pub(super) struct Host {
     pub piece: u32,
@@ -108,7 +85,7 @@ struct Match {
 impl LoosePieces {
     /// The loose pieces of a garment with vertices `rest` and `triangles`, whose indices are below the number of vertices.
     pub fn find(rest: &[DVec3], triangles: &[[u32; 3]]) -> Self {
-        let pieces = pieces(rest, triangles);
+        let pieces = Piece::find(rest, triangles, []);
         if pieces.len() < 2 {
             return Self::default();
         }
@@ -143,37 +120,12 @@ impl LoosePieces {
     }
 }
 
-/// The connected parts, triangles without area included, in the order of their lowest vertices.
-pub(super) fn pieces(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Piece> {
-    let links = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
-    let (labels, count) = label_pieces(rest.len(), links);
-    let empty = || Piece { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, ..Piece::default() };
-    let mut pieces: Vec<Piece> = (0..count).map(|_| empty()).collect();
-    for ((v, &label), &p) in (0u32..).zip(&labels).zip(rest) {
-        if label != NO_PIECE {
-            let piece = &mut pieces[label as usize];
-            piece.vertices.push(v);
-            (piece.low, piece.high) = (piece.low.min(p), piece.high.max(p));
-        }
-    }
-    for (k, t) in (0u32..).zip(triangles) {
-        let piece = &mut pieces[labels[t[0] as usize] as usize];
-        piece.triangles.push(k);
-        piece.area += area(rest, t);
-    }
-    pieces
-}
-
-fn area(rest: &[DVec3], t: &[u32; 3]) -> f64 {
-    triangle_area(t.map(|v| rest[v as usize]))
-}
-
 /// The rest area around each vertex.
 pub(super) fn vertex_areas(rest: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let mut areas = vec![0.0; rest.len()];
     let mut squares = vec![(0.0, 0.0); rest.len()];
     for t in triangles {
-        let share = area(rest, t) / 3.0;
+        let share = triangle_area(t.map(|v| rest[v as usize])) / 3.0;
         for k in 0..3 {
             let [v, w] = [t[k], t[(k + 1) % 3]].map(|v| v as usize);
             areas[v] += share;
@@ -205,18 +157,10 @@ fn hosts(rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Vec<Host> 
 
 /// The piece of index `k` with a tree over its triangles that are no slivers; none without any.
 pub(super) fn as_host(k: u32, rest: &[DVec3], triangles: &[[u32; 3]], pieces: &[Piece]) -> Option<Host> {
-    let is_usable = |&&t: &&u32| {
-        let [a, b, c] = triangles[t as usize].map(|v| rest[v as usize]);
-        let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-        (b - a).cross(c - a).length() > THIN * longest
-    };
-    let usable: Vec<u32> = pieces[k as usize].triangles.iter().filter(is_usable).copied().collect();
+    let corners = |&t: &u32| triangles[t as usize].map(|v| rest[v as usize]);
+    let usable: Vec<u32> = pieces[k as usize].triangles.iter().filter(|t| is_wide(corners(t), THIN)).copied().collect();
     // The tree sees the vertices of its own triangles only.
-    let mut mesh = TriangleMesh::default();
-    for (k, &t) in (0u32..).zip(&usable) {
-        mesh.positions.extend(triangles[t as usize].map(|v| rest[v as usize]));
-        mesh.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
-    }
+    let mesh = TriangleMesh::from_corners(usable.iter().map(corners));
     (!usable.is_empty()).then(|| Host { piece: k, tree: ClosestPoint::new(&mesh), triangles: usable })
 }
 

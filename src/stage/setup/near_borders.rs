@@ -15,10 +15,11 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::loose_pieces::THIN;
 use crate::energy::attachment::Hold;
 use crate::geometry::bvh::{Aabb, Bvh};
 use crate::geometry::closest_point::closest_on_triangle;
-use crate::geometry::mesh::Topology;
+use crate::geometry::mesh::{Topology, is_wide};
 use crate::input::diagnostic::Diagnostic;
 
 /// Distance up to which a border lies beside something; on a person two centimetres.
@@ -32,9 +33,6 @@ const SAME_WAY: f64 = 0.5;
 
 /// How much more a border is held than a vertex of a loose piece with the same area.
 const STRENGTH: f64 = 10.0;
-
-/// A triangle whose doubled area is below this share of its longest edge squared is too thin to hold anything.
-const THIN: f64 = 1e-2;
 
 /// The borders of a garment that are held to what they lie on or beside.
 #[derive(Clone, Debug, Default)]
@@ -105,11 +103,7 @@ impl<'a> Garment<'a> {
     fn near(&self, borders: &[u32], is_held: &[bool]) -> Vec<Vec<u32>> {
         let boxes: Vec<Aabb> =
             borders.iter().map(|&v| self.rest[v as usize]).map(|p| Aabb::around(p, p, REACH)).collect();
-        let is_usable = |&t: &u32| {
-            let [a, b, c] = self.corners(t);
-            let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-            !is_held[self.triangles[t as usize][0] as usize] && self.normals[t as usize].length() > THIN * longest
-        };
+        let is_usable = |&t: &u32| !is_held[self.triangles[t as usize][0] as usize] && is_wide(self.corners(t), THIN);
         let usable: Vec<u32> = (0..self.triangles.len() as u32).filter(is_usable).collect();
         let around = |&t: &u32| {
             let [a, b, c] = self.corners(t);

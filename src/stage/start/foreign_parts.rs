@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use super::section::Section;
 use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
-use crate::geometry::mesh::{TriangleMesh, has_area, label_pieces};
+use crate::geometry::mesh::{TriangleMesh, has_area};
+use crate::geometry::piece::Piece;
 use crate::input::diagnostic::{Diagnostic, Foreignness};
 use crate::input::skeleton::Skeleton;
 use crate::input::weld::weld_vertices;
@@ -56,21 +57,7 @@ impl ForeignPart {
     }
 }
 
-/// A connected piece.
-struct Piece {
-    triangles: Vec<u32>,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Piece {
-    fn size(&self) -> f64 {
-        (self.high - self.low).max_element()
-    }
-}
-
-/// The foreign pieces of `avatar`, whose skeleton is `target`; none with a triangle for which
-/// `is_kept`, and never all. The
+/// The foreign pieces of `avatar`, whose skeleton is `target`; none with a triangle for which `is_kept`, and never all. The
 /// largest come first.
 pub fn find(avatar: &TriangleMesh, target: &Skeleton, is_kept: impl Fn(u32) -> bool) -> Vec<ForeignPart> {
     let pieces = pieces(avatar);
@@ -80,7 +67,7 @@ pub fn find(avatar: &TriangleMesh, target: &Skeleton, is_kept: impl Fn(u32) -> b
     }
     let scene = Scene { avatar, target, side, pieces: &pieces };
     let mut order: Vec<usize> = (0..pieces.len()).collect();
-    order.sort_by(|&a, &b| pieces[b].size().total_cmp(&pieces[a].size()));
+    order.sort_by(|&a, &b| pieces[b].longest_side().total_cmp(&pieces[a].longest_side()));
     let mut reasons: Vec<Option<Foreignness>> = vec![None; pieces.len()];
     let kept: Vec<bool> = pieces.iter().map(|piece| piece.triangles.iter().any(|&t| is_kept(t))).collect();
     for &k in order.iter().filter(|&&k| !kept[k]) {
@@ -95,7 +82,7 @@ pub fn find(avatar: &TriangleMesh, target: &Skeleton, is_kept: impl Fn(u32) -> b
     }
     let foreign = |k: usize| {
         let triangles = pieces[k].triangles.clone();
-        reasons[k].map(|reason| ForeignPart { triangles, reason, size: pieces[k].size() / side })
+        reasons[k].map(|reason| ForeignPart { triangles, reason, size: pieces[k].longest_side() / side })
     };
     order.into_iter().filter_map(foreign).collect()
 }
@@ -103,19 +90,9 @@ pub fn find(avatar: &TriangleMesh, target: &Skeleton, is_kept: impl Fn(u32) -> b
 /// The connected pieces, vertices at one position being one.
 fn pieces(mesh: &TriangleMesh) -> Vec<Piece> {
     let (to_welded, places) = weld_vertices(mesh);
-    let corners: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
-    let links = corners.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
-    let (labels, count) = label_pieces(places.len(), links);
-    let empty = || Piece { triangles: Vec::new(), low: DVec3::MAX, high: DVec3::MIN };
-    let mut pieces: Vec<Piece> = std::iter::repeat_with(empty).take(count).collect();
-    for (t, triangle) in (0u32..).zip(&corners) {
-        let piece = &mut pieces[labels[triangle[0] as usize] as usize];
-        piece.triangles.push(t);
-        for p in triangle.map(|w| mesh.positions[places[w as usize] as usize]) {
-            (piece.low, piece.high) = (piece.low.min(p), piece.high.max(p));
-        }
-    }
-    pieces
+    let positions: Vec<DVec3> = places.iter().map(|&v| mesh.positions[v as usize]).collect();
+    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|v| to_welded[v as usize])).collect();
+    Piece::find(&positions, &triangles, [])
 }
 
 struct Scene<'a> {
@@ -126,24 +103,18 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        self.avatar.triangles[triangle as usize].map(|v| self.avatar.positions[v as usize])
-    }
-
     fn points(&self, piece: usize) -> impl Iterator<Item = DVec3> {
-        self.pieces[piece].triangles.iter().flat_map(|&t| self.corners(t))
+        self.pieces[piece].triangles.iter().flat_map(|&t| self.avatar.corners(t))
     }
 
     fn mesh(&self, triangles: impl Iterator<Item = u32>) -> TriangleMesh {
-        let positions: Vec<DVec3> = triangles.flat_map(|t| self.corners(t)).collect();
-        let triangles = (0..positions.len() as u32 / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        TriangleMesh { positions, triangles }
+        TriangleMesh::from_corners(triangles.map(|t| self.avatar.corners(t)))
     }
 
     /// What piece `k` is beside the pieces of `rest`, but for detached ones.
     fn examine(&self, k: usize, rest: impl Fn(usize) -> bool) -> Option<Foreignness> {
         let piece = &self.pieces[k];
-        if piece.size() <= GROUND * self.side {
+        if piece.longest_side() <= GROUND * self.side {
             return None;
         }
         if self.surrounds(k) && self.is_dressed_by(&rest, k) {
@@ -152,7 +123,7 @@ impl Scene<'_> {
         if self.is_ground(k, &rest) {
             return Some(Foreignness::Ground);
         }
-        let is_huge = piece.size() > HUGE * self.side && !self.is_around_a_bone(k);
+        let is_huge = piece.longest_side() > HUGE * self.side && !self.is_around_a_bone(k);
         (is_huge && (0..self.pieces.len()).any(rest)).then_some(Foreignness::Huge)
     }
 
@@ -166,13 +137,17 @@ impl Scene<'_> {
             return false;
         }
         let stride = piece.triangles.len().div_ceil(MAX_PLANES);
-        piece.triangles.iter().step_by(stride).map(|&t| self.corners(t)).filter(|&corners| has_area(corners)).all(
-            |[a, b, c]| {
+        piece
+            .triangles
+            .iter()
+            .step_by(stride)
+            .map(|&t| self.avatar.corners(t))
+            .filter(|&corners| has_area(corners))
+            .all(|[a, b, c]| {
                 let normal = (b - a).cross(c - a);
                 let above = joints.iter().filter(|&&j| (j - a).dot(normal) > 0.0).count();
                 above == 0 || above == joints.len()
-            },
-        )
+            })
     }
 
     /// The pieces of `rest` surround at least half as many bones as they do together with piece `k`.
@@ -207,7 +182,7 @@ impl Scene<'_> {
     fn is_ground(&self, k: usize, rest: &impl Fn(usize) -> bool) -> bool {
         let piece = &self.pieces[k];
         let area = |t: u32| {
-            let [a, b, c] = self.corners(t);
+            let [a, b, c] = self.avatar.corners(t);
             (b - a).cross(c - a)
         };
         let largest = piece.triangles.iter().map(|&t| area(t)).max_by(|a, b| a.length().total_cmp(&b.length()));
@@ -222,7 +197,7 @@ impl Scene<'_> {
         let (bottom, top) = span(&mut self.points(k));
         let (feet, head) = span(&mut joints.iter().copied());
         let sinks = SINKS * self.side;
-        if top - bottom > FLAT * piece.size() || feet < top - sinks || head - feet < RISES * self.side {
+        if top - bottom > FLAT * piece.longest_side() || feet < top - sinks || head - feet < RISES * self.side {
             return false;
         }
         let mut above = false;
@@ -231,7 +206,7 @@ impl Scene<'_> {
             // What lies under the ground, such as a second one, is no sole.
             if low > top - sinks {
                 above = true;
-            } else if self.pieces[other].size() <= HUGE * self.side {
+            } else if self.pieces[other].longest_side() <= HUGE * self.side {
                 return false;
             }
         }
@@ -240,7 +215,7 @@ impl Scene<'_> {
 
     /// Marks the pieces that are away from the bones and from what hangs together near them.
     fn find_detached(&self, reasons: &mut [Option<Foreignness>], kept: &[bool]) {
-        let segments = self.reached_segments();
+        let segments = self.target.lengthened(LEAF_REACH);
         let from_bones = |p: DVec3| {
             segments.iter().map(|&[a, b]| closest_on_segment(p, a, b - a).distance(p)).fold(f64::INFINITY, f64::min)
         };
@@ -267,17 +242,5 @@ impl Scene<'_> {
         if !body.is_empty() {
             far.into_iter().for_each(|k| reasons[k] = Some(Foreignness::Detached));
         }
-    }
-
-    /// The bones, lengthened at leaf joints.
-    fn reached_segments(&self) -> Vec<[DVec3; 2]> {
-        let mut degree = vec![0u32; self.target.joints.len()];
-        self.target.bones.iter().flatten().for_each(|&j| degree[j as usize] += 1);
-        let reach = |joint: u32| if degree[joint as usize] == 1 { LEAF_REACH } else { 0.0 };
-        let segment = |&[j, k]: &[u32; 2]| {
-            let (a, b) = (self.target.joints[j as usize], self.target.joints[k as usize]);
-            [a - reach(j) * (b - a), b + reach(k) * (b - a)]
-        };
-        self.target.bones.iter().map(segment).collect()
     }
 }
