@@ -63,8 +63,9 @@ enum Element {
 }
 
 /// Attachment term; an element is a vertex of a loose piece, or two that keep their distance.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Attachment {
+    name: &'static str,
     elements: Vec<Element>,
 }
 
@@ -73,7 +74,13 @@ impl Attachment {
     /// is the distance of two vertices at one point.
     pub fn new(rest: &[DVec3], holds: &[Hold], sizes: &[SizeHold]) -> Self {
         let bound = holds.iter().filter_map(|hold| Element::bound(rest, hold));
-        Self { elements: bound.chain(sizes.iter().filter_map(|size| Element::distance(rest, size))).collect() }
+        let elements = bound.chain(sizes.iter().filter_map(|size| Element::distance(rest, size))).collect();
+        Self { name: "attachment", elements }
+    }
+
+    /// The same term for borders that are held to what they lie on, under a name of its own.
+    pub fn of_borders(rest: &[DVec3], holds: &[Hold]) -> Self {
+        Self { name: "borders", ..Self::new(rest, holds, &[]) }
     }
 }
 
@@ -97,7 +104,7 @@ impl Element {
 
 impl Energy for Attachment {
     fn name(&self) -> &'static str {
-        "attachment"
+        self.name
     }
 
     fn len(&self) -> usize {
@@ -142,35 +149,5 @@ impl Energy for Attachment {
             Element::Bound { bound, .. } => visit(&bound.vertices),
             Element::Distance { vertices, .. } => visit(vertices),
         });
-    }
-}
-
-/// The same term under a name of its own, for borders that are held to what they lie on.
-#[derive(Clone, Debug, Default)]
-pub struct Borders(pub Attachment);
-
-impl Energy for Borders {
-    fn name(&self) -> &'static str {
-        "borders"
-    }
-
-    fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    fn memory(&self) -> u64 {
-        self.0.memory()
-    }
-
-    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        self.0.value(at, range)
-    }
-
-    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        self.0.derivatives(at, range, sink);
-    }
-
-    fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.0.stencils(visit);
     }
 }

@@ -7,7 +7,6 @@
 
 pub mod attachment;
 pub mod barrier;
-pub mod carry;
 pub mod curve;
 pub mod distortion;
 pub mod fit;

@@ -9,7 +9,7 @@ use testing::Random;
 
 fn sample(random: &mut Random) -> (Vec<DVec3>, Pins) {
     let rest: Vec<DVec3> = (0..5).map(|_| 2.0 * random.vector()).collect();
-    let pin = |(vertex, end)| Pin { vertex, start: rest[vertex as usize], end };
+    let pin = |(vertex, end)| Pin { vertex, start: rest[vertex as usize], end, weight: 1.0 };
     let pins = [0, 1, 4].map(|vertex| pin((vertex, 2.0 * random.vector())));
     (rest.clone(), Pins::new(pins.to_vec()))
 }

@@ -16,7 +16,7 @@ use glam::{DQuat, DVec3};
 
 use super::bone_map::BoneMap;
 use super::carried_pieces::CarriedPiece;
-use crate::energy::carry::{Carried, Carry};
+use crate::energy::pin::{Pin, Pins};
 use crate::geometry::alignment::Similarity;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::{TriangleMesh, triangle_area};
@@ -144,17 +144,17 @@ impl CarriedPlaces {
     }
 
     /// The term that draws the garment's vertices there.
-    pub fn term(&self) -> Carry {
+    pub fn term(&self) -> Pins {
         let mut elements = Vec::new();
         for piece in &self.pieces {
             let lever = LEVER * piece.size;
             let vertices = piece.carried.vertices.iter().zip(&piece.rest).zip(&piece.places).zip(&piece.areas);
             elements.extend(vertices.map(|(((&vertex, &start), &end), area)| {
                 let weight = area / (lever * lever);
-                Carried { vertex, start, end, weight }
+                Pin { vertex, start, end, weight }
             }));
         }
-        Carry::new(elements)
+        Pins::carrying(elements)
     }
 }
 

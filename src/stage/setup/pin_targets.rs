@@ -50,7 +50,7 @@ pub fn resolve(
             };
             carried(start, bone, source, target)
         });
-        Pin { vertex, start, end }
+        Pin { vertex, start, end, weight: 1.0 }
     };
     asked.iter().map(pin).collect()
 }

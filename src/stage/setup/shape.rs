@@ -9,8 +9,7 @@ use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::near_borders::NearBorders;
 use super::pin_targets::{self, PinRequest};
-use crate::energy::attachment::{Attachment, Borders, SizeHold};
-use crate::energy::carry::Carry;
+use crate::energy::attachment::{Attachment, SizeHold};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
 use crate::energy::position::{MovingAxis, Position};
@@ -28,9 +27,9 @@ pub struct Shape {
     /// Loose pieces, held to their hosts.
     pub attachment: Attachment,
     /// Borders held to what they lie on, in the fit.
-    pub borders: Borders,
+    pub borders: Attachment,
     /// Carried pieces.
-    pub carry: Carry,
+    pub carry: Pins,
     /// Curvature of the boundary curves (Eq. 5).
     pub curvature: Curvature,
     /// Torsion of the boundary curves.
@@ -62,9 +61,9 @@ impl HeldPieces<'_> {
 }
 
 impl Shape {
-    /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that
-    /// something else holds; the borders that are held to others are found. `pins` has at most one entry a vertex, `rigid_groups` each vertex in one
-    /// group at most.
+    /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that something
+    /// else holds; the borders that are held to others are found. `pins` has at most one entry a vertex, `rigid_groups` each
+    /// vertex in one group at most.
     pub fn new(
         garment: &TriangleMesh,
         source: &Skeleton,
@@ -85,7 +84,7 @@ impl Shape {
         let shape = Self {
             surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
-            borders: Borders(Attachment::new(rest, &near.holds, &[])),
+            borders: Attachment::of_borders(rest, &near.holds),
             carry: held.carried.term(),
             curvature: Curvature::new(rest, &topology.loops),
             torsion: Torsion::new(rest, &topology.loops),
