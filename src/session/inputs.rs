@@ -319,9 +319,7 @@ impl Inputs {
         )?;
         Ok((problem, body))
     }
-}
 
-impl Inputs {
     /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what
     /// they are or wants it `strict`. Adds to `diagnostics`.
     fn resolve_roles(

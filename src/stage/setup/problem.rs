@@ -1,6 +1,5 @@
 //! The inputs in the normalised space, and all that is derived from them once, for inflation and fit.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -31,15 +30,12 @@ use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::stage::start::caps::Caps;
-use crate::stage::start::projection::{ProjectedAvatar, project, project_with};
-use crate::stage::start::untangle::{Untangled, untangle};
-use crate::stage::start::weight_check::contradictions;
+use crate::stage::start::projection::{ProjectedAvatar, project};
+use crate::stage::start::untangle::{Untangled, begin_apart};
+use crate::stage::start::weight_check::believed;
 use crate::stage::start::{enclosure, open_ends, repair};
-use crate::verify::{intersections, intersections_with_cancel};
+use crate::verify::intersections_with_cancel;
 
-/// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: what is left is
-/// locked between layers that may not pass each other any more, and the inflation mostly stalls.
-const MOST_REMAINING: f64 = 0.1;
 /// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
 const MAX_OFFSET: f64 = 1.0;
 
@@ -132,14 +128,16 @@ impl Problem {
         let mut normalised = Normalised::new(inputs, options)?;
         cancel.check()?;
         let Normalised { source, target, avatar, .. } = &normalised;
-        let believed = inputs.skin.map(|skin| believed_skin(skin, avatar, target, options.strict, diagnostics));
+        let believed = inputs.skin.map(|skin| believed(skin, &avatar.avatar(), target, options.strict, diagnostics));
         let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
         let skin = skin.as_deref();
+        let straight = project(&avatar.mesh, target, source, skin);
+        cancel.check()?;
         let caps = if options.keep_caps {
             Caps::default()
         } else {
             // As it begins; what comes later, such as a head that starts beyond the collar, needs the openings.
-            repair::find_caps(&normalised.garment, &project(&avatar.mesh, target, source, skin), source, cancel)?
+            repair::find_caps(&normalised.garment, &straight, source, cancel)?
         };
         cancel.check()?;
         let (weld, motions) = normalised.open(&caps, &inputs.weld, diagnostics);
@@ -152,8 +150,9 @@ impl Problem {
             ref avatar,
             offset,
         } = normalised;
+        let skeletons = [target, source];
         let mut projected =
-            project_beyond_ends(garment, &avatar.mesh, [target, source], skin, options.strict, diagnostics)?;
+            open_ends::begin_beyond(straight, garment, &avatar.mesh, skeletons, skin, options.strict, diagnostics)?;
         cancel.check()?;
         let distances =
             ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
@@ -187,7 +186,9 @@ impl Problem {
             let map = BoneMap::new(source, target, bodies);
             CarriedPlaces::new(garment, &pieces, &map, source_tree.as_ref(), options.designed_clearance)
         };
-        let untangled = pulled_apart(garment, &designed_intersections, &projected, options.strict, cancel)?;
+        // A strict caller asks to be refused, so nothing is pulled apart for him.
+        let untangled =
+            if options.strict { None } else { begin_apart(garment, &designed_intersections, &projected, cancel)? };
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
@@ -370,79 +371,6 @@ fn with_reason(mut error: Error, caps: &Caps) -> Error {
             &format!("; what closes it there is not taken for the cap of an opening: it {}", reason.reason());
     }
     error
-}
-
-/// `skin` where it can be believed: the nearest bone decides for vertices whose weights contradict their positions, unless
-/// `strict`. Adds to `diagnostics`.
-fn believed_skin<'a>(
-    skin: &'a SkinWeights,
-    avatar: &Body,
-    target: &Skeleton,
-    strict: bool,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Cow<'a, SkinWeights> {
-    let found = contradictions(&avatar.avatar(), target, skin);
-    if found.vertices.is_empty() {
-        return Cow::Borrowed(skin);
-    }
-    diagnostics.push(Diagnostic::WeightsContradict {
-        count: found.vertices.len(),
-        weighted: found.weighted,
-        first: found.first,
-        example: found.example.map(|(joint, bone)| (joint, target.bones[bone as usize])),
-        mended: !strict,
-    });
-    if strict { Cow::Borrowed(skin) } else { Cow::Owned(skin.without(&found.vertices)) }
-}
-
-/// The avatar on the source skeleton. Where it goes on beyond a bone's end without a bone, it starts beyond that end, if
-/// the garment is open there and the caller does not want it `strict`. Adds to `diagnostics`.
-fn project_beyond_ends(
-    garment: &TriangleMesh,
-    avatar: &TriangleMesh,
-    [target, source]: [&Skeleton; 2],
-    skin: Option<&SkinWeights>,
-    strict: bool,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<ProjectedAvatar> {
-    let open = open_ends::find(avatar, target, skin);
-    let mut mended = None;
-    if !open.is_empty() && !strict {
-        let beyond = project_with(avatar, target, source, skin, &open);
-        let start = TriangleMesh { positions: beyond.start.clone(), triangles: beyond.triangles.clone() };
-        mended = (intersections(garment, Some(&start), 0)?.count == 0).then_some(beyond);
-    }
-    diagnostics.extend(open.iter().map(|open| {
-        let mut joints = target.bones[open.bone as usize];
-        if open.end == 0 {
-            joints.reverse();
-        }
-        let bone = Bone { index: open.bone, joints };
-        Diagnostic::EndWithoutBone { bone, reach: open.reach, mended: mended.is_some() }
-    }));
-    Ok(mended.unwrap_or_else(|| project(avatar, target, source, skin)))
-}
-
-/// `garment` pulled apart where it passes through itself, unless that brings it into the shrunk avatar. A `strict` caller asks
-/// for a refusal, so nothing is pulled apart for him.
-fn pulled_apart(
-    garment: &TriangleMesh,
-    designed_intersections: &[[u32; 2]],
-    projected: &ProjectedAvatar,
-    strict: bool,
-    cancel: &Cancel,
-) -> Result<Option<Untangled>> {
-    if strict {
-        return Ok(None);
-    }
-    let Some(untangled) = untangle(garment, designed_intersections, cancel)? else { return Ok(None) };
-    if untangled.remaining.len() as f64 > MOST_REMAINING * designed_intersections.len() as f64 {
-        return Ok(None);
-    }
-    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
-    let pulled = TriangleMesh { positions: untangled.start.clone(), triangles: garment.triangles.clone() };
-    let hits = intersections_with_cancel(&pulled, Some(&shrunk), 1, cancel)?.count;
-    Ok((hits == 0).then_some(untangled))
 }
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.

@@ -6,10 +6,13 @@
 
 use glam::DVec3;
 
-use super::projection::{OpenEnd, attach};
+use super::projection::{OpenEnd, ProjectedAvatar, attach, project_with};
+use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
+use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
+use crate::verify::intersections;
 
 /// A bone goes on where another leaves its end within 60 degrees of its direction.
 const GOES_ON: f64 = 0.5;
@@ -21,6 +24,37 @@ const LAST: f64 = 0.15;
 const MIN_REACH: f64 = 0.25;
 /// As many vertices lie there at least.
 const FEWEST: usize = 8;
+
+/// The avatar on the source skeleton: as `straight` has it, or where it goes on beyond a bone's end without a bone, beginning
+/// beyond that end, if the `garment` is open there and the caller does not want it `strict`. Adds to `diagnostics`.
+///
+/// # Errors
+/// `InvalidMesh` where the garment cannot be judged.
+pub fn begin_beyond(
+    straight: ProjectedAvatar,
+    garment: &TriangleMesh,
+    avatar: &TriangleMesh,
+    [target, source]: [&Skeleton; 2],
+    skin: Option<&SkinWeights>,
+    strict: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<ProjectedAvatar> {
+    let open = find(avatar, target, skin);
+    let mut mended = None;
+    if !open.is_empty() && !strict {
+        let beyond = project_with(avatar, target, source, skin, &open);
+        mended = (intersections(garment, Some(&beyond.start_mesh()), 0)?.count == 0).then_some(beyond);
+    }
+    diagnostics.extend(open.iter().map(|open| {
+        let mut joints = target.bones[open.bone as usize];
+        if open.end == 0 {
+            joints.reverse();
+        }
+        let bone = Bone { index: open.bone, joints };
+        Diagnostic::EndWithoutBone { bone, reach: open.reach, mended: mended.is_some() }
+    }));
+    Ok(mended.unwrap_or(straight))
+}
 
 /// The open ends of `target`, the skeleton of `avatar`, leaf joints apart, which always are.
 pub fn find(avatar: &TriangleMesh, target: &Skeleton, skin: Option<&SkinWeights>) -> Vec<OpenEnd> {

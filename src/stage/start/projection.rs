@@ -225,6 +225,11 @@ fn strip(piece: &[Corner; 3], base: usize, paths: &[Vec<u32>; 3], skeleton: &Ske
 }
 
 impl ProjectedAvatar {
+    /// The subdivided mesh at t = 0.
+    pub fn start_mesh(&self) -> TriangleMesh {
+        TriangleMesh { positions: self.start.clone(), triangles: self.triangles.clone() }
+    }
+
     /// Vertices and triangles that the first `count` of the caller's triangles have been split into.
     pub fn size_of_first(&self, count: usize) -> [usize; 2] {
         // Both are in the order in which the caller's triangles came.

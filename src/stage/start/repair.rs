@@ -98,8 +98,7 @@ pub fn find_caps(
 }
 
 fn find_penetrations(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel: &Cancel) -> Result<Vec<Penetration>> {
-    let shrunk = TriangleMesh { positions: projected.start.clone(), triangles: projected.triangles.clone() };
-    let found = intersections_with_cancel(garment, Some(&shrunk), usize::MAX, cancel)?;
+    let found = intersections_with_cancel(garment, Some(&projected.start_mesh()), usize::MAX, cancel)?;
     let penetration = |&[garment, piece]: &[u32; 2]| Penetration {
         garment,
         bone: projected.bones[piece as usize],

@@ -8,6 +8,7 @@
 use glam::DVec3;
 
 use super::contour::contour_length;
+use super::projection::ProjectedAvatar;
 use crate::control::Cancel;
 use crate::error::Result;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces};
@@ -32,12 +33,35 @@ const ROUNDS: usize = 4;
 /// Rings of vertices around what is left as it is that stay as well.
 const FROZEN_RINGS: usize = 3;
 
+/// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: what is left is
+/// locked between layers that may not pass each other any more, and the inflation mostly stalls.
+const MOST_REMAINING: f64 = 0.1;
+
 /// A garment whose initial self-intersections were pulled apart, wholly or partly.
 pub struct Untangled {
     /// Where the vertices begin.
     pub start: Vec<DVec3>,
     /// The pairs of triangles that still intersect: some of those that did.
     pub remaining: Vec<[u32; 2]>,
+}
+
+/// [`untangle`], unless too much remains or that brings the garment into the avatar as it begins.
+///
+/// # Errors
+/// `Cancelled`.
+pub fn begin_apart(
+    garment: &TriangleMesh,
+    pairs: &[[u32; 2]],
+    avatar: &ProjectedAvatar,
+    cancel: &Cancel,
+) -> Result<Option<Untangled>> {
+    let Some(untangled) = untangle(garment, pairs, cancel)? else { return Ok(None) };
+    if untangled.remaining.len() as f64 > MOST_REMAINING * pairs.len() as f64 {
+        return Ok(None);
+    }
+    let pulled = TriangleMesh { positions: untangled.start.clone(), triangles: garment.triangles.clone() };
+    let hits = intersections_with_cancel(&pulled, Some(&avatar.start_mesh()), 1, cancel)?.count;
+    Ok((hits == 0).then_some(untangled))
 }
 
 /// Pulls apart what intersects in `garment`, whose intersecting pairs of triangles are `pairs`, in ascending order. None where
@@ -51,27 +75,17 @@ pub fn untangle(garment: &TriangleMesh, pairs: &[[u32; 2]], cancel: &Cancel) -> 
     }
     let mut descent = Descent::new(garment);
     for _ in 0..ROUNDS {
-        let start = descent.run(pairs, cancel)?;
-        let remaining = intersecting_pairs(garment, &start, cancel)?;
+        let untangled = descent.run(pairs, cancel)?;
         let is_new = |pair: &&[u32; 2]| pairs.binary_search(pair).is_err();
-        let new: Vec<[u32; 2]> = remaining.iter().filter(is_new).copied().collect();
+        let new: Vec<[u32; 2]> = untangled.remaining.iter().filter(is_new).copied().collect();
         if new.is_empty() {
-            let untangled = Untangled { start, remaining };
-            return if untangled.remaining.len() < pairs.len() {
-                descent.with_margin(untangled, cancel)
-            } else {
-                Ok(None)
-            };
+            let is_less = untangled.remaining.len() < pairs.len();
+            return is_less.then(|| descent.with_margin(untangled, cancel)).transpose();
         }
         // What could not be pulled apart stays as designed, with what is around it, and the rest is tried again.
-        descent.freeze(&new, &remaining);
+        descent.freeze(&new, &untangled.remaining);
     }
     Ok(None)
-}
-
-fn intersecting_pairs(garment: &TriangleMesh, positions: &[DVec3], cancel: &Cancel) -> Result<Vec<[u32; 2]>> {
-    let mesh = TriangleMesh { positions: positions.to_vec(), triangles: garment.triangles.clone() };
-    Ok(intersections_with_cancel(&mesh, None, usize::MAX, cancel)?.pairs)
 }
 
 struct Descent<'a> {
@@ -95,29 +109,33 @@ impl<'a> Descent<'a> {
         Self { garment, topology, lengths, degrees, is_frozen: vec![false; count] }
     }
 
-    /// Walks down the length of the contours, and returns the positions with the fewest intersections on the way.
-    fn run(&self, pairs: &[[u32; 2]], cancel: &Cancel) -> Result<Vec<DVec3>> {
-        let mut positions = self.garment.positions.clone();
-        let mut pairs = self.movable(pairs);
-        let mut best = (usize::MAX, f64::INFINITY, positions.clone());
+    /// Walks down the length of the contours of `designed`, and returns the positions with the fewest intersections on the way,
+    /// with all of these.
+    fn run(&self, designed: &[[u32; 2]], cancel: &Cancel) -> Result<Untangled> {
+        let mut mesh = self.garment.clone();
+        let mut pairs = designed.to_vec();
+        let mut best = Untangled { start: mesh.positions.clone(), remaining: pairs.clone() };
+        let mut least = (usize::MAX, f64::INFINITY);
         let (mut since, mut stride) = (0, STRIDE);
         for _ in 0..MAX_STEPS {
-            let (length, gradient) = contour_length(&positions, &self.garment.triangles, &pairs);
-            if (pairs.len(), length) < (best.0, best.1) {
-                best = (pairs.len(), length, positions.clone());
+            let movable = self.movable(&pairs);
+            let (length, gradient) = contour_length(&mesh.positions, &mesh.triangles, &movable);
+            if (movable.len(), length) < least {
+                least = (movable.len(), length);
+                best = Untangled { start: mesh.positions.clone(), remaining: pairs };
                 since = 0;
             }
-            if pairs.is_empty() || since >= PATIENCE {
+            if movable.is_empty() || since >= PATIENCE {
                 break;
             }
             since += 1;
             if since % HALVED_AFTER == 0 {
                 stride *= 0.5;
             }
-            self.displace(&mut positions, &self.displacement(&gradient, stride));
-            pairs = self.movable(&intersecting_pairs(self.garment, &positions, cancel)?);
+            self.displace(&mut mesh.positions, &self.displacement(&gradient, stride));
+            pairs = intersections_with_cancel(&mesh, None, usize::MAX, cancel)?.pairs;
         }
-        Ok(best.2)
+        Ok(best)
     }
 
     /// The pairs of which something may move.
@@ -154,19 +172,17 @@ impl<'a> Descent<'a> {
     }
 
     /// Goes on the way that the vertices went, so that something is left between the layers.
-    fn with_margin(&self, mut untangled: Untangled, cancel: &Cancel) -> Result<Option<Untangled>> {
+    fn with_margin(&self, untangled: Untangled, cancel: &Cancel) -> Result<Untangled> {
+        let mut mesh = self.garment.clone();
         for further in MARGINS {
-            let mut start = untangled.start.clone();
-            for (p, &design) in start.iter_mut().zip(&self.garment.positions) {
-                *p += further * (*p - design);
-            }
-            let remaining = intersecting_pairs(self.garment, &start, cancel)?;
+            let way = untangled.start.iter().zip(&self.garment.positions);
+            mesh.positions = way.map(|(&p, &design)| p + further * (p - design)).collect();
+            let remaining = intersections_with_cancel(&mesh, None, usize::MAX, cancel)?.pairs;
             if remaining.iter().all(|pair| untangled.remaining.binary_search(pair).is_ok()) {
-                untangled = Untangled { start, remaining };
-                break;
+                return Ok(Untangled { start: mesh.positions, remaining });
             }
         }
-        Ok(Some(untangled))
+        Ok(untangled)
     }
 
     /// Freezes the triangles of the pairs in `new`, those of the pairs in `remaining` that hang together with them, and what is

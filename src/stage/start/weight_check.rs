@@ -5,10 +5,13 @@
 //! patch is *astray* where the surface beside it belongs to quite other joints: a long hair or a cape goes on into the head or
 //! the shoulders, to which it is bound.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::mesh::{TriangleMesh, label_pieces};
+use crate::input::diagnostic::Diagnostic;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
 use crate::input::weld::weld_vertices;
@@ -88,6 +91,29 @@ pub fn contradictions(avatar: &TriangleMesh, target: &Skeleton, skin: &SkinWeigh
     let first: Vec<u32> = vertices.iter().copied().filter(clear).take(4).collect();
     let example = first.first().map(|&v| places[v as usize]);
     Contradictions { vertices, first, example: example.and_then(|p| Some((p.joint?, p.near))), weighted }
+}
+
+/// `skin` where it can be believed: the nearest bone decides for vertices whose weights contradict their positions, unless
+/// `strict`. Adds to `diagnostics`.
+pub fn believed<'a>(
+    skin: &'a SkinWeights,
+    avatar: &TriangleMesh,
+    target: &Skeleton,
+    strict: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Cow<'a, SkinWeights> {
+    let found = contradictions(avatar, target, skin);
+    if found.vertices.is_empty() {
+        return Cow::Borrowed(skin);
+    }
+    diagnostics.push(Diagnostic::WeightsContradict {
+        count: found.vertices.len(),
+        weighted: found.weighted,
+        first: found.first,
+        example: found.example.map(|(joint, bone)| (joint, target.bones[bone as usize])),
+        mended: !strict,
+    });
+    if strict { Cow::Borrowed(skin) } else { Cow::Owned(skin.without(&found.vertices)) }
 }
 
 /// Whether the weights of vertex `v` bind it to one of these joints almost as much as to any.
