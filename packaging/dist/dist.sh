@@ -4,16 +4,8 @@
 # Leaves FOLDER/bespoke-VERSION-linux-MACHINE and the same as .tar.gz: the same bytes for the same sources on the same
 # system. docs/dist.md says what is in it and why it is built in this way.
 set -eu
-umask 022
-# What is shipped does not depend on what the caller prefers.
-export LC_ALL=C
-unset CFLAGS CXXFLAGS MAKEFLAGS MFLAGS CARGO_BUILD_TARGET OPENVDB_ROOT
-export CC=cc CXX=c++
-root=$(cd "$(dirname "$0")/../.." && pwd)
-here=$root/packaging/dist
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-cd "$root"
+# shellcheck source=packaging/dist/environment.sh
+. "$(dirname "$0")/environment.sh"
 
 if [ "$(uname)" != Linux ]; then
     echo "dist: only Linux has a folder to ship so far" >&2

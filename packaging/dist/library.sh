@@ -3,16 +3,8 @@
 #
 # FOLDER gets the sources and the static libraries. Leaves the library where its last line says.
 set -eu
-umask 022
-# What is built does not depend on what the caller prefers.
-export LC_ALL=C
-unset CFLAGS CXXFLAGS MAKEFLAGS MFLAGS CARGO_BUILD_TARGET OPENVDB_ROOT
-export CC=cc CXX=c++
-root=$(cd "$(dirname "$0")/../.." && pwd)
-here=$root/packaging/dist
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-cd "$root"
+# shellcheck source=packaging/dist/environment.sh
+. "$(dirname "$0")/environment.sh"
 
 sh "$here/sources.sh" "$folder/sources" >&2
 echo "dist: OpenVDB and oneTBB as static libraries" >&2

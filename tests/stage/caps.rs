@@ -11,10 +11,11 @@ use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use bespoke::stage::setup::cap_motion::CapMotion;
-use closet::skeleton::BONES;
 use closet::{Kind, Sample, jacket, sample};
 use glam::{DQuat, DVec3};
 use testing::Random;
+
+use crate::bodies;
 
 /// A tube about the z axis, and how it is closed: each end by `rows` rings of triangles and a fan, or not at all. Returns
 /// the mesh, and the first triangle of each end's cap; the last is the number of triangles.
@@ -207,13 +208,11 @@ fn a_ball_around_a_bone_is_refused_with_the_reason() {
 }
 
 fn session_of(garment: &TriangleMesh, design: &Sample, body: &Sample) -> Session {
-    let skeleton = |sample: &Sample| Skeleton { joints: sample.skeleton.joints.to_vec(), bones: BONES.to_vec() };
     let mut session = Session::new();
     session.set_garment(garment.clone(), Precision::F64).unwrap();
-    session.set_source_skeleton(skeleton(design)).unwrap();
-    let mesh = TriangleMesh { positions: body.mesh.positions.clone(), triangles: body.mesh.triangles.clone() };
-    session.set_target_avatar(mesh).unwrap();
-    session.set_target_skeleton(skeleton(body)).unwrap();
+    session.set_source_skeleton(bodies::skeleton(design)).unwrap();
+    session.set_target_avatar(bodies::mesh(body)).unwrap();
+    session.set_target_skeleton(bodies::skeleton(body)).unwrap();
     session
 }
 
@@ -221,8 +220,7 @@ fn session_of(garment: &TriangleMesh, design: &Sample, body: &Sample) -> Session
 #[test]
 fn a_jacket_with_caps_at_neck_hem_and_cuffs_is_worn() {
     let (design, body) = (jacket(2.0), sample(Kind::Heavy));
-    let mut closed =
-        TriangleMesh { positions: design.mesh.positions.clone(), triangles: design.mesh.triangles.clone() };
+    let mut closed = bodies::mesh(&design);
     // Welded, so that seams are no loops.
     let (weld, _) = Weld::new(&closed);
     let loops = Topology::new(weld.mesh.positions.len(), &weld.mesh.triangles).loops;

@@ -4,9 +4,10 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::Foreignness;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::start::foreign_parts::find;
-use closet::skeleton::BONES;
 use closet::{Kind, sample};
 use glam::DVec3;
+
+use crate::bodies;
 
 /// A body and what is put into its file besides. z is up.
 struct Scene {
@@ -18,9 +19,8 @@ struct Scene {
 
 fn body(kind: Kind) -> Scene {
     let body = sample(kind);
-    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
-    let mesh = TriangleMesh { positions: body.mesh.positions.clone(), triangles: body.mesh.triangles.clone() };
-    Scene { own: mesh.triangles.len(), mesh, skeleton }
+    let mesh = bodies::mesh(&body);
+    Scene { own: mesh.triangles.len(), mesh, skeleton: bodies::skeleton(&body) }
 }
 
 impl Scene {

@@ -1,6 +1,8 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
 mod blockage;
+mod bodies;
+mod bone_map;
 mod caps;
 mod contour;
 mod enclosure;

@@ -2,21 +2,16 @@
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::setup::normalization::Normalization;
 use bespoke::stage::start::open_ends::find;
 use bespoke::stage::start::projection::{project, project_with};
-use closet::skeleton::BONES;
 use closet::{Kind, sample};
 use glam::DVec3;
 
+use crate::bodies;
+
 /// A body in the normalised space, z up, with its skeleton.
 fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
-    let body = sample(kind);
-    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
-    let normalization = Normalization::of(&skeleton, "").unwrap();
-    let positions = normalization.normalise_all(&body.mesh.positions);
-    let joints = normalization.normalise_all(&skeleton.joints);
-    (TriangleMesh { positions, triangles: body.mesh.triangles.clone() }, Skeleton { joints, ..skeleton })
+    bodies::normalised(&sample(kind))
 }
 
 #[test]

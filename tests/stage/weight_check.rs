@@ -3,11 +3,11 @@
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
-use bespoke::stage::setup::normalization::Normalization;
 use bespoke::stage::start::weight_check::contradictions;
-use closet::skeleton::BONES;
 use closet::{Kind, sample};
 use glam::DVec3;
+
+use crate::bodies;
 
 /// A body in the normalised space, its skeleton, and the joint of each vertex.
 struct Scene {
@@ -18,15 +18,10 @@ struct Scene {
 
 fn body(kind: Kind) -> Scene {
     let body = sample(kind);
-    let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
-    let normalization = Normalization::of(&skeleton, "").unwrap();
+    let (mesh, skeleton) = bodies::normalised(&body);
     let largest = |v: usize| (0..body.skin.len()).max_by(|&a, &b| body.skin[a][v].total_cmp(&body.skin[b][v])).unwrap();
     let joints = (0..body.mesh.positions.len()).map(|v| largest(v) as u32).collect();
-    let mesh = TriangleMesh {
-        positions: normalization.normalise_all(&body.mesh.positions),
-        triangles: body.mesh.triangles.clone(),
-    };
-    Scene { mesh, skeleton: Skeleton { joints: normalization.normalise_all(&skeleton.joints), ..skeleton }, joints }
+    Scene { mesh, skeleton, joints }
 }
 
 impl Scene {
