@@ -8,6 +8,7 @@ pub mod bodies;
 pub mod broad_phase;
 pub mod candidate_set;
 pub mod ccd;
+pub mod curvature;
 pub mod distance;
 pub mod exempt_pairs;
 pub mod mollifier;

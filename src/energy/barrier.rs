@@ -5,6 +5,10 @@
 //! separation (the thickness offset of Codimensional IPC, Li et al. 2021). Edge-edge pairs are weighed by the mollifier
 //! m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are `g = m db/dd` and `h = m max(0, d2b/dd2)`,
 //! and the mollifier adds `b grad m` to the gradient.
+//!
+//! The Hessian is `h a a^T`: it leaves out how the distance curves (`contact/curvature.rs`). On request it has the half of
+//! that which closes gaps, `-g q q^T / 2`. The other half would take its definiteness, and with one half alone the garment is
+//! too stiff to slide: it converges more slowly where contact does not make the steps short.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,7 +18,7 @@ use rayon::prelude::*;
 
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
-use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, mollifier};
+use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, curvature, mollifier};
 
 /// Candidates in one task.
 const CHUNK: usize = 2048;
@@ -113,12 +117,13 @@ pub struct Barrier {
     candidates: CandidateSet,
     settings: BarrierSettings,
     path: Option<BarrierPathRates>,
+    is_curved: bool,
 }
 
 impl Barrier {
     /// A barrier without candidates.
     pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
-        Self { bodies, candidates: CandidateSet::default(), settings, path: None }
+        Self { bodies, candidates: CandidateSet::default(), settings, path: None, is_curved: false }
     }
 
     /// The bodies in contact.
@@ -150,6 +155,11 @@ impl Barrier {
     /// vertices and s, while t must be constant; with `None` it is t.
     pub fn set_barrier_path(&mut self, path: Option<BarrierPathRates>) {
         self.path = path;
+    }
+
+    /// Whether the Hessian is to have how the distances curve, where that closes gaps.
+    pub fn set_curved(&mut self, is_curved: bool) {
+        self.is_curved = is_curved;
     }
 
     /// The tangent of the path at a pair, its component of the border over its stiffness h: the negated rate of its distance
@@ -347,6 +357,10 @@ impl Energy for Barrier {
             self.emit(pair, separation.weights.map(|w| w * normal), path_tangent, [m * g, m * h.max(0.0)], sink);
             if let Some(slope) = slope {
                 self.emit(pair, slope, 0.0, [b, 0.0], sink);
+            } else if self.is_curved {
+                for bend in curvature::bends(pair_type, &x, &separation).into_iter().flatten() {
+                    self.emit(pair, bend.closing, 0.0, [0.0, -0.5 * g], sink);
+                }
             }
         });
     }

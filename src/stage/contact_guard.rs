@@ -24,6 +24,10 @@ const SEPARATION_SHARE: f64 = 0.25;
 const SEARCH_AHEAD: f64 = 2.5;
 const MIN_SEARCH: f64 = 0.05;
 
+/// Fractions of a step: below the first contact makes it short, from the second on it hardly does.
+const SHORT_STEP: f64 = 0.05;
+const WHOLE_STEP: f64 = 0.95;
+
 /// The barrier term and all that keeps it valid: the pairs, the step length, the separation.
 pub struct ContactGuard {
     barrier: Barrier,
@@ -260,12 +264,23 @@ impl ContactGuard {
                 ccd::max_step(&self.motion, self.barrier.candidates(), |group| settings.min_separation(group), part);
             self.profile.ccd += clock.elapsed();
             if feasible < part || part >= longest {
+                self.follow_steps(feasible / longest);
                 self.first_search = (SEARCH_AHEAD * feasible).clamp(MIN_SEARCH, 1.0);
                 self.keep_near_candidates(feasible);
                 self.cancel.check()?;
                 return Ok(Some(feasible));
             }
             part = longest;
+        }
+    }
+
+    /// Sees to it that the barrier's Hessian has the curvature of the distances after a step that contact made short, until one
+    /// is not shortened: a gap far smaller than its balance is closed by every step along it, however little of it is taken.
+    fn follow_steps(&mut self, fraction: f64) {
+        if fraction < SHORT_STEP {
+            self.barrier.set_curved(true);
+        } else if fraction >= WHOLE_STEP {
+            self.barrier.set_curved(false);
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod broad_phase;
 mod ccd;
+mod curvature;
 mod distance;
 mod exempt_pairs;
 mod hard_queries;

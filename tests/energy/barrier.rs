@@ -398,3 +398,43 @@ fn the_border_of_a_barrier_path_is_the_derivative_of_its_gradient() {
     }
     assert!(compared > 300, "{compared}");
 }
+
+/// With the curvature the Hessian is above that of the value, however small the gap: no step along it gains less than the
+/// quadratic model says, to second order.
+#[test]
+fn curved_hessian_bounds_that_of_the_value() {
+    let mut raised = 0;
+    for (seed, fraction) in [(12, 0.02), (13, 0.1), (14, 0.5)] {
+        cases(seed, fraction, false, |mut case, random| {
+            let plain = dense(&case.barrier, &case.x, T);
+            case.barrier.set_curved(true);
+            let curved = dense(&case.barrier, &case.x, T);
+            check_semidefinite(&case.barrier, &case.x, T, &mut || random.signed());
+            assert_eq!(plain.gradient, curved.gradient);
+            let x = case.positions();
+            let rest = case.pair.map(|i| case.barrier.bodies().rest(i));
+            if case.pair_type == PairType::EdgeEdge && mollifier::value(&x, mollifier::threshold(&rest)) < 1.0 {
+                return;
+            }
+            let gap = fraction * (case.dhat() - SETTINGS.min_separation);
+            for _ in 0..4 {
+                let motion: Vec<f64> = (0..3 * case.x.len() + 1).map(|_| random.signed()).collect();
+                let at = |k: f64| {
+                    let step = 1e-3 * gap * k;
+                    let x: Vec<DVec3> =
+                        case.x.iter().zip(motion.chunks(3)).map(|(x, v)| *x + step * DVec3::from_slice(v)).collect();
+                    let t = T + step * motion[motion.len() - 1];
+                    case.barrier.value(Configuration { x: &x, t }, 0..1)
+                };
+                let step = 1e-3 * gap;
+                let second =
+                    (16.0 * (at(1.0) + at(-1.0)) - (at(2.0) + at(-2.0)) - 30.0 * at(0.0)) / (12.0 * step * step);
+                let ours = curved.quadratic(&motion);
+                assert!(ours >= second - 1e-3 * ours.abs(), "{:?}: {ours:e} {second:e}", case.pair_type);
+                raised += usize::from(plain.quadratic(&motion) < second - 1e-2 * second.abs());
+            }
+        });
+    }
+    // Without it, it often is below.
+    assert!(raised > 20, "{raised}");
+}

@@ -11,7 +11,7 @@ use crate::small::session;
 /// A rigid ring around an arm that outgrows it, which stalls with the settings by default.
 fn ringed(options: Options) -> Session {
     let mut session = session(1.0, DVec3::ZERO);
-    session.add_rigid_group((100..120).collect()).unwrap();
+    session.add_rigid_group((80..120).collect()).unwrap();
     session.set_options(options).unwrap();
     session
 }
