@@ -33,9 +33,9 @@ const ROUNDS: usize = 4;
 /// Rings of vertices around what is left as it is that stay as well.
 const FROZEN_RINGS: usize = 3;
 
-/// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: what is left is
-/// locked between layers that may not pass each other any more, and the inflation mostly stalls.
-const MOST_REMAINING: f64 = 0.1;
+/// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: little would be
+/// gained, and what is left is locked between layers that may not pass each other any more.
+const MOST_REMAINING: f64 = 0.5;
 
 /// A garment whose initial self-intersections were pulled apart, wholly or partly.
 pub struct Untangled {
