@@ -3,6 +3,7 @@
 # make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
 #             makes the paper's figures
 # make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
+# make wardrobe  dresses the pairs in WARDROBE, folders as in ../shared/rigs/ready: build/wardrobe/sheet.png, wardrobe.md
 # make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
 #             removes them again. docs/packaging.md says what goes where. OpenVDB is inside the library, as in the folder
 #             to ship, where its sources can be had; make install OPENVDB=system takes the system's
@@ -119,6 +120,13 @@ gallery: painter
 	[ $$ended -le 1 ] || exit $$ended; \
 	$(RENDER) build/gallery/sheet.json build/gallery/sheet.png --page build/gallery/index.html || exit 2; \
 	$(MAKE) figures && exit $$ended
+
+# WARDROBE: the folders of the pairs.
+.PHONY: wardrobe
+wardrobe: painter
+	cargo run --release -p gallery --bin wardrobe -- $(or $(WARDROBE),$(wildcard ../shared/rigs/ready/*)) \
+		--out build/wardrobe; ended=$$?; [ $$ended -le 1 ] || exit $$ended; \
+	$(RENDER) build/wardrobe/sheet.json build/wardrobe/sheet.png && exit $$ended
 
 .PHONY: figures
 figures: painter
