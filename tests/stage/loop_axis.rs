@@ -131,6 +131,18 @@ fn a_bone_must_pass_through_the_loop_to_be_preferred() {
     assert_eq!(chosen(&slit, &skeleton), [[0, 1]]);
 }
 
+/// Where a face is missing, and not at a cuff, however narrow, nor where the opening is as wide as the limb is thick.
+#[test]
+fn a_hole_in_the_cloth_follows_no_bone() {
+    let person = person();
+    let hole = |centre: DVec3, radius: f64| ellipse(centre, radius * DVec3::X, radius * DVec3::Z);
+    assert!(choose(&hole(DVec3::new(0.0, 0.15, 1.3), 0.02), &person, &person).is_none());
+    assert!(choose(&hole(DVec3::new(0.0, 0.15, 1.3), 0.1), &person, &person).is_some());
+    let elbow = person.joints[4];
+    assert!(choose(&hole(elbow + 0.03 * DVec3::Y, 0.02), &person, &person).is_some());
+    assert!(choose(&ellipse(elbow - 0.1 * DVec3::Z, 0.03 * DVec3::X, 0.03 * DVec3::Y), &person, &person).is_some());
+}
+
 #[test]
 fn two_bones_joined_on_the_plane_cross_it_once() {
     let joints = vec![-DVec3::Z, DVec3::ZERO, DVec3::Z];

@@ -1,11 +1,13 @@
 //! The axis of each boundary loop: which bones it follows.
 //!
 //! A cuff follows the closest bone that passes through it. A hem around both legs has no bone of its own:
-//! where several bones cross the loop's plane inside the loop's hull, it follows their mean.
+//! where several bones cross the loop's plane inside the loop's hull, it follows their mean. A small hole in the cloth, as
+//! in a net or where faces are missing, follows none.
 
 use glam::DVec3;
 
 use crate::energy::position::MovingAxis;
+use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::BoundaryLoop;
 use crate::input::skeleton::Skeleton;
 
@@ -19,6 +21,11 @@ const LEAF_REACH: f64 = 0.25;
 /// the loop would be many bone lengths away, and be dragged as far.
 const STUB: f64 = 0.1;
 
+/// A loop that no bone crosses is a hole in the cloth where it is narrower than this, and than its distance from all bones;
+/// on a person seven centimetres. Holes go with the cloth around them: hundreds of them, each held along its bone, would
+/// hold the cloth as a whole.
+const HOLE: f64 = 0.1;
+
 /// A loop whose area is below this share of its squared length is a slit, without a normal.
 const SLIT: f64 = 1e-6;
 
@@ -31,7 +38,7 @@ pub struct LoopAxis {
     pub axis: MovingAxis,
 }
 
-/// Chooses what each of `loops` follows; none only for a loop without vertices or a skeleton without length.
+/// Chooses what each of `loops` follows; none for a hole in the cloth, a loop without vertices or a skeleton without length.
 ///
 /// `rest` are the garment's vertices; both skeletons are in its space and share one order of joints (the bones
 /// of `target` are not read). For each loop: all the bones through it that cross its plane inside its hull,
@@ -56,6 +63,9 @@ pub fn choose_loop_axes(
                 .filter(|&bone| !opening.is_stub(source.bones[bone as usize], source, target))
                 .filter(|&bone| opening.is_crossed_by(source, source.bones[bone as usize], &degree))
                 .collect();
+            if crossing.is_empty() && opening.is_hole(source) {
+                return None;
+            }
             let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source, target)?] };
             let axis = opening.mean_of(&bones, source, target);
             Some(LoopAxis { bones, axis })
@@ -84,6 +94,16 @@ impl Opening {
         }
         let normal = if area.length() > SLIT * length * length { area.normalize_or_zero() } else { DVec3::ZERO };
         Some(Self { centre, normal, points })
+    }
+
+    /// True for a small one far from all bones.
+    fn is_hole(&self, source: &Skeleton) -> bool {
+        let width = 2.0 * self.points.iter().map(|p| p.distance(self.centre)).fold(0.0, f64::max);
+        let is_farther = |bone: &[u32; 2]| {
+            let [a, b] = bone.map(|joint| source.joints[joint as usize]);
+            closest_on_segment(self.centre, a, b - a).distance(self.centre) > width
+        };
+        width < HOLE && source.bones.iter().all(is_farther)
     }
 
     /// True for a bone without length, or hardly any.
