@@ -69,7 +69,7 @@ fn report_bent_groups(problem: &Problem, groups: &[Group], x: &[DVec3], diagnost
     };
     let bent: Vec<(usize, (u32, f64))> = groups
         .iter()
-        .take(problem.callers_groups)
+        .take(problem.callers_groups.len())
         .map(worst)
         .enumerate()
         .filter(|(_, (_, distance))| *distance > MAX_BEND)

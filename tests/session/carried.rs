@@ -345,6 +345,109 @@ fn glasses_and_earrings_keep_their_shape_at_the_head() {
     }
 }
 
+/// A rod along a path, closed at its ends.
+fn rod(path: &[DVec3], radius: f64) -> TriangleMesh {
+    const SIDES: u32 = 6;
+    let mut mesh = TriangleMesh::default();
+    for (k, &p) in path.iter().enumerate() {
+        let along = (path[(k + 1).min(path.len() - 1)] - path[k.saturating_sub(1)]).normalize();
+        let u = along.cross(DVec3::Y).normalize();
+        let v = along.cross(u);
+        for s in 0..SIDES {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(s) / f64::from(SIDES)).sin_cos();
+            mesh.positions.push(p + radius * (cos * u + sin * v));
+        }
+    }
+    let rings = path.len() as u32;
+    let at = |r: u32, s: u32| r * SIDES + s % SIDES;
+    for (r, s) in (0..rings - 1).flat_map(|r| (0..SIDES).map(move |s| (r, s))) {
+        mesh.triangles.extend([[at(r, s), at(r, s + 1), at(r + 1, s + 1)], [at(r, s), at(r + 1, s + 1), at(r + 1, s)]]);
+    }
+    for (end, ring) in [(0, 0), (path.len() - 1, rings - 1)] {
+        let tip = mesh.positions.len() as u32;
+        mesh.positions.push(path[end]);
+        for s in 0..SIDES {
+            let [p, q] = [at(ring, s), at(ring, s + 1)];
+            mesh.triangles.push(if ring == 0 { [tip, q, p] } else { [tip, p, q] });
+        }
+    }
+    mesh
+}
+
+/// Glasses of one piece: before the face, with temples to behind the middle of the head.
+fn framed_glasses() -> TriangleMesh {
+    let at = |x: f64, z: f64| DVec3::new(x, 0.95, z);
+    let temple = |side: f64, share: f64| at(0.135 * side, -0.03 + 0.165 * share);
+    let mut path: Vec<DVec3> = (0..8).map(|k| temple(-1.0, f64::from(k) / 7.0)).collect();
+    path.extend((1..12).map(|k| at(-0.135 + 0.27 * f64::from(k) / 12.0, 0.14)));
+    path.extend((0..8).rev().map(|k| temple(1.0, f64::from(k) / 7.0)));
+    rod(&path, 0.004)
+}
+
+/// A closed plate of armour over the end of an arm, on one side or on both.
+fn pauldron(side: f64) -> TriangleMesh {
+    let place = |s: f64, t: f64, r: f64| {
+        let [u, v] = [s, t].map(|share| 1.8 * (share - 0.5));
+        let out = DVec3::new(side * u.sin(), u.cos() * v.cos(), v.sin()).normalize();
+        DVec3::new(side * 0.45, 0.5, 0.0) + r * out
+    };
+    let mut mesh = grid(10, 10, |s, t| place(s, t, 0.14));
+    add(&mut mesh, &grid(10, 10, |s, t| place(1.0 - s, t, 0.128)));
+    // The rims.
+    for k in 0..4 {
+        let rim = |s: f64| match k {
+            0 => [s, 0.0],
+            1 => [1.0, s],
+            2 => [1.0 - s, 1.0],
+            _ => [0.0, 1.0 - s],
+        };
+        add(&mut mesh, &grid(10, 1, |s, t| place(rim(s)[0], rim(s)[1], if t == 0.0 { 0.128 } else { 0.14 })));
+    }
+    mesh
+}
+
+/// How far the vertices in `range` are from the similarity nearest to what became of them, as a share of their size.
+fn bent(garment: &TriangleMesh, points: &[DVec3], range: std::ops::Range<usize>) -> f64 {
+    let (rest, points) = (&garment.positions[range.clone()], &points[range]);
+    let similarity = Similarity::nearest(rest, points, &vec![1.0; rest.len()], None);
+    let low = points.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let high = points.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+    let off = rest.iter().zip(points).map(|(&p, q)| similarity.apply(p).distance(*q)).fold(0.0, f64::max);
+    off / low.distance(high)
+}
+
+/// Solid things around a bone but for a wide gap, and pairs of them on both sides of it: none is a garment around that bone.
+#[test]
+fn solid_things_on_both_sides_of_a_bone_keep_their_shape() {
+    let mut earrings = earring();
+    let other = TriangleMesh {
+        positions: earrings.positions.iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect(),
+        triangles: earrings.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+    };
+    add(&mut earrings, &other);
+    let mut pauldrons = pauldron(1.0);
+    add(&mut pauldrons, &pauldron(-1.0));
+    // A wide head: the glasses have to grow.
+    let wide = Build { thick_head: 1.5, ..DESIGNED };
+    for target in [STOUT, SLIGHT, wide] {
+        for (garment, count) in [(framed_glasses(), 1), (earrings.clone(), 2), (pauldrons.clone(), 2)] {
+            let mut session = session(&garment, &target, true);
+            assert_eq!(session.run().unwrap(), Stage::Done);
+            assert!(session.verify(Precision::F32).unwrap().is_clean());
+            let found = carried(&session);
+            assert!(found.len() == count && found.iter().all(|&(_, stiff)| stiff), "{count} {found:?}");
+            let (points, size) = (session.garment_positions().unwrap(), garment.positions.len() / count);
+            for k in 0..count {
+                let bent = bent(&garment, &points, k * size..(k + 1) * size);
+                assert!(bent < 1e-3, "{count} {bent}");
+            }
+            let [designed, has] = [clearance(&garment.positions, &body(&DESIGNED)), clearance(&points, &body(&target))];
+            println!("{designed:?} {has:?}");
+            assert!(has[0] < 3.0 * designed[0] && has[1] < 2.0 * designed[1], "{designed:?} {has:?}");
+        }
+    }
+}
+
 /// On its own body everything stays where it is.
 #[test]
 fn on_the_same_body_it_stays() {

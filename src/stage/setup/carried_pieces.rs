@@ -6,7 +6,10 @@
 //! - it is near enough to the body, and neither tiny nor huge beside it: else it is in another place or unit;
 //! - it is no tube: a piece with two openings is for a limb to go through.
 //!
-//! It is stiff where it is small, or closed and thick; else it is soft.
+//! What is small and leaves a gap of more than a quarter of a turn around a bone is around none: the temples of glasses do
+//! not close, and a pair of earrings is no collar.
+//!
+//! It is stiff where it is small, is open around a bone, or is closed and the thicker the larger it is; else it is soft.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,7 +19,8 @@ use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
 use crate::geometry::piece::Piece;
 use crate::input::skeleton::Skeleton;
-use crate::stage::start::enclosure::{enclosed_share_at, encloses};
+use crate::stage::start::enclosure::{enclosed_share_at, encloses, encloses_but_for};
+use crate::stage::start::section::Gap;
 
 /// Corners of a piece from which its enclosure is tested.
 const SAMPLES: usize = 64;
@@ -43,8 +47,10 @@ const ROUND: f64 = 0.02;
 const WIDE: f64 = 0.4;
 /// What is smaller than this is stiff: badges, glasses, earrings.
 const SMALL: f64 = 0.3;
+/// What is no larger than this, 30 cm on a person, may be open around a bone by a quarter of a turn, and is no garment then.
+const OPEN: f64 = 0.4;
 /// A closed piece is thick where its volume is more than this share of its area to the power of 1.5: a cube has 0.07, a plate
-/// of 20 : 20 : 1 has 0.015.
+/// of 20 : 20 : 1 has 0.015. Between [`SMALL`] and twice that, the share grows from zero.
 const THICK: f64 = 0.015;
 /// A piece is closed where at most this share of its edges are borders: game models leave out what nobody sees.
 const OPEN_EDGES: f64 = 0.1;
@@ -110,7 +116,7 @@ pub fn find(
     parts.retain(|_| *free.next().unwrap_or(&false));
     let joined = join_near(garment, parts);
     let mut carried: Vec<CarriedPiece> =
-        joined.iter().filter_map(|part| carry(garment, part, source, source_body)).collect();
+        joined.iter().filter_map(|part| carry(garment, part, segments, source, source_body)).collect();
     carried.sort_by_key(|piece| piece.vertices[0]);
     carried
 }
@@ -125,20 +131,22 @@ pub fn is_whole(garment: &TriangleMesh, carried: &[CarriedPiece]) -> bool {
 /// Whether `part` has no bone that it is there to enclose.
 fn is_around_no_bone(garment: &TriangleMesh, part: &Piece, segments: &[[DVec3; 2]]) -> bool {
     let (own, samples) = (own_mesh(garment, part), samples(garment, part));
-    if encloses(&own, segments) {
+    let widest = if part.size() <= OPEN { Gap::Quarter } else { Gap::Half };
+    if encloses_but_for(&own, segments, widest) {
         return false;
     }
     if part.triangles.len() == garment.triangles.len() {
         return true;
     }
-    let whole = enclosed_share_at(garment, segments, &samples);
+    let whole = enclosed_share_at(garment, segments, &samples, widest);
     if whole < MIN_ENCLOSED_SHARE {
         return true;
     }
     let mut own = part.triangles.iter().peekable();
     let others = (0..garment.triangles.len() as u32).filter(|t| own.next_if_eq(&t).is_none());
     let others = mesh_of(garment, others);
-    enclosed_share_at(&others, segments, &samples) >= AS_WELL * whole && !is_sewn(garment, part, &others)
+    let without = enclosed_share_at(&others, segments, &samples, widest);
+    without >= AS_WELL * whole && !is_sewn(garment, part, &others)
 }
 
 /// Whether most of the border of `part` is at `others`.
@@ -180,6 +188,7 @@ fn join_near(garment: &TriangleMesh, parts: Vec<Piece>) -> Vec<Piece> {
 fn carry(
     garment: &TriangleMesh,
     part: &Piece,
+    segments: &[[DVec3; 2]],
     source: &Skeleton,
     source_body: Option<&ClosestPoint>,
 ) -> Option<CarriedPiece> {
@@ -200,12 +209,15 @@ fn carry(
     if shells.iter().any(|shell| shell.area >= LARGE * shells[0].area && shell.is_tube()) {
         return None;
     }
+    // Only what is small got here although it is around a bone.
+    let is_open = size > SMALL && size <= OPEN && encloses(&own_mesh(garment, part), segments);
+    let thick = THICK * ((size - SMALL) / SMALL).clamp(0.0, 1.0);
     Some(CarriedPiece {
         vertices: part.vertices.clone(),
         triangle: part.triangles[0],
         bone,
         distance: from_body.unwrap_or(from_bone),
-        stiff: size <= SMALL || shells.first().is_some_and(Shell::is_thick),
+        stiff: size <= SMALL || is_open || shells.first().is_some_and(|shell| shell.is_thicker(thick)),
     })
 }
 
@@ -264,8 +276,8 @@ impl Shell {
         self.topology.loops.iter().filter(|l| is_opening(&l.vertices)).count() > 1
     }
 
-    /// Whether it is closed, but for a little, and thick.
-    fn is_thick(&self) -> bool {
+    /// Whether it is closed, but for a little, and has more volume than this share of its area to the power of 1.5.
+    fn is_thicker(&self, share: f64) -> bool {
         let border: usize = self.topology.loops.iter().map(|l| l.vertices.len()).sum::<usize>()
             + self.topology.open_boundaries.iter().map(Vec::len).sum::<usize>();
         if border as f64 > OPEN_EDGES * self.topology.edges.len() as f64 {
@@ -277,6 +289,6 @@ impl Shell {
             a.cross(b).dot(c) / 6.0
         };
         let volume: f64 = self.mesh.triangles.iter().map(volume).sum();
-        volume.abs() > THICK * self.area.powf(1.5)
+        volume.abs() > share * self.area.powf(1.5)
     }
 }

@@ -35,6 +35,10 @@ const SOFT_ROUNDS: usize = 8;
 const STIFF_ROUNDS: usize = 60;
 /// Rounds in which a stiff piece is moved clear of the body.
 const CLEARING_ROUNDS: usize = 40;
+/// Where that does not help, as with glasses whose temples are narrower than the head, it grows by this factor and is settled
+/// again, so often at most.
+const GROWTH: f64 = 1.04;
+const GROWTHS: usize = 15;
 /// Between points of a stiff piece that are to be clear of the body, and parts of a triangle's side at most.
 const SPACING: f64 = 0.02;
 const MAX_PARTS: usize = 16;
@@ -171,7 +175,13 @@ impl Piece {
         };
         if self.carried.stiff {
             self.settle_stiff(field, &wanted);
-            self.clear(field, least);
+            for _ in 0..GROWTHS {
+                if self.clear(field, least) {
+                    break;
+                }
+                self.similarity.scale *= GROWTH;
+                self.settle_stiff(field, &wanted);
+            }
         } else {
             self.settle_soft(field, &wanted);
         }
@@ -213,22 +223,24 @@ impl Piece {
     }
 
     /// Moves a stiff piece as a whole until nothing of its surface is nearer than `least`, each time as its nearest point asks
-    /// for: an edge of the body may be inside of a triangle whose corners are outside.
-    fn clear(&mut self, field: &Field, least: f64) {
+    /// for: an edge of the body may be inside of a triangle whose corners are outside. False where that is not to be had; then
+    /// it stays where it was.
+    fn clear(&mut self, field: &Field, least: f64) -> bool {
         let mut points = self.samples();
         let mut moved = DVec3::ZERO;
         for _ in 0..CLEARING_ROUNDS {
             let distances = points.iter().map(|&p| field.value(p)).enumerate();
-            let Some((nearest, distance)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let Some((nearest, distance)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { return true };
             if distance >= least {
-                break;
+                self.places.iter_mut().for_each(|p| *p += moved);
+                return true;
             }
             let (_, slope) = field.value_gradient(points[nearest]);
             let step = slope.normalize_or_zero() * (1.1 * least - distance);
             points.iter_mut().for_each(|p| *p += step);
             moved += step;
         }
-        self.places.iter_mut().for_each(|p| *p += moved);
+        false
     }
 
     /// Its vertices, and points of its triangles at most [`SPACING`] apart.

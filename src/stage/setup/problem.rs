@@ -15,7 +15,7 @@ use super::layer_skin::skin_with_layers;
 use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
-use super::shape::{HeldPieces, Shape};
+use super::shape::{HeldPieces, Shape, rigid};
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -104,8 +104,8 @@ pub struct Problem {
     pub offset: f64,
     /// The pieces that are around no bone, and where they go.
     pub carried: CarriedPlaces,
-    /// Rigid groups of the caller: those of the shape that come first.
-    pub callers_groups: usize,
+    /// Rigid groups of the caller that are not empty: those of the shape that come first.
+    pub callers_groups: Vec<Vec<u32>>,
     /// Pairs of garment triangles that intersect in the design, the lower index first.
     pub designed_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
@@ -241,7 +241,7 @@ impl Problem {
             source_body: source_tree,
             offset,
             carried,
-            callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).count(),
+            callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
             designed_intersections,
             distances,
         })
@@ -251,8 +251,10 @@ impl Problem {
     pub fn settle_carried(&mut self, field: &Field) {
         self.carried.settle(field, CARRIED_IN_DHAT * self.distances.dhat, self.offset);
         let carry = self.carried.term();
+        // Stiff ones may have grown.
+        let rigid = rigid(&self.rest, &self.callers_groups, &self.carried);
         if let Some(shape) = Arc::get_mut(&mut self.shape) {
-            shape.carry = carry;
+            (shape.carry, shape.rigid) = (carry, rigid);
         }
     }
 

@@ -98,7 +98,7 @@ impl Shape {
 
 /// The term of the caller's groups and of the stiff carried pieces, but for those of which a part is in a group already. The
 /// pieces have the size that they have on the target body.
-fn rigid(rest: &[DVec3], groups: &[Vec<u32>], carried: &CarriedPlaces) -> Rigid {
+pub(super) fn rigid(rest: &[DVec3], groups: &[Vec<u32>], carried: &CarriedPlaces) -> Rigid {
     let mut is_grouped = vec![false; rest.len()];
     groups.iter().flatten().for_each(|&v| is_grouped[v as usize] = true);
     let (mut rest, mut groups) = (rest.to_vec(), groups.to_vec());

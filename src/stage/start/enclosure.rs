@@ -13,7 +13,7 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::section::Section;
+use super::section::{Gap, Section};
 use super::winding::{Winding, windings};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::closest_on_segment;
@@ -52,6 +52,11 @@ impl Enclosures {
     /// it. Segments whose ends are equal, to the bit, meet there. Lengths are those of the normalised space. The index of a
     /// segment in the result is that in `segments`, so that with one segment a bone it is the bone's.
     pub fn find(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> Self {
+        Self::find_but_for(garment, segments, Gap::Half)
+    }
+
+    /// The same with another gap that may be left around a bone.
+    fn find_but_for(garment: &TriangleMesh, segments: &[[DVec3; 2]], widest: Gap) -> Self {
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
         let (piece_of, count) = label_pieces(garment.positions.len(), topology.edges.iter().copied());
         let wound = windings(garment, &topology.edges, &piece_of, count, segments);
@@ -65,7 +70,7 @@ impl Enclosures {
             if linked && !wound.is_empty() {
                 return Enclosure { encloses: true, segments: wound };
             }
-            let mut found = surrounded(&garment.positions, own, segments);
+            let mut found = surrounded(&garment.positions, own, segments, widest);
             found.encloses |= linked;
             found
         });
@@ -103,16 +108,21 @@ pub fn check(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> Result<()> {
 
 /// Whether any piece of `garment` encloses any of `segments`, or all of them together do.
 pub fn encloses(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> bool {
-    Enclosures::find(garment, segments).any()
-        || surrounded(&garment.positions, garment.triangles.clone(), segments).encloses
+    encloses_but_for(garment, segments, Gap::Half)
+}
+
+/// The same with another gap that may be left around a bone.
+pub fn encloses_but_for(garment: &TriangleMesh, segments: &[[DVec3; 2]], widest: Gap) -> bool {
+    Enclosures::find_but_for(garment, segments, widest).any()
+        || surrounded(&garment.positions, garment.triangles.clone(), segments, widest).encloses
 }
 
 /// The segments that `triangles` surround, as planes show it: across the segments, and the piece's own where it is flat.
-fn surrounded(positions: &[DVec3], triangles: Vec<[u32; 3]>, segments: &[[DVec3; 2]]) -> Enclosure {
+fn surrounded(positions: &[DVec3], triangles: Vec<[u32; 3]>, segments: &[[DVec3; 2]], widest: Gap) -> Enclosure {
     let piece = compact(positions, triangles);
     let low = piece.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = piece.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let (lengths, mut found) = lengths_along(&piece, segments, [low, high]);
+    let (lengths, mut found) = lengths_along(&piece, segments, [low, high], widest);
     let encloses = lengths >= MIN_LENGTH * low.distance(high);
     if !encloses {
         found.fill(false);
@@ -121,7 +131,7 @@ fn surrounded(positions: &[DVec3], triangles: Vec<[u32; 3]>, segments: &[[DVec3;
         let section = Section::projected(&piece, centre, normal);
         for (found, [a, b]) in found.iter_mut().zip(segments) {
             let [ha, hb] = [a, b].map(|p| (p - centre).dot(normal));
-            if (ha < 0.0) != (hb < 0.0) && section.encloses(a.lerp(*b, ha / (ha - hb))) {
+            if (ha < 0.0) != (hb < 0.0) && section.encloses_but_for(a.lerp(*b, ha / (ha - hb)), widest) {
                 *found = true;
             }
         }
@@ -141,7 +151,12 @@ fn compact(positions: &[DVec3], mut triangles: Vec<[u32; 3]>) -> TriangleMesh {
 
 /// The length of `segments` that `piece`, whose bounding box is given, surrounds in the planes across them; and whether it
 /// surrounds anything of each.
-fn lengths_along(piece: &TriangleMesh, segments: &[[DVec3; 2]], [low, high]: [DVec3; 2]) -> (f64, Vec<bool>) {
+fn lengths_along(
+    piece: &TriangleMesh,
+    segments: &[[DVec3; 2]],
+    [low, high]: [DVec3; 2],
+    widest: Gap,
+) -> (f64, Vec<bool>) {
     let along = |&[a, b]: &[DVec3; 2]| {
         let length = a.distance(b);
         let count = (length / SPACING).ceil().max(1.0);
@@ -149,7 +164,8 @@ fn lengths_along(piece: &TriangleMesh, segments: &[[DVec3; 2]], [low, high]: [DV
             let p = a.lerp(b, (k as f64 + 0.5) / count);
             // A curve that surrounds a point has it in its box, but for the part that may be open.
             let reach = DVec3::splat(0.5 * low.distance(high));
-            p.cmpge(low - reach).all() && p.cmple(high + reach).all() && Section::cut(piece, p, b - a).encloses(p)
+            let is_near = p.cmpge(low - reach).all() && p.cmple(high + reach).all();
+            is_near && Section::cut(piece, p, b - a).encloses_but_for(p, widest)
         };
         let surrounding = (0..count as usize).into_par_iter().filter(|&k| surrounds(k)).count();
         surrounding as f64 * length / count
@@ -218,21 +234,21 @@ pub fn enclosed_share(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> f64 {
     let corners: Vec<u32> = garment.triangles.iter().flatten().copied().collect();
     let sampled = corners.iter().step_by(corners.len().div_ceil(SAMPLES).max(1));
     let samples: Vec<DVec3> = sampled.map(|&v| garment.positions[v as usize]).collect();
-    enclosed_share_at(garment, segments, &samples)
+    enclosed_share_at(garment, segments, &samples, Gap::Half)
 }
 
-/// The same for `samples` in place of the garment's own points.
-pub fn enclosed_share_at(garment: &TriangleMesh, segments: &[[DVec3; 2]], samples: &[DVec3]) -> f64 {
-    let enclosed: Vec<bool> = samples.par_iter().map(|&p| encloses_nearest(garment, segments, p)).collect();
+/// The same for `samples` in place of the garment's own points, with the gap that may be left.
+pub fn enclosed_share_at(garment: &TriangleMesh, segments: &[[DVec3; 2]], samples: &[DVec3], widest: Gap) -> f64 {
+    let enclosed: Vec<bool> = samples.par_iter().map(|&p| encloses_nearest(garment, segments, p, widest)).collect();
     let count = enclosed.iter().filter(|&&is_enclosed| is_enclosed).count();
     count as f64 / enclosed.len().max(1) as f64
 }
 
-fn encloses_nearest(garment: &TriangleMesh, segments: &[[DVec3; 2]], p: DVec3) -> bool {
+fn encloses_nearest(garment: &TriangleMesh, segments: &[[DVec3; 2]], p: DVec3, widest: Gap) -> bool {
     let candidates = segments.iter().map(|&[a, b]| {
         let point = closest_on_segment(p, a, b - a);
         (point.distance_squared(p), point, b - a)
     });
     let nearest = candidates.min_by(|a, b| a.0.total_cmp(&b.0));
-    nearest.is_some_and(|(_, point, along)| Section::cut(garment, point, along).encloses(point))
+    nearest.is_some_and(|(_, point, along)| Section::cut(garment, point, along).encloses_but_for(point, widest))
 }

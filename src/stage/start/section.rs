@@ -7,9 +7,14 @@ use crate::geometry::mesh::TriangleMesh;
 
 /// Directions around a point, one bit each.
 const DIRECTIONS: u32 = 64;
-/// A section encloses a point where no gap in its angular coverage is wider than this many directions: below half a turn,
-/// which is the narrowest gap for a point outside of something convex. A cape still passes.
-const WIDEST_GAP: u32 = 28;
+/// The widest gap that a section may leave around what it encloses, in directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gap {
+    /// Below half a turn, which is the narrowest gap for a point outside of something convex. A cape still passes.
+    Half = 28,
+    /// A quarter of a turn: an open collar or bangle passes, and glasses or a pair of earrings do not.
+    Quarter = 16,
+}
 
 /// The curve in which a plane cuts the garment.
 pub struct Section {
@@ -69,8 +74,13 @@ impl Section {
         self.segments.iter().map(distance).fold(f64::INFINITY, f64::min)
     }
 
-    /// Whether the garment encloses `p`, which lies in the plane: a test of the angles under which its curve is seen from there.
+    /// Whether the garment encloses `p`, which lies in the plane, but for a gap of less than half a turn.
     pub fn encloses(&self, p: DVec3) -> bool {
+        self.encloses_but_for(p, Gap::Half)
+    }
+
+    /// Whether the garment encloses `p`, which lies in the plane: a test of the angles under which its curve is seen from there.
+    pub fn encloses_but_for(&self, p: DVec3, widest: Gap) -> bool {
         let centre = DVec2::new((p - self.origin).dot(self.u), (p - self.origin).dot(self.v));
         let mut covered = 0u64;
         for &[a, b] in &self.segments {
@@ -87,7 +97,7 @@ impl Section {
             return false;
         }
         // Each round takes one direction off every gap.
-        for _ in 0..WIDEST_GAP {
+        for _ in 0..widest as u32 {
             empty &= empty.rotate_left(1);
         }
         empty == 0
