@@ -9,6 +9,7 @@ mod carried;
 mod determinism;
 mod distortion;
 mod fit_controls;
+mod flaws;
 mod hanging;
 mod initial_self_intersections;
 mod layers;

@@ -15,5 +15,6 @@ mod open_ends;
 mod pin_targets;
 mod projection;
 mod repair;
+mod t_junctions;
 mod untangle;
 mod weight_check;

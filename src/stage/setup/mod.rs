@@ -15,3 +15,4 @@ pub mod normalization;
 pub mod pin_targets;
 pub mod problem;
 pub mod shape;
+pub mod t_junctions;
