@@ -349,16 +349,13 @@ fn pose(
 
 /// The report before the first iteration.
 fn initial_report(problem: &Problem, body: &Body, objective: &Objective, threads: usize) -> Report {
-    let has = |pairs: &[[u32; 2]], pair: &[u32; 2]| pairs.binary_search(pair).is_ok();
-    // What is joined at a T-junction counts where it does intersect.
-    let counts = |pair: &&[u32; 2]| !has(&problem.joined, pair) || has(&problem.designed_intersections, pair);
     Report {
         garment_size: [problem.rest.len(), problem.triangles.len()],
         avatar_size: body.avatar_size(),
         projected_size: problem.projected.size_of_first(body.avatar_size()[1]),
         min_separation: objective.contact.min_separation(),
         initial_self_intersections: problem.designed_intersections.len() - problem.initial_state(false).1.len()
-            + objective.contact.exempt_pairs().triangle_pairs().iter().filter(counts).count(),
+            + objective.contact.exempt_pairs().triangle_pairs().len(),
         threads,
         ..Report::default()
     }

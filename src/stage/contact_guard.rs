@@ -38,8 +38,6 @@ pub struct ContactGuard {
     /// The part of the next step that is searched at first.
     first_search: f64,
     distances: ContactDistances,
-    /// Pairs of garment triangles that are exempt for good: neighbours that have no vertex in common.
-    joined: Arc<[[u32; 2]]>,
     cancel: Cancel,
     /// Time in contact since it was last taken.
     profile: Profile,
@@ -62,7 +60,6 @@ impl ContactGuard {
             first_search: 1.0,
             bodies,
             distances,
-            joined: Arc::default(),
             cancel,
             profile: Profile::default(),
         };
@@ -103,25 +100,17 @@ impl ContactGuard {
         self.keep_near_candidates(1.0);
     }
 
-    /// Exempts pairs of garment triangles for good, from [`Self::initialise`] on: neighbours that have no vertex in common. The
-    /// lower index first, in ascending order.
-    pub fn join(&mut self, pairs: &[[u32; 2]]) {
-        self.joined = pairs.into();
-    }
-
     /// Begins at `at`, where the pairs of garment triangles in `initial_intersections` intersect: they are exempted until they
     /// separate, together with what touches within rounding. Lowers the minimum separation below the distances of all active
     /// pairs.
     pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
-        let pairs = initial_intersections.iter().chain(self.joined.iter()).copied().collect();
-        self.exempt_intersecting(at, pairs, |_, _| true);
+        self.exempt_intersecting(at, initial_intersections.to_vec(), |_, _| true);
         self.update_min_separation(at, [0.0; 2]);
     }
 
     /// Goes on from `previous`, the contact of the same garment: with its exempt pairs and its minimum separation.
     pub fn inherit_state(&mut self, previous: &Self) {
         self.broad_phase.set_exempt_pairs(previous.broad_phase.exempt_pairs().clone());
-        self.joined = previous.joined.clone();
         self.set_min_separations(previous.min_separations());
     }
 
@@ -141,10 +130,7 @@ impl ContactGuard {
     pub fn update_exemptions(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.min_separations();
         let reinstated = self.reinstate_separated(at)?;
-        if reinstated
-            || before[0] < self.distances.min_separation
-            || self.exempt_pairs().triangle_pairs().len() > self.joined.len()
-        {
+        if reinstated || before[0] < self.distances.min_separation || !self.exempt_pairs().is_empty() {
             self.update_min_separation(at, before);
         }
         Ok(reinstated || self.min_separations() != before)
@@ -152,16 +138,12 @@ impl ContactGuard {
 
     fn reinstate_separated(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.broad_phase.exempt_pairs();
-        // A pair may be among both.
-        if before.triangle_pairs().len() <= self.joined.len() {
+        if before.is_empty() {
             return Ok(false);
         }
         let triangles = self.bodies.garment.surface.triangles.clone();
         let mesh = TriangleMesh { positions: at.x.to_vec(), triangles };
-        let mut pairs = intersecting(&mesh, before.triangle_pairs())?;
-        pairs.extend(self.joined.iter());
-        pairs.sort_unstable();
-        pairs.dedup();
+        let pairs = intersecting(&mesh, before.triangle_pairs())?;
         if pairs.len() == before.triangle_pairs().len() {
             return Ok(false);
         }

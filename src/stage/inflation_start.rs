@@ -30,7 +30,7 @@ impl Problem {
         objective.contact.initialise(at, intersections);
         let initial_intersections = objective.contact.exempt_pairs().triangle_pairs();
         let mut designed = self.designed_intersections.clone();
-        designed.extend(initial_intersections.iter().filter(|pair| self.joined.binary_search(pair).is_err()));
+        designed.extend(initial_intersections);
         designed.sort_unstable();
         designed.dedup();
         report_initial_intersections(self, &designed, options.strict, diagnostics);
@@ -75,9 +75,7 @@ impl Problem {
             motion,
         };
         let bodies = self.bodies(avatar);
-        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
-        objective.contact.join(&self.joined);
-        objective
+        Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone())
     }
 
     /// The objective of another attempt, with other settings of the contact.

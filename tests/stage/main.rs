@@ -15,6 +15,5 @@ mod open_ends;
 mod pin_targets;
 mod projection;
 mod repair;
-mod t_junctions;
 mod untangle;
 mod weight_check;

@@ -15,4 +15,3 @@ pub mod normalization;
 pub mod pin_targets;
 pub mod problem;
 pub mod shape;
-pub mod t_junctions;

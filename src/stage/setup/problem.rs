@@ -16,7 +16,6 @@ use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
 use super::shape::{HeldPieces, Shape, rigid};
-use super::t_junctions::TJunctions;
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -24,7 +23,6 @@ use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Bone, Diagnostic};
-use crate::input::near_seams::mean_edge;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
@@ -108,8 +106,6 @@ pub struct Problem {
     pub carried: CarriedPlaces,
     /// Rigid groups of the caller that are not empty: those of the shape that come first.
     pub callers_groups: Vec<Vec<u32>>,
-    /// Pairs of garment triangles that are joined at T-junctions, the lower index first, in ascending order.
-    pub joined: Vec<[u32; 2]>,
     /// Pairs of garment triangles that intersect in the design, the lower index first.
     pub designed_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
@@ -191,20 +187,12 @@ impl Problem {
             CarriedPlaces::new(garment, &pieces, &map, source_tree.as_ref(), options.designed_clearance)
         };
         // A strict caller asks to be refused, so nothing is pulled apart for him.
-        let junctions = if options.strict {
-            TJunctions::default()
-        } else {
-            TJunctions::find(garment, options.weld_distance * mean_edge(garment))
-        };
-        let untangled = if options.strict || is_within(&designed_intersections, &junctions.joined) {
-            None
-        } else {
-            begin_apart(garment, &designed_intersections, &projected, cancel)?
-        };
+        let untangled =
+            if options.strict { None } else { begin_apart(garment, &designed_intersections, &projected, cancel)? };
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
-        let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried, junctions: &junctions.holds };
+        let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
         let (shape, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
@@ -254,7 +242,6 @@ impl Problem {
             offset,
             carried,
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
-            joined: junctions.joined,
             designed_intersections,
             distances,
         })
@@ -299,11 +286,6 @@ impl Problem {
         let surface = Surface::new(self.rest.len(), self.triangles.clone());
         Arc::new(Bodies { garment: Garment { surface, rest: self.rest.clone() }, avatar })
     }
-}
-
-/// Whether all of `pairs` are among `others`, which are in ascending order.
-fn is_within(pairs: &[[u32; 2]], others: &[[u32; 2]]) -> bool {
-    pairs.iter().all(|pair| others.binary_search(pair).is_ok())
 }
 
 /// The inputs in the normalised space, in which both skeletons are 2 long.

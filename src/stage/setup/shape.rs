@@ -9,7 +9,7 @@ use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::near_borders::NearBorders;
 use super::pin_targets::{self, PinRequest};
-use crate::energy::attachment::{Attachment, Hold, SizeHold};
+use crate::energy::attachment::{Attachment, SizeHold};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
 use crate::energy::position::{MovingAxis, Position};
@@ -50,8 +50,6 @@ pub struct HeldPieces<'a> {
     pub sizes: &'a [SizeHold],
     /// Those that the body carries.
     pub carried: &'a CarriedPlaces,
-    /// Vertices at T-junctions, with the triangles that hold them.
-    pub junctions: &'a [Hold],
 }
 
 impl HeldPieces<'_> {
@@ -76,11 +74,7 @@ impl Shape {
         options: &Options,
     ) -> (Self, NearBorders) {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
-        let mut topology = Topology::new(rest.len(), triangles);
-        // The slits at T-junctions are no borders.
-        let is_slit = |v: &u32| held.junctions.binary_search_by_key(v, |hold| hold.vertex).is_ok();
-        topology.loops.retain(|curve| !curve.vertices.iter().any(is_slit));
-        let holds: Vec<Hold> = held.loose.holds.iter().chain(held.junctions).copied().collect();
+        let topology = Topology::new(rest.len(), triangles);
         let mut is_held = vec![false; rest.len()];
         held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
@@ -89,7 +83,7 @@ impl Shape {
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let shape = Self {
             surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
-            attachment: Attachment::new(rest, &holds, &held.sizes()),
+            attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
             borders: Attachment::of_borders(rest, &near.holds),
             carry: held.carried.term(),
             curvature: Curvature::new(rest, &topology.loops),
