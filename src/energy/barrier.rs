@@ -24,8 +24,8 @@ use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, curvature, 
 const CHUNK: usize = 2048;
 
 /// d-hat of pairs in [`CollisionGroup::Intersecting`], as a share of the garment's. Where the surface passes through itself
-/// distances are too small for more. The barrier's force at a given fraction of d-hat grows with the cube of d-hat, so these
-/// pairs weigh more.
+/// distances are too small for more. These pairs weigh more, as those of the garment do beside the avatar's: see
+/// [`BarrierSettings::self_weight`].
 const INTERSECTING_SHARE: f64 = 1.0 / 16.0;
 
 /// The shape of the barrier. Lengths are in the normalised space.
@@ -84,12 +84,20 @@ impl BarrierSettings {
         }
     }
 
+    /// Factor on the pairs of the garment with itself. While the avatar grows, d-hat is wider towards it; the force at a given
+    /// fraction of d-hat grows with the cube of d-hat, and layers that repel each other so much less than the avatar pushes
+    /// them would be pressed together to the minimum separation, where every step is short.
+    #[inline]
+    fn self_weight(&self) -> f64 {
+        (self.dhat_avatar / self.dhat_self).max(1.0).powi(3)
+    }
+
     #[inline]
     fn weight(&self, group: CollisionGroup) -> f64 {
         match group {
-            CollisionGroup::Garment => 1.0,
+            CollisionGroup::Garment => self.self_weight(),
             CollisionGroup::Avatar => self.avatar_weight,
-            CollisionGroup::Intersecting => INTERSECTING_SHARE.powi(-3),
+            CollisionGroup::Intersecting => self.self_weight() * INTERSECTING_SHARE.powi(-3),
         }
     }
 }
@@ -178,12 +186,17 @@ impl Barrier {
         if h <= 0.0 {
             return 0.0;
         }
-        let by_dhat = if group == CollisionGroup::Avatar { rates.dhat_avatar } else { 0.0 };
+        let (by_dhat, own) = match group {
+            CollisionGroup::Avatar => (rates.dhat_avatar, 0.0),
+            // As `self_weight` follows.
+            _ if self.settings.dhat_avatar > self.settings.dhat_self => (0.0, 3.0 * rates.dhat_avatar),
+            _ => (0.0, 0.0),
+        };
         let big_dhat = dhat * dhat - min_separation;
         let (q, ln) = ((big_d - big_dhat) / big_d, (big_d / big_dhat).ln());
         let slope = 2.0 * (ln + q + (big_d - big_dhat) / big_dhat);
         let by_s = 2.0 * d * self.settings.weight(group) * slope * 2.0 * dhat * dhat * by_dhat;
-        (by_s + g * rates.weight) / h
+        (by_s + g * (rates.weight + own)) / h
     }
 
     /// Number of close pairs and the smallest distances at `at`.

@@ -113,6 +113,9 @@ impl Model for Objective {
         if !shape.pins.is_empty() {
             terms.push(Term { energy: &shape.pins, weight: w.pin_weight });
         }
+        if !shape.borders.is_empty() {
+            terms.push(Term { energy: &shape.borders, weight: w.surface_weight });
+        }
         if !shape.carry.is_empty() {
             terms.push(Term { energy: &shape.carry, weight: w.surface_weight });
         }
@@ -123,10 +126,6 @@ impl Model for Objective {
             terms.push(Term { energy: inflation, weight: 1.0 });
         }
         if let Some(fit) = &self.fit {
-            // While the avatar grows, borders give way like all that is held by nothing: a garment needs the room.
-            if !shape.borders.is_empty() {
-                terms.push(Term { energy: &shape.borders, weight: w.surface_weight });
-            }
             terms.push(Term { energy: fit, weight: w.fit_weight });
         }
         terms

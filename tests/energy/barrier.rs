@@ -86,7 +86,12 @@ impl Case {
     }
 
     fn weight(&self) -> f64 {
-        if self.is_within_garment { 1.0 } else { SETTINGS.avatar_weight }
+        if self.is_within_garment {
+            // The cube of the ratio of the d-hats.
+            (SETTINGS.dhat_avatar / SETTINGS.dhat_self).powi(3)
+        } else {
+            SETTINGS.avatar_weight
+        }
     }
 }
 

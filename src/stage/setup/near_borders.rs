@@ -1,8 +1,8 @@
 //! Borders that lie on or beside another part of the garment: the two fronts of a placket, the hem of a shirt over the
 //! waistband of trousers, the flap of a pocket.
 //!
-//! Nothing but the body holds two such parts to each other, and it lets a placket gape and a shirt ride up. So in the fit each
-//! vertex of a boundary loop is held to the nearest triangle
+//! Nothing but the body holds two such parts to each other, and it lets a placket gape, or close the other way round, and a
+//! shirt ride up. So each vertex of a boundary loop is held to the nearest triangle
 //!
 //! - that is within `REACH` of it,
 //! - whose side that looks out is the same: two trouser legs that touch look at each other, and may part,
