@@ -34,6 +34,9 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE] = "carried_piece",
     [BESPOKE_DIAGNOSTIC_KIND_UNTANGLED] = "untangled",
     [BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP] = "opening_cap",
+    [BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED] = "limb_misplaced",
+    [BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED] = "piece_resized",
+    [BESPOKE_DIAGNOSTIC_KIND_NOT_CONVERGED] = "not_converged",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

@@ -58,7 +58,8 @@ static bool write_report(Output *output, const char *path, const Session *sessio
            output_finish(output, message);
 }
 
-bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options) {
+bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options, const char *status,
+                   const char *said) {
     Output *outputs = results->outputs;
     return write_mesh(&outputs[0], options->output, session, &inputs->garment, bespoke_session_read_garment_vertices,
                       NULL) &&
@@ -66,8 +67,8 @@ bool results_write(Results *results, Session *session, const Inputs *inputs, con
                                                          bespoke_session_read_avatar_vertices, NULL)) &&
            (options->distortion == NULL ||
             write_distortion(&outputs[2], options->distortion, session, inputs->garment.triangle_count)) &&
-           (options->report == NULL || write_report(&outputs[3], options->report, session,
-                                                    bespoke_status_name(BESPOKE_STATUS_OK), "", &session->message));
+           (options->report == NULL ||
+            write_report(&outputs[3], options->report, session, status, said, &session->message));
 }
 
 bool results_commit(Results *results, Message *message) {

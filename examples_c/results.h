@@ -18,8 +18,9 @@ typedef struct Results {
 bool results_check(const Options *options, Message *message);
 
 /* Writes all files whole, but under other names; results_commit puts them in their places. False with a message in the
-   session. results_discard is to be called in the end, whatever came before. */
-bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options);
+   session. results_discard is to be called in the end, whatever came before. `status` and `said` are for the report. */
+bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options, const char *status,
+                   const char *said);
 bool results_commit(Results *results, Message *message);
 void results_discard(Results *results);
 

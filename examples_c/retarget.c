@@ -42,6 +42,8 @@ typedef struct Run {
     Session session;
     Inputs inputs;
     Results results;
+    /* Why the result is implausible; empty where it is not. */
+    Message implausible;
     bool is_terminal;
     bool has_progress_line;
     int shown_stages;
@@ -93,9 +95,16 @@ static bool work(Run *run) {
     }
     show_progress(run);
     for (uint32_t stage = BESPOKE_STAGE_PREPARED; stage != BESPOKE_STAGE_DONE; show_progress(run)) {
-        if (!session_good(&run->session, bespoke_session_step(run->session.handle, 0, 100, &stage), NULL)) {
+        const BespokeStatus status = bespoke_session_step(run->session.handle, 0, 100, &stage);
+        if (session_good(&run->session, status, NULL)) {
+            continue;
+        }
+        if (status != BESPOKE_STATUS_IMPLAUSIBLE_RESULT) {
             return false;
         }
+        /* There is a result all the same. */
+        run->implausible = run->session.message;
+        run->session.status = BESPOKE_STATUS_OK;
     }
     return true;
 }
@@ -108,8 +117,14 @@ static bool dress(Run *run) {
     }
     end_progress_line(run);
     diagnostics_print(session->handle, run->options.quiet ? BESPOKE_SEVERITY_ERROR : BESPOKE_SEVERITY_WARNING, stderr);
-    return results_write(&run->results, session, &run->inputs, &run->options) && stop_signal == 0 &&
-           results_commit(&run->results, &session->message);
+    const bool is_good = run->implausible.text[0] == '\0';
+    const BespokeStatus status = is_good ? BESPOKE_STATUS_OK : BESPOKE_STATUS_IMPLAUSIBLE_RESULT;
+    if (!is_good) {
+        fprintf(stderr, "retarget: %s\n", run->implausible.text);
+    }
+    return results_write(&run->results, session, &run->inputs, &run->options, bespoke_status_name(status),
+                         run->implausible.text) &&
+           stop_signal == 0 && results_commit(&run->results, &session->message);
 }
 
 /* Why there is no result, what the library has to say about it, and what is left. Returns the exit code. */
@@ -167,7 +182,7 @@ int main(int count, char **words) {
         signal(SIGPIPE, SIG_IGN);
         signal(SIGXFSZ, SIG_IGN);
         if (begin(&run)) {
-            code = dress(&run) ? 0 : explain(&run);
+            code = !dress(&run) ? explain(&run) : run.implausible.text[0] != '\0' ? 3 : 0;
         }
     }
     results_discard(&run.results);

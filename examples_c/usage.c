@@ -15,5 +15,6 @@ const char usage_end[] =
     "UVs, groups and materials stay. Vertex normals are computed afresh; corners that shared one still share one, and\n"
     "the faces count them in the order of their first use. Polygons are fans when it comes to contacts.\n"
     "\n"
-    "Exit: 0 with a verified result, 1 without one, 2 for a wrong command line, 128 + n when stopped by signal n\n"
+    "Exit: 0 with a verified result, 1 without one, 2 for a wrong command line, 3 with a verified result that is not worn\n"
+    "as designed (a limb shut up in it or beside it, a piece that lost its size), 128 + n when stopped by signal n\n"
     "(130 for Ctrl-C). Files appear whole or not at all.\n";

@@ -120,6 +120,9 @@ enum BespokeStatus
   /// The session could not start even one thread: the process, its user or the machine has as many as it may have. The
   /// call can be made again.
   BESPOKE_STATUS_NO_THREAD = 14,
+  /// There is a result, DONE and verified, but it is not as designed: a limb is shut up in the garment or beside it,
+  /// or a piece has lost its size. It can be read like any other; the diagnostics name limbs and pieces.
+  BESPOKE_STATUS_IMPLAUSIBLE_RESULT = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -315,6 +318,14 @@ enum BespokeDiagnosticKind
   /// Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried along
   /// with their rim, and not verified, for the body passes through them. The bone is named, and the first three of them.
   BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP = 21,
+  /// The result is not as designed: a limb that went through an opening of the garment and does not now, that was
+  /// outside of the garment and is shut up in it, or that was inside and is beside it. Its bone is named, and a
+  /// garment vertex of the opening or an avatar triangle of the limb.
+  BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED = 23,
+  /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
+  BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED = 24,
+  /// The fit ended by the limit of iterations, not by its tolerance.
+  BESPOKE_DIAGNOSTIC_KIND_NOT_CONVERGED = 25,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -334,7 +345,7 @@ enum BespokeSeverity
   BESPOKE_SEVERITY_NOTE = 1,
   /// The result may be worse for it.
   BESPOKE_SEVERITY_WARNING = 2,
-  /// There is no result because of it.
+  /// There is no result because of it, or, with IMPLAUSIBLE_RESULT, none that should be used unseen.
   BESPOKE_SEVERITY_ERROR = 3,
 };
 #ifndef __cplusplus
@@ -934,15 +945,17 @@ BespokeStatus bespoke_session_prepare(struct BespokeSession *session);
 /// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is checked after each iteration, so a step does
 /// at least one and may take somewhat longer. `*stage`, unless null: the stage afterwards, one of BespokeStage, also
 /// where the step failed (but not with BUSY or a null session). With OK and DONE the result is verified; until then
-/// what can be read is a preview. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
-/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY,
-/// INTERNAL. Threads: any, one at a time.
+/// what can be read is a preview. With IMPLAUSIBLE_RESULT the stage is DONE, too: the result is verified, but no longer
+/// as designed. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
+/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, IMPLAUSIBLE_RESULT, MEMORY_LIMIT,
+/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,
                                    uint32_t max_milliseconds,
                                    uint32_t *stage);
 
 /// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.
+/// IMPLAUSIBLE_RESULT means DONE, too, see bespoke_session_step.
 ///
 /// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
 BespokeStatus bespoke_session_run(struct BespokeSession *session);

@@ -75,6 +75,7 @@ enum class Status : std::uint32_t {
     internal = BESPOKE_STATUS_INTERNAL,
     memory_limit = BESPOKE_STATUS_MEMORY_LIMIT,
     no_thread = BESPOKE_STATUS_NO_THREAD,
+    implausible_result = BESPOKE_STATUS_IMPLAUSIBLE_RESULT,
 };
 
 /// How one number of an array is stored: BespokeComponent. 0 is none of them, so that a forgotten field is noticed.
@@ -144,6 +145,9 @@ enum class DiagnosticKind : std::uint32_t {
     welded_near = BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR,
     untangled = BESPOKE_DIAGNOSTIC_KIND_UNTANGLED,
     opening_cap = BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP,
+    limb_misplaced = BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED,
+    piece_resized = BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED,
+    not_converged = BESPOKE_DIAGNOSTIC_KIND_NOT_CONVERGED,
 };
 
 /// How much a diagnostic matters: BespokeSeverity.

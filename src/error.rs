@@ -23,6 +23,8 @@ pub enum ErrorKind {
     InflationStalled,
     /// The exact verifier found an intersection in the result as the caller would read it.
     NotVerified,
+    /// The result is verified, but limbs or pieces of it are elsewhere or of another size than in the design.
+    ImplausibleResult,
     /// Cancelled by the caller.
     Cancelled,
     /// The session would take more memory than its limit.

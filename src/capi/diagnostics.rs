@@ -79,6 +79,14 @@ pub enum BespokeDiagnosticKind {
     /// Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried along
     /// with their rim, and not verified, for the body passes through them. The bone is named, and the first three of them.
     OpeningCap = 21,
+    /// The result is not as designed: a limb that went through an opening of the garment and does not now, that was
+    /// outside of the garment and is shut up in it, or that was inside and is beside it. Its bone is named, and a
+    /// garment vertex of the opening or an avatar triangle of the limb.
+    LimbMisplaced = 23,
+    /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
+    PieceResized = 24,
+    /// The fit ended by the limit of iterations, not by its tolerance.
+    NotConverged = 25,
 }
 
 /// How much a diagnostic matters.
@@ -89,7 +97,7 @@ pub enum BespokeSeverity {
     Note = 1,
     /// The result may be worse for it.
     Warning = 2,
-    /// There is no result because of it.
+    /// There is no result because of it, or, with IMPLAUSIBLE_RESULT, none that should be used unseen.
     Error = 3,
 }
 
@@ -201,6 +209,9 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::CarriedPiece => BespokeDiagnosticKind::CarriedPiece,
             DiagnosticKind::Untangled => BespokeDiagnosticKind::Untangled,
             DiagnosticKind::OpeningCap => BespokeDiagnosticKind::OpeningCap,
+            DiagnosticKind::LimbMisplaced => BespokeDiagnosticKind::LimbMisplaced,
+            DiagnosticKind::PieceResized => BespokeDiagnosticKind::PieceResized,
+            DiagnosticKind::NotConverged => BespokeDiagnosticKind::NotConverged,
         };
         let severity = match diagnostic.severity() {
             Severity::Note => BespokeSeverity::Note,

@@ -62,9 +62,10 @@ pub unsafe extern "C" fn bespoke_session_prepare(session: *mut BespokeSession) -
 /// `max_iterations`, `max_milliseconds`: the budget, 0 = no limit. It is checked after each iteration, so a step does
 /// at least one and may take somewhat longer. `*stage`, unless null: the stage afterwards, one of BespokeStage, also
 /// where the step failed (but not with BUSY or a null session). With OK and DONE the result is verified; until then
-/// what can be read is a preview. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
-/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, MEMORY_LIMIT, CANCELLED, BUSY,
-/// INTERNAL. Threads: any, one at a time.
+/// what can be read is a preview. With IMPLAUSIBLE_RESULT the stage is DONE, too: the result is verified, but no longer
+/// as designed. State: PREPARED, INFLATE or FIT. Errors: INVALID_STATE (a session that has ended
+/// continues only after bespoke_session_reset), INFLATION_STALLED, NOT_VERIFIED, IMPLAUSIBLE_RESULT, MEMORY_LIMIT,
+/// CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_step(
     session: *mut BespokeSession,
@@ -85,6 +86,7 @@ pub unsafe extern "C" fn bespoke_session_step(
 }
 
 /// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.
+/// IMPLAUSIBLE_RESULT means DONE, too, see bespoke_session_step.
 ///
 /// State: as for bespoke_session_prepare or bespoke_session_step. Errors: all of both. Threads: any, one at a time.
 #[unsafe(no_mangle)]

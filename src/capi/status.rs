@@ -40,6 +40,9 @@ pub enum BespokeStatus {
     /// The session could not start even one thread: the process, its user or the machine has as many as it may have. The
     /// call can be made again.
     NoThread = 14,
+    /// There is a result, DONE and verified, but it is not as designed: a limb is shut up in the garment or beside it,
+    /// or a piece has lost its size. It can be read like any other; the diagnostics name limbs and pieces.
+    ImplausibleResult = 15,
 }
 
 impl From<ErrorKind> for BespokeStatus {
@@ -54,6 +57,7 @@ impl From<ErrorKind> for BespokeStatus {
             ErrorKind::NotEnclosed => Self::NotEnclosed,
             ErrorKind::InflationStalled => Self::InflationStalled,
             ErrorKind::NotVerified => Self::NotVerified,
+            ErrorKind::ImplausibleResult => Self::ImplausibleResult,
             ErrorKind::Cancelled => Self::Cancelled,
             ErrorKind::MemoryLimit => Self::MemoryLimit,
             ErrorKind::NoThread => Self::NoThread,
@@ -83,6 +87,7 @@ pub extern "C" fn bespoke_status_name(status: u32) -> *const c_char {
         12 => c"BESPOKE_STATUS_INTERNAL",
         13 => c"BESPOKE_STATUS_MEMORY_LIMIT",
         14 => c"BESPOKE_STATUS_NO_THREAD",
+        15 => c"BESPOKE_STATUS_IMPLAUSIBLE_RESULT",
         _ => c"BESPOKE_STATUS_UNKNOWN",
     };
     name.as_ptr()

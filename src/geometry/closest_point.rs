@@ -99,6 +99,39 @@ impl ClosestPoint {
         self.search(p, Some(hint as usize)).map_or((f64::INFINITY, 0), |(squared, slot)| (squared.sqrt(), slot as u32))
     }
 
+    /// Whether the half-line from `p` along `direction` meets a triangle. A triangle that it meets in an edge or a corner, or
+    /// that it lies in, may count or not.
+    pub fn meets_ray(&self, p: DVec3, direction: DVec3) -> bool {
+        let inverse = direction.recip();
+        let meets_box = |node: &Node| {
+            let (to_low, to_high) = ((node.low - p) * inverse, (node.high - p) * inverse);
+            let (near, far) = (to_low.min(to_high), to_low.max(to_high));
+            // Not a number where the half-line runs within a face of the box: then the other axes decide.
+            near.to_array().into_iter().fold(0.0, f64::max) <= far.to_array().into_iter().fold(f64::INFINITY, f64::min)
+        };
+        let mut stack = [0_u32; MAX_DEPTH];
+        let mut height = usize::from(!self.nodes.is_empty());
+        while height > 0 {
+            height -= 1;
+            let index = stack[height];
+            let node = &self.nodes[index as usize];
+            if !meets_box(node) {
+                continue;
+            }
+            if node.count == 0 {
+                stack[height] = node.start;
+                stack[height + 1] = index + 1;
+                height += 2;
+                continue;
+            }
+            let from = node.start as usize;
+            if self.corners[from..from + node.count as usize].iter().any(|c| ray_meets_triangle(p, direction, c)) {
+                return true;
+            }
+        }
+        false
+    }
+
     /// Squared distance and slot of the closest triangle.
     fn search(&self, p: DVec3, hint: Option<usize>) -> Option<(f64, usize)> {
         let root = self.nodes.first()?;
@@ -224,6 +257,15 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
         }
     }
     best
+}
+
+fn ray_meets_triangle(p: DVec3, direction: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
+    let (a, b, c) = (*a - p, *b - p, *c - p);
+    // Volumes that the line spans with each side: of one sign where it passes inside.
+    let [u, v, w] = [[b, c], [c, a], [a, b]].map(|[s, t]| direction.dot(s.cross(t)));
+    let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let volume = u + v + w;
+    inside && volume != 0.0 && a.dot((b - a).cross(c - a)) / volume >= 0.0
 }
 
 /// Barycentric coordinates of a point of a triangle: at least 0, of sum 1. In a triangle without area, the nearest

@@ -106,6 +106,12 @@ pub enum DiagnosticKind {
     Untangled,
     /// A cap that closes an opening of the garment where a bone leaves it, left out while the garment is fitted.
     OpeningCap,
+    /// A limb that is on the other side of the garment than in the design.
+    LimbMisplaced,
+    /// A piece of the garment whose size is far from that of what it hangs on.
+    PieceResized,
+    /// The fit ended by the limit of iterations, not by its tolerance.
+    NotConverged,
 }
 
 /// How much a diagnostic matters.
@@ -115,7 +121,7 @@ pub enum Severity {
     Note,
     /// The result may be worse for it.
     Warning,
-    /// There is no result because of it.
+    /// There is no result because of it, or none that should be used unseen.
     Error,
 }
 
@@ -156,6 +162,30 @@ pub struct AvatarPart {
     pub triangle: Element,
     /// Where it belongs to a loose piece of the avatar, much smaller than the largest: how many triangles that has.
     pub loose: Option<usize>,
+}
+
+/// Where a limb is that should be elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LimbPlace {
+    /// Beside an opening of the garment: nothing goes through it any more.
+    OutOfOpening {
+        /// A garment vertex of the opening.
+        vertex: u32,
+    },
+    /// Shut up inside of the garment with its end.
+    Inside {
+        /// A triangle of the avatar that is inside.
+        triangle: u32,
+        /// The share of the end that is.
+        share: f64,
+    },
+    /// Beside the garment, not inside.
+    Beside {
+        /// A triangle of the avatar that is beside.
+        triangle: u32,
+        /// The share of the part around the bone that is.
+        share: f64,
+    },
 }
 
 /// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.
@@ -422,6 +452,29 @@ pub enum Diagnostic {
         /// The triangles, ascending.
         triangles: Vec<u32>,
     },
+    /// A limb is on the other side of the garment than in the design.
+    LimbMisplaced {
+        /// The bone.
+        bone: Bone,
+        /// Where it is.
+        place: LimbPlace,
+    },
+    /// A piece of the garment became larger or smaller than it should.
+    PieceResized {
+        /// A triangle of the piece.
+        triangle: u32,
+        /// How many triangles it has.
+        triangles: usize,
+        /// Its size beside that which it should have.
+        scale: f64,
+        /// Nobody would wear it.
+        is_gross: bool,
+    },
+    /// The fit ended by the limit of iterations.
+    NotConverged {
+        /// The iterations of the fit.
+        iterations: u32,
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -473,6 +526,9 @@ impl Diagnostic {
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
             Self::Untangled { .. } => DiagnosticKind::Untangled,
             Self::OpeningCap { .. } => DiagnosticKind::OpeningCap,
+            Self::LimbMisplaced { .. } => DiagnosticKind::LimbMisplaced,
+            Self::PieceResized { .. } => DiagnosticKind::PieceResized,
+            Self::NotConverged { .. } => DiagnosticKind::NotConverged,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -502,13 +558,17 @@ impl Diagnostic {
             | Self::EndWithoutBone { .. }
             | Self::WeightsContradict { .. }
             | Self::ForeignPart { .. }
-            | Self::OpeningCap { .. } => Severity::Warning,
+            | Self::OpeningCap { .. }
+            | Self::PieceResized { is_gross: false, .. }
+            | Self::NotConverged { .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
             | Self::ResultSelfIntersection { .. }
             | Self::ResultIntersection { .. }
             | Self::InflationHeld { .. }
-            | Self::InflationSqueezed { .. } => Severity::Error,
+            | Self::InflationSqueezed { .. }
+            | Self::LimbMisplaced { .. }
+            | Self::PieceResized { is_gross: true, .. } => Severity::Error,
             Self::More { like, .. } => like.severity(),
         }
     }
@@ -556,7 +616,20 @@ impl Diagnostic {
                 let triangles = if first == last { vec![first] } else { vec![first, last] };
                 triangles.into_iter().map(|t| Element::triangle(Subject::TargetAvatar, t)).collect()
             }
-            Self::CoarseCoordinates { .. } | Self::SettingsAdjusted { .. } | Self::More { .. } => Vec::new(),
+            Self::LimbMisplaced { bone, place } => {
+                let element = match place {
+                    LimbPlace::OutOfOpening { vertex: v } => vertex(v),
+                    LimbPlace::Inside { triangle, .. } | LimbPlace::Beside { triangle, .. } => {
+                        Element::triangle(Subject::TargetAvatar, triangle)
+                    }
+                };
+                vec![bone.element(), element]
+            }
+            Self::PieceResized { triangle: t, .. } => vec![triangle(t)],
+            Self::CoarseCoordinates { .. }
+            | Self::SettingsAdjusted { .. }
+            | Self::NotConverged { .. }
+            | Self::More { .. } => Vec::new(),
         }
     }
 

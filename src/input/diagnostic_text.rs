@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use super::diagnostic::{AvatarPart, Bone, Diagnostic, Element, Foreignness, Subject};
+use super::diagnostic::{AvatarPart, Bone, Diagnostic, Element, Foreignness, LimbPlace, Subject};
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -242,8 +242,46 @@ impl Display for Diagnostic {
                     triangles.len()
                 )
             }
+            Self::LimbMisplaced { bone, place } => misplaced(f, *bone, *place),
+            Self::PieceResized { triangle, triangles, scale, .. } => write!(
+                f,
+                "result: the piece of {triangles} triangles with garment triangle {triangle} is {scale:.2} times as large as it \
+                 should be beside the garment around it or the bodies; join it to what it hangs on, or make it a rigid group"
+            ),
+            Self::NotConverged { iterations } => write!(
+                f,
+                "result: the fit ended after {iterations} iterations by the limit, not by its tolerance, so that the garment is \
+                 not as near to the body or its own shape as it could be; raise max_iterations"
+            ),
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
+    }
+}
+
+/// Where a limb is and was.
+fn misplaced(f: &mut Formatter<'_>, bone: Bone, place: LimbPlace) -> Result {
+    let (name, cause) = (
+        bone_name(Some(bone)),
+        "compare the source skeleton with the garment there, and the skin weights with the avatar",
+    );
+    match place {
+        LimbPlace::OutOfOpening { vertex } => write!(
+            f,
+            "result: {name} goes through the opening at garment vertex {vertex} in the design, and nothing goes through it now; \
+             {cause}"
+        ),
+        LimbPlace::Inside { triangle, share } => write!(
+            f,
+            "result: the end of the limb at {name} is outside of the garment in the design and is shut up in it now ({:.0} % of \
+             it, such as avatar triangle {triangle}); {cause}",
+            100.0 * share
+        ),
+        LimbPlace::Beside { triangle, share } => write!(
+            f,
+            "result: the part around {name} is inside of the garment in the design and is beside it now ({:.0} % of it, such as \
+             avatar triangle {triangle}); {cause}",
+            100.0 * share
+        ),
     }
 }
 
@@ -264,6 +302,8 @@ fn several(like: &Diagnostic) -> &'static str {
         Diagnostic::PinNotReached { .. } => "pinned vertices end away from their places",
         Diagnostic::RigidGroupBent { .. } => "rigid groups end bent",
         Diagnostic::ForeignPart { .. } => "pieces of the avatar seem to be no part of the body",
+        Diagnostic::LimbMisplaced { .. } => "limbs are elsewhere than in the design",
+        Diagnostic::PieceResized { .. } => "pieces of the garment became larger or smaller than they should",
         _ => "of this kind",
     }
 }

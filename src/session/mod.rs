@@ -8,6 +8,7 @@ mod fault;
 mod field_task;
 mod fit_controls;
 mod inputs;
+mod plausibility;
 mod run;
 mod snapshot;
 mod verification;
@@ -145,8 +146,9 @@ impl Session {
     /// Goes on within `budget`. Returns the stage that is reached; at [`Stage::Done`] the result is verified.
     ///
     /// # Errors
-    /// `InvalidState` before `prepare` or after the end, `Cancelled`, `InflationStalled`, `NotVerified`, `Internal`. The
-    /// garment can still be read.
+    /// `InvalidState` before `prepare` or after the end, `Cancelled`, `InflationStalled`, `NotVerified`,
+    /// `ImplausibleResult`, `Internal`. The garment can still be read; with `ImplausibleResult` it is verified and the stage
+    /// is [`Stage::Done`].
     pub fn step(&mut self, budget: Budget) -> Result<Stage> {
         if !matches!(self.stage, Stage::Prepared | Stage::Inflate | Stage::Fit) {
             return Err(Error::new(
@@ -158,7 +160,11 @@ impl Session {
             ));
         }
         self.iterate(budget).map_err(|error| {
-            self.enter(if error.kind == ErrorKind::Cancelled { Stage::Cancelled } else { Stage::Failed });
+            self.enter(match error.kind {
+                ErrorKind::Cancelled => Stage::Cancelled,
+                ErrorKind::ImplausibleResult => Stage::Done,
+                _ => Stage::Failed,
+            });
             self.answer(error)
         })
     }
@@ -238,6 +244,10 @@ impl Session {
         let (clock, other) = (Instant::now(), precision.other());
         self.other_precision = Some((other, self.verify_as_read(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
+        if !self.report.converged {
+            self.diagnostics.push(Diagnostic::NotConverged { iterations: self.report.fit.iterations });
+        }
+        self.compare_with_design()?;
         self.enter(Stage::Done);
         Ok(Stage::Done)
     }

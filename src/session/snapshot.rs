@@ -18,14 +18,14 @@ use crate::stage::setup::problem::Problem;
 /// The last accepted iterate, with all that it takes to return it in the caller's coordinate system.
 #[derive(Clone)]
 pub(super) struct Snapshot {
-    problem: Arc<Problem>,
+    pub(super) problem: Arc<Problem>,
     /// As the caller gave it.
-    body: Arc<Body>,
+    pub(super) body: Arc<Body>,
     coordinate_system: CoordinateSystem,
     /// Pairs of garment triangles that intersected at the start.
     initial_intersections: Arc<[[u32; 2]]>,
     /// Welded garment vertices in the normalised space.
-    x: Vec<DVec3>,
+    pub(super) x: Vec<DVec3>,
     /// Inflation parameter.
     pub(super) t: f64,
     /// Iterations of the stage.

@@ -10,5 +10,6 @@ pub mod full_size;
 pub mod inflate;
 mod inflation_start;
 pub mod objective;
+pub mod plausibility;
 pub mod setup;
 pub mod start;

@@ -100,3 +100,41 @@ fn barycentric_coordinates_give_the_point_back() {
     let [a, b] = [DVec3::ZERO, DVec3::X];
     assert_eq!(barycentric(DVec3::new(0.9, 0.0, 0.0), [a, b, a]), [0.0, 1.0, 0.0]);
 }
+
+/// Möller and Trumbore's test, solved for the barycentric coordinates.
+fn ray_meets(p: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
+    let (e, f) = (b - a, c - a);
+    let q = direction.cross(f);
+    let determinant = e.dot(q);
+    let (u, r) = ((p - a).dot(q) / determinant, (p - a).cross(e));
+    let (v, t) = (direction.dot(r) / determinant, f.dot(r) / determinant);
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0
+}
+
+#[test]
+fn rays_meet_what_brute_force_says() {
+    let mut random = Random::new(5);
+    for count in [0, 1, 3, 40, 500] {
+        let size = 3.0 / f64::from(count + 1).sqrt();
+        let mut mesh = TriangleMesh::default();
+        for t in 0..count {
+            let centre = random.vector();
+            mesh.positions.extend((0..3).map(|_| centre + size * random.vector()));
+            mesh.triangles.push([3 * t, 3 * t + 1, 3 * t + 2]);
+        }
+        let tree = ClosestPoint::new(&mesh);
+        let mut hits = 0;
+        for k in 0..400 {
+            let (p, mut direction) = (1.5 * random.vector(), random.vector());
+            if k % 5 == 0 {
+                // Along an axis, where the inverse is infinite.
+                direction = DVec3::AXES[k % 3];
+            }
+            let expected =
+                mesh.triangles.iter().any(|t| ray_meets(p, direction, t.map(|v| mesh.positions[v as usize])));
+            assert_eq!(tree.meets_ray(p, direction), expected, "{count} triangles, from {p} along {direction}");
+            hits += usize::from(expected);
+        }
+        assert!(count < 3 || (20..400).contains(&hits), "{hits} of 400 rays hit {count} triangles");
+    }
+}

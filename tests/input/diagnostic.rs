@@ -1,7 +1,7 @@
 //! Every sort of diagnostic, with its message to the letter.
 
 use bespoke::input::diagnostic::{
-    AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, Severity, Subject,
+    AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, LimbPlace, Severity, Subject,
 };
 
 const BONE: Bone = Bone { index: 4, joints: [5, 7] };
@@ -193,6 +193,18 @@ fn every_sentence_is_made_of_its_data() {
              it a role with set_avatar_parts, or take it out of the avatar"
                 .into(),
         ),
+        (
+            Diagnostic::PieceResized { triangle: 5, triangles: 48, scale: 0.0604, is_gross: true },
+            "result: the piece of 48 triangles with garment triangle 5 is 0.06 times as large as it should be beside the \
+             garment around it or the bodies; join it to what it hangs on, or make it a rigid group"
+                .into(),
+        ),
+        (
+            Diagnostic::NotConverged { iterations: 9 },
+            "result: the fit ended after 9 iterations by the limit, not by its tolerance, so that the garment is not as near to \
+             the body or its own shape as it could be; raise max_iterations"
+                .into(),
+        ),
     ];
     for (diagnostic, sentence) in cases {
         assert_eq!(diagnostic.to_string(), sentence);
@@ -266,4 +278,21 @@ fn a_blockage_names_bones_and_triangles_and_what_helps() {
         "{held}"
     );
     assert!(!held.to_string().contains("between"));
+}
+
+#[test]
+fn a_misplaced_limb_names_its_bone_and_where_it_is() {
+    let bone = Element::bone(Subject::SourceSkeleton, 4);
+    let cases = [
+        (LimbPlace::OutOfOpening { vertex: 17 }, "garment vertex 17", Element::vertex(Subject::Garment, 17)),
+        (LimbPlace::Inside { triangle: 8, share: 0.914 }, "91 % of it, such as avatar triangle 8", avatar(8)),
+        (LimbPlace::Beside { triangle: 8, share: 1.0 }, "100 % of it, such as avatar triangle 8", avatar(8)),
+    ];
+    for (place, words, element) in cases {
+        let found = Diagnostic::LimbMisplaced { bone: BONE, place };
+        let said = found.to_string();
+        assert!(said.contains("bone 4 (joints 5-7)") && said.contains(words) && said.contains("compare"), "{said}");
+        assert_eq!(found.elements(), [bone, element]);
+        assert_eq!((found.kind(), found.severity()), (DiagnosticKind::LimbMisplaced, Severity::Error));
+    }
 }

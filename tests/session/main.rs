@@ -14,6 +14,7 @@ mod hanging;
 mod initial_self_intersections;
 mod layers;
 mod memory;
+mod plausibility;
 mod profile;
 mod shifted;
 mod small;

@@ -13,6 +13,7 @@ mod loop_axis;
 mod normalization;
 mod open_ends;
 mod pin_targets;
+mod plausibility;
 mod projection;
 mod repair;
 mod untangle;

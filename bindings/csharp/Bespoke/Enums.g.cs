@@ -70,6 +70,12 @@ namespace Bespoke
         /// have. The call can be made again.
         /// </summary>
         NoThread = 14,
+
+        /// <summary>
+        /// There is a result, DONE and verified, but it is not as designed: a limb is shut up in the garment or beside
+        /// it, or a piece has lost its size. It can be read like any other; the diagnostics name limbs and pieces.
+        /// </summary>
+        ImplausibleResult = 15,
     }
 
     /// <summary>
@@ -285,6 +291,21 @@ namespace Bespoke
         /// three of them.
         /// </summary>
         OpeningCap = 21,
+
+        /// <summary>
+        /// The result is not as designed: a limb that went through an opening of the garment and does not now, that was
+        /// outside of the garment and is shut up in it, or that was inside and is beside it. Its bone is named, and a
+        /// garment vertex of the opening or an avatar triangle of the limb.
+        /// </summary>
+        LimbMisplaced = 23,
+
+        /// <summary>
+        /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
+        /// </summary>
+        PieceResized = 24,
+
+        /// <summary>The fit ended by the limit of iterations, not by its tolerance.</summary>
+        NotConverged = 25,
     }
 
     /// <summary>How much a diagnostic matters.</summary>
@@ -296,7 +317,9 @@ namespace Bespoke
         /// <summary>The result may be worse for it.</summary>
         Warning = 2,
 
-        /// <summary>There is no result because of it.</summary>
+        /// <summary>
+        /// There is no result because of it, or, with IMPLAUSIBLE_RESULT, none that should be used unseen.
+        /// </summary>
         Error = 3,
     }
 

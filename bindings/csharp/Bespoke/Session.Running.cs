@@ -41,7 +41,8 @@ namespace Bespoke
         /// <param name="token">Cancelled: so is the session.</param>
         /// <returns>The stage afterwards.</returns>
         /// <exception cref="BespokeException">InvalidState (a session that has ended continues only after
-        /// <see cref="Reset"/>), InflationStalled, NotVerified, MemoryLimit, Busy, Internal.</exception>
+        /// <see cref="Reset"/>), InflationStalled, NotVerified, ImplausibleResult (the stage is Done, and the result can be
+        /// read), MemoryLimit, Busy, Internal.</exception>
         /// <exception cref="OperationCanceledException">Cancelled by the caller.</exception>
         public unsafe Stage Step(
             int maxIterations = 0, int maxMilliseconds = 0, CancellationToken token = default(CancellationToken))

@@ -94,6 +94,8 @@ pub struct Problem {
     pub projected: ProjectedAvatar,
     /// The joints at the ends of each bone.
     pub bones: Vec<[u32; 2]>,
+    /// The skeleton that the garment was designed on, and that of the body to dress.
+    pub skeletons: [Skeleton; 2],
     /// The shape terms.
     pub shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
@@ -216,7 +218,7 @@ impl Problem {
                 loose.hanging.iter().map(|piece| &piece.vertices).chain(pieces.iter().map(|piece| &piece.vertices));
             placed.flatten().for_each(|&v| fit_weights[v as usize] = 0.0);
         }
-        let Normalised { garment, avatar, .. } = normalised;
+        let Normalised { garment, avatar, source, target, .. } = normalised;
         let fitted = avatar.fitted().map_or_else(
             || avatar.mesh.clone(),
             |mut mesh| {
@@ -236,6 +238,7 @@ impl Problem {
             fitted,
             projected,
             bones: inputs.source_skeleton.bones.clone(),
+            skeletons: [source, target],
             shape: Arc::new(shape),
             fit_weights,
             source_body: source_tree,

@@ -1,0 +1,25 @@
+//! How much a garment covers a point: the share of directions in which it is seen from there.
+//!
+//! In a sleeve that is nearly 1, at a cuff a half, beyond it a few hundredths. Holes in the cloth, the number of its pieces and
+//! their winding make no difference.
+
+use glam::DVec3;
+
+use crate::geometry::closest_point::ClosestPoint;
+
+/// Directions in which a point looks.
+pub const DIRECTIONS: usize = 64;
+
+/// The share of [`DIRECTIONS`], spread evenly, in which `garment` is seen from `p`.
+pub fn cover(garment: &ClosestPoint, p: DVec3) -> f64 {
+    (0..DIRECTIONS).filter(|&k| garment.meets_ray(p, direction(k))).count() as f64 / DIRECTIONS as f64
+}
+
+/// Points on a spiral around the sphere, in rings of equal area.
+fn direction(k: usize) -> DVec3 {
+    let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+    let (sin, cos) = (golden_angle * k as f64).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * cos, radius * sin, z)
+}

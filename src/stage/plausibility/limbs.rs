@@ -1,0 +1,149 @@
+//! Limbs that were outside of the garment and are shut up in it, or were inside and are beside it.
+//!
+//! A point of the body belongs to the nearest bone, at a parameter along it. The design says by the same point of the source
+//! skeleton whether the garment covers what is there. Only ends of limbs are looked at for what is shut up: where cuffs and
+//! hems end is for the position term, and a limb that comes out of the garment is in its place.
+
+use rayon::prelude::*;
+
+use super::cover::cover;
+use super::{Misplacement, Outcome};
+use crate::control::{Cancel, Cancelled};
+use crate::geometry::closest_point::ClosestPoint;
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::skeleton::BoneGraph;
+
+/// Points of the body that are looked at, in all and at the least and the most for one bone.
+const SAMPLES: usize = 1024;
+const FEWEST: usize = 16;
+const MOST: usize = 64;
+/// A point is outside where the garment covers it less than this, and inside where it covers it more than that.
+const OUTSIDE: f64 = 0.35;
+const INSIDE: f64 = 0.85;
+/// An end of a limb is shut up where this share is of what was outside, beyond the middle of its last bone and in the last
+/// quarter of that.
+const SHUT_UP: f64 = 0.8;
+/// The part of the body around a bone is beside the garment where this share is of what was inside.
+const BESIDE: f64 = 0.9;
+/// What was outside, or inside, is judged from so many points on, and where it is this share of the part: a cuff may cover a
+/// little more or less.
+const JUDGED: usize = 6;
+const LEAST: f64 = 0.4;
+
+/// A point of the body's surface.
+struct Sample {
+    triangle: u32,
+    parameter: f64,
+    /// How much the garment covers it, in the design and now.
+    cover: [f64; 2],
+}
+
+impl Sample {
+    fn is_outside(&self, in_result: usize) -> bool {
+        self.cover[in_result] < OUTSIDE
+    }
+
+    fn is_inside(&self, in_result: usize) -> bool {
+        self.cover[in_result] > INSIDE
+    }
+}
+
+/// The limbs that are elsewhere than in the design; `graph` is that of the skeletons.
+pub(super) fn misplaced(
+    outcome: &Outcome<'_>,
+    graph: &BoneGraph,
+    cancel: &Cancel,
+) -> Result<Vec<Misplacement>, Cancelled> {
+    let trees = [outcome.design, outcome.result].map(ClosestPoint::new);
+    let mut found = Vec::new();
+    for (bone, parts) in (0u32..).zip(parts_of_bones(outcome.body, outcome, graph)) {
+        cancel.check()?;
+        let samples = samples(bone, &parts, outcome, &trees);
+        let [first, last] = outcome.source.bones[bone as usize].map(|j| graph.is_leaf(j));
+        // Along the bone towards the end, which has parameter 1 there.
+        let ends = [(last, 1.0, 0.0), (first, -1.0, 1.0)].into_iter().filter(|(is_end, ..)| *is_end);
+        found.extend(ends.filter_map(|(_, sign, offset)| shut_up(bone, &samples, |s| sign * s + offset)));
+        let inner = || samples.iter().filter(|s| (0.0..=1.0).contains(&s.parameter));
+        let beside = share_of(inner(), |s| s.is_inside(0), |s| s.is_outside(1));
+        if let Some((triangle, share)) = beside.filter(|(_, share)| *share >= BESIDE) {
+            found.push(Misplacement::Beside { bone, triangle, share });
+        }
+    }
+    Ok(found)
+}
+
+/// The end of the limb where `along` is 1, if it is shut up.
+fn shut_up(bone: u32, samples: &[Sample], along: impl Fn(f64) -> f64) -> Option<Misplacement> {
+    let mut end: Vec<&Sample> = samples.iter().filter(|s| along(s.parameter) > 0.5).collect();
+    end.sort_by(|a, b| along(b.parameter).total_cmp(&along(a.parameter)));
+    let tip = &end[..end.len().div_ceil(4)];
+    let is_shut_up = |part: &[&Sample]| share_of(part.iter().copied(), |s| s.is_outside(0), |s| s.is_inside(1));
+    let ((triangle, share), (_, of_tip)) = (is_shut_up(&end)?, is_shut_up(tip)?);
+    (share.min(of_tip) >= SHUT_UP).then_some(Misplacement::Inside { bone, triangle, share })
+}
+
+/// Of the `samples` that were one thing, the share that is another now, and the triangle of the first of these. None where that
+/// is none, or where too few were the one to tell by.
+fn share_of<'a>(
+    samples: impl Iterator<Item = &'a Sample>,
+    was: impl Fn(&Sample) -> bool,
+    is: impl Fn(&Sample) -> bool,
+) -> Option<(u32, f64)> {
+    let all: Vec<&Sample> = samples.collect();
+    let judged: Vec<&&Sample> = all.iter().filter(|s| was(s)).collect();
+    let changed = || judged.iter().filter(|s| is(s));
+    let first = changed().next()?.triangle;
+    let enough = judged.len() >= JUDGED && judged.len() as f64 >= LEAST * all.len() as f64;
+    enough.then(|| (first, changed().count() as f64 / judged.len() as f64))
+}
+
+/// A triangle of the body at a bone: its index, its area, and the parameter.
+type Part = (u32, f64, f64);
+
+/// For each bone, the triangles of the body that are nearest to it.
+fn parts_of_bones(body: &TriangleMesh, outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Vec<Part>> {
+    let skeleton = outcome.target;
+    let nearest = |t: &[u32; 3]| {
+        let middle = centre(body, t);
+        let at = |bone: u32| {
+            let parameter = graph.project(skeleton, bone, middle);
+            (middle.distance_squared(skeleton.point_at(bone, parameter)), bone, parameter)
+        };
+        (0..skeleton.bones.len() as u32).map(at).min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let located: Vec<_> = body.triangles.par_iter().map(nearest).collect();
+    let mut parts = vec![Vec::new(); skeleton.bones.len()];
+    for ((t, area), at) in (0u32..).zip(body.areas()).zip(located) {
+        if let Some((_, bone, parameter)) = at {
+            parts[bone as usize].push((t, area, parameter));
+        }
+    }
+    parts
+}
+
+fn centre(mesh: &TriangleMesh, triangle: &[u32; 3]) -> glam::DVec3 {
+    triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<glam::DVec3>() / 3.0
+}
+
+/// Points of the parts at a bone, each for an equal share of their area.
+fn samples(bone: u32, parts: &[Part], outcome: &Outcome<'_>, trees: &[ClosestPoint; 2]) -> Vec<Sample> {
+    let count = (SAMPLES / outcome.source.bones.len()).clamp(FEWEST, MOST);
+    let whole: f64 = parts.iter().map(|part| part.1).sum();
+    // Along the bone, so that each stretch of it has its share.
+    let mut order: Vec<&Part> = parts.iter().collect();
+    order.sort_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
+    let (mut sum, mut taken) = (0.0, Vec::new());
+    for part in order {
+        sum += part.1;
+        // Halves, so that the first and the last stand for as much as the others.
+        while taken.len() < count && sum * count as f64 >= (taken.len() as f64 + 0.5) * whole && whole > 0.0 {
+            taken.push(part);
+        }
+    }
+    let sample = |&&(triangle, _, parameter): &&Part| {
+        let on_body = centre(outcome.body, &outcome.body.triangles[triangle as usize]);
+        let on_source = outcome.source.point_at(bone, parameter);
+        Sample { triangle, parameter, cover: [cover(&trees[0], on_source), cover(&trees[1], on_body)] }
+    };
+    taken.par_iter().map(sample).collect()
+}

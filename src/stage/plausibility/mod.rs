@@ -1,0 +1,112 @@
+//! Whether a result is plausible: what the verifier cannot see, for a garment in which a hand is shut up in a sleeve passes
+//! through nothing.
+//!
+//! Result and design are compared by what does not depend on how finely anything is divided: what goes through an opening,
+//! in how many directions a point of the body sees the garment, and the area of a piece. Nothing here uses contact or
+//! solver, nor the skin weights: what the run believed is not asked.
+
+mod cover;
+mod limbs;
+mod opening;
+mod pieces;
+
+use crate::control::{Cancel, Cancelled};
+use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::input::skeleton::{BoneGraph, Skeleton};
+
+pub use cover::{DIRECTIONS, cover};
+pub use opening::{Disc, Section};
+
+/// A bone reaches beyond a leaf joint by this share of its length: hands, feet and the head go on beyond their joints.
+pub const LEAF_REACH: f64 = 0.5;
+
+/// A garment as designed and as it became, with skeletons and body. Both are in the normalised space, in which the skeleton is
+/// 2 long.
+#[derive(Clone, Copy)]
+pub struct Outcome<'a> {
+    /// The garment as designed, around `source`.
+    pub design: &'a TriangleMesh,
+    /// The same garment in the end, on `body`.
+    pub result: &'a TriangleMesh,
+    /// The skeleton that the garment was designed on.
+    pub source: &'a Skeleton,
+    /// The skeleton of `body`, with the joints and bones of `source`.
+    pub target: &'a Skeleton,
+    /// The body without what it wears already.
+    pub body: &'a TriangleMesh,
+}
+
+/// Where a limb is that should be elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Misplacement {
+    /// The bone went through an opening of the design, and nothing of the body goes through it now.
+    OutOfOpening {
+        /// The bone.
+        bone: u32,
+        /// A garment vertex of the opening.
+        vertex: u32,
+    },
+    /// The end of the limb was outside of the garment and is shut up in it now.
+    Inside {
+        /// The last bone of the limb.
+        bone: u32,
+        /// A triangle of the body that is inside.
+        triangle: u32,
+        /// The share of the limb's end that is.
+        share: f64,
+    },
+    /// The part of the body around the bone was inside of the garment and is beside it now.
+    Beside {
+        /// The bone.
+        bone: u32,
+        /// A triangle of the body that is beside.
+        triangle: u32,
+        /// The share of the part that is.
+        share: f64,
+    },
+}
+
+/// A piece of the garment whose size is far from that of what it hangs on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resized {
+    /// The piece's triangle of lowest index.
+    pub triangle: u32,
+    /// How many triangles it has.
+    pub triangles: usize,
+    /// Its size beside that which it should have: below 1 where it shrank.
+    pub scale: f64,
+    /// Whether nobody would wear it.
+    pub is_gross: bool,
+}
+
+/// How a result differs from its design.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// Limbs that are elsewhere than in the design; with any of these, the result is not plausible.
+    pub misplaced: Vec<Misplacement>,
+    /// Pieces of another size, where any is gross the result is not plausible.
+    pub resized: Vec<Resized>,
+}
+
+impl Findings {
+    /// Whether nobody would wear the result.
+    pub fn is_gross(&self) -> bool {
+        !self.misplaced.is_empty() || self.resized.iter().any(|piece| piece.is_gross)
+    }
+}
+
+/// Compares result and design. `design` and `result` share their triangles, whose indices are in range.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cancelled> {
+    let topology = Topology::new(outcome.design.positions.len(), &outcome.design.triangles);
+    let graph = BoneGraph::new(outcome.source);
+    let openings = opening::openings(outcome, &topology, &graph);
+    cancel.check()?;
+    let mut misplaced = opening::empty_openings(outcome, &openings, &graph);
+    cancel.check()?;
+    misplaced.extend(limbs::misplaced(outcome, &graph, cancel)?);
+    cancel.check()?;
+    Ok(Findings { misplaced, resized: pieces::resized(outcome, &openings) })
+}

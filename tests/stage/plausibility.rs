@@ -1,0 +1,200 @@
+//! Results that pass through nothing and that nobody would wear, built by hand, and good ones beside them.
+
+use std::f64::consts::TAU;
+
+use bespoke::control::Cancel;
+use bespoke::geometry::closest_point::ClosestPoint;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::skeleton::Skeleton;
+use bespoke::stage::plausibility::{Disc, Findings, Misplacement, Outcome, compare, cover};
+use glam::DVec3;
+
+/// Rings of `sides` points about the x axis: places along it and radii; the body's ends are closed by fans.
+fn tube(rings: &[[f64; 2]], sides: u32, is_closed: bool) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for &[x, radius] in rings {
+        let point = |s: u32| {
+            let angle = TAU * f64::from(s) / f64::from(sides);
+            DVec3::new(x, radius * angle.cos(), radius * angle.sin())
+        };
+        mesh.positions.extend((0..sides).map(point));
+    }
+    let at = |r: u32, s: u32| r * sides + s % sides;
+    let last = rings.len() as u32 - 1;
+    for (r, s) in (0..last).flat_map(|r| (0..sides).map(move |s| (r, s))) {
+        mesh.triangles.push([at(r, s), at(r + 1, s), at(r, s + 1)]);
+        mesh.triangles.push([at(r, s + 1), at(r + 1, s), at(r + 1, s + 1)]);
+    }
+    for (r, x) in [(0, rings[0][0]), (last, rings[last as usize][0])].into_iter().filter(|_| is_closed) {
+        let tip = mesh.positions.len() as u32;
+        mesh.positions.push(DVec3::X * x);
+        mesh.triangles.extend(
+            (0..sides).map(|s| if r == 0 { [at(r, s), at(r, s + 1), tip] } else { [at(r, s + 1), at(r, s), tip] }),
+        );
+    }
+    mesh
+}
+
+/// Evenly spaced rings.
+fn rings(from: f64, to: f64, count: u32, radius: f64) -> Vec<[f64; 2]> {
+    (0..=count).map(|k| [from + (to - from) * f64::from(k) / f64::from(count), radius]).collect()
+}
+
+/// Trunk, upper arm and forearm, of which the hand goes on beyond.
+fn skeleton() -> Skeleton {
+    Skeleton { joints: [-1.0, 0.0, 0.5, 1.0].map(|x| DVec3::X * x).to_vec(), bones: vec![[0, 1], [1, 2], [2, 3]] }
+}
+
+fn arm() -> TriangleMesh {
+    tube(&rings(-1.3, 1.3, 52, 0.1), 24, true)
+}
+
+/// A sleeve from the upper arm to the wrist.
+fn sleeve(sides: u32, count: u32) -> TriangleMesh {
+    tube(&rings(0.05, 0.95, count, 0.16), sides, false)
+}
+
+fn findings(design: &TriangleMesh, result: &TriangleMesh) -> Findings {
+    let skeleton = skeleton();
+    let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body: &arm() };
+    compare(&outcome, &Cancel::new()).expect("nobody cancels")
+}
+
+fn moved(mesh: &TriangleMesh, by: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
+    TriangleMesh { positions: mesh.positions.iter().map(|&p| by(p)).collect(), triangles: mesh.triangles.clone() }
+}
+
+#[test]
+fn a_sleeve_that_fits_is_plausible() {
+    for (sides, count) in [(3, 1), (8, 3), (40, 30)] {
+        let design = sleeve(sides, count);
+        // Thinner, thicker, and with the cuff a little up or down the arm.
+        for (scale, shift) in [(0.7, 0.0), (1.0, 0.0), (3.0, 0.1), (1.0, -0.2)] {
+            let worn = moved(&design, |p| DVec3::new(p.x + shift, scale * p.y / 0.9, scale * p.z / 0.9));
+            // A coarse tube has to be around the arm.
+            if scale > 0.7 || sides > 3 {
+                assert_eq!(
+                    findings(&design, &worn),
+                    Findings::default(),
+                    "{sides} sides, scale {scale}, shift {shift}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hand_that_is_shut_up_in_its_sleeve_is_found_however_fine_the_sleeve() {
+    for (sides, count) in [(6, 20), (12, 20), (40, 60)] {
+        let design = sleeve(sides, count);
+        // Drawn out beyond the tips of the fingers, and closed there.
+        let shut = moved(&design, |p| {
+            let x = 0.05 + (p.x - 0.05) * 1.5;
+            let narrow = if x > 1.32 { 0.02 } else { 1.0 };
+            DVec3::new(x, narrow * p.y, narrow * p.z)
+        });
+        let found = findings(&design, &shut);
+        let cuff = count * sides;
+        assert!(found.is_gross());
+        assert!(
+            matches!(found.misplaced[..], [
+                Misplacement::OutOfOpening { bone: 2, vertex },
+                Misplacement::Inside { bone: 2, share, .. },
+            ] if vertex == cuff && share > 0.9),
+            "{sides} sides: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn an_arm_beside_its_sleeve_is_found() {
+    let design = sleeve(20, 20);
+    let beside = moved(&design, |p| p + 0.6 * DVec3::Y);
+    let found = findings(&design, &beside);
+    let out = |bone, vertex| Misplacement::OutOfOpening { bone, vertex };
+    assert_eq!(found.misplaced[..2], [out(1, 0), out(2, 400)], "both openings are empty");
+    let beside: Vec<u32> = found.misplaced[2..]
+        .iter()
+        .map(|m| match m {
+            Misplacement::Beside { bone, share, .. } if *share >= 0.9 => *bone,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert!(beside.contains(&1), "the upper arm was covered over its whole length: {found:?}");
+    assert!(found.is_gross() && found.resized.is_empty());
+}
+
+#[test]
+fn what_is_covered_by_design_may_stay_so() {
+    // A mitten: the hand is shut up in it, as it should be.
+    let mitten = tube(&[rings(0.6, 1.35, 6, 0.16), vec![[1.36, 0.01]]].concat(), 16, false);
+    assert_eq!(
+        findings(&mitten, &moved(&mitten, |p| DVec3::new(p.x + 0.02, 0.9 * p.y, 0.9 * p.z))),
+        Findings::default()
+    );
+}
+
+/// The sleeve with a pouch above it, a square of 2 x 4 x 4 triangles, `scale` times as large about its middle.
+fn with_pouch(scale: f64) -> TriangleMesh {
+    let mut mesh = sleeve(20, 20);
+    let first = mesh.positions.len() as u32;
+    let side = |k: u32| scale * 0.1 * (f64::from(k) / 4.0 - 0.5);
+    for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+        mesh.positions.push(DVec3::new(0.5 + side(i), side(j), 0.18));
+    }
+    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+        let a = first + 5 * i + j;
+        mesh.triangles.extend([[a, a + 5, a + 1], [a + 1, a + 5, a + 6]]);
+    }
+    mesh
+}
+
+#[test]
+fn a_pouch_goes_with_the_size_of_what_it_hangs_on() {
+    let design = with_pouch(1.0);
+    let sized = |scale: f64, thicker: f64| {
+        let result = moved(&with_pouch(scale), |p| DVec3::new(p.x, thicker * p.y, thicker * p.z));
+        findings(&design, &result).resized
+    };
+    assert!(sized(1.0, 1.0).is_empty() && sized(0.6, 1.0).is_empty() && sized(1.6, 1.0).is_empty());
+    // Twice as thick is 1.4 times as large.
+    assert!(sized(1.4, 2.0).is_empty());
+    let triangle = 2 * 20 * 20;
+    for (scale, thicker, is_gross) in [(0.06, 1.0, true), (0.4, 1.0, false), (8.0, 1.0, true), (0.1, 2.0, true)] {
+        let found = sized(scale, thicker);
+        assert_eq!(found.len(), 1, "{scale}");
+        assert_eq!((found[0].triangle, found[0].triangles, found[0].is_gross), (triangle, 32, is_gross), "{scale}");
+        assert!((found[0].scale / scale).ln().abs() < 0.7, "{} for {scale}", found[0].scale);
+    }
+}
+
+#[test]
+fn a_piece_around_a_bone_has_the_size_of_the_body_there() {
+    // A hat on a head that is five times as large, beside a shoe that became smaller.
+    let design = sleeve(20, 20);
+    assert_eq!(findings(&design, &moved(&design, |p| DVec3::new(p.x, 5.0 * p.y, 5.0 * p.z))), Findings::default());
+    assert!(findings(&design, &moved(&design, |p| 0.02 * p + 0.5 * DVec3::X)).is_gross());
+}
+
+#[test]
+fn a_section_has_the_area_of_what_goes_through() {
+    for sides in [3_u32, 8, 60] {
+        let ring = |s: u32| {
+            let angle = TAU * (f64::from(s) + 0.31) / f64::from(sides);
+            DVec3::new(0.203, angle.cos(), angle.sin())
+        };
+        let disc = Disc::new(&(0..sides).map(ring).collect::<Vec<_>>());
+        let section = disc.section(&arm());
+        let (area, length) = (24.0 * 0.5 * 0.01 * (TAU / 24.0).sin(), 48.0 * 0.1 * (TAU / 48.0).sin());
+        assert!((section.area.length() - area).abs() < 1e-9, "{} {area}", section.area.length());
+        assert!((section.length - length).abs() < 1e-9, "{} {length}", section.length);
+        assert_eq!(disc.section(&moved(&arm(), |p| p + 5.0 * DVec3::Y)).length, 0.0);
+    }
+}
+
+#[test]
+fn cover_falls_from_the_middle_of_a_sleeve_to_beyond_its_cuff() {
+    let tree = ClosestPoint::new(&sleeve(20, 1));
+    let at = |x: f64| cover(&tree, DVec3::X * x);
+    assert!(at(0.5) > 0.9 && (0.35..0.65).contains(&at(0.95)) && at(1.4) < 0.1 && at(5.0) == 0.0);
+}
