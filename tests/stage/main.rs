@@ -8,6 +8,7 @@ mod contour;
 mod enclosure;
 mod fit_region;
 mod foreign_parts;
+mod inside;
 mod layer_skin;
 mod loop_axis;
 mod normalization;

@@ -17,7 +17,7 @@ use bespoke::verify::intersections;
 use glam::DVec3;
 
 /// A tube of rings about `centre(z)`, its ends open or closed by fans.
-fn tube(
+pub fn tube(
     [low, high]: [f64; 2],
     centre: impl Fn(f64) -> DVec3,
     radius: impl Fn(f64) -> f64,
@@ -49,7 +49,7 @@ fn tube(
     mesh
 }
 
-fn chain(joints: &[[f64; 3]]) -> Skeleton {
+pub fn chain(joints: &[[f64; 3]]) -> Skeleton {
     let count = joints.len() as u32;
     Skeleton {
         joints: joints.iter().map(|&j| DVec3::from(j)).collect(),
@@ -66,19 +66,19 @@ fn body(high: f64) -> TriangleMesh {
     tube([-1.1, high], |z| DVec3::new(0.0, 0.0, z), |_| 0.2, [20, 14], [true; 2])
 }
 
-struct Case {
-    garment: TriangleMesh,
-    source: Skeleton,
-    avatar: TriangleMesh,
-    target: Skeleton,
+pub struct Case {
+    pub garment: TriangleMesh,
+    pub source: Skeleton,
+    pub avatar: TriangleMesh,
+    pub target: Skeleton,
 }
 
 impl Case {
-    fn problem(&self, diagnostics: &mut Vec<Diagnostic>) -> Result<Problem, Error> {
+    pub fn problem(&self, diagnostics: &mut Vec<Diagnostic>) -> Result<Problem, Error> {
         self.problem_with(&Options::default(), diagnostics)
     }
 
-    fn problem_with(&self, options: &Options, diagnostics: &mut Vec<Diagnostic>) -> Result<Problem, Error> {
+    pub fn problem_with(&self, options: &Options, diagnostics: &mut Vec<Diagnostic>) -> Result<Problem, Error> {
         let (weld, _) = Weld::new(&self.garment);
         let inputs = Inputs {
             garment: &weld.mesh,
@@ -104,7 +104,7 @@ impl Case {
     }
 
     /// Repaired: a clean start with some room, warnings that name bones, and a session that ends with a clean result.
-    fn is_repaired(&self) -> Vec<Diagnostic> {
+    pub fn is_repaired(&self) -> Vec<Diagnostic> {
         assert!(self.shrunk_penetrates(), "the avatar penetrates to begin with");
         let mut diagnostics = Vec::new();
         let problem = self.problem(&mut diagnostics).unwrap();

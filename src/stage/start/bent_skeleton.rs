@@ -73,6 +73,11 @@ impl BentSkeleton {
         Location::Bone { bone: self.first[bone as usize] + part as u32, parameter: (parameter - low) / (high - low) }
     }
 
+    /// The bone of the source that a straight part belongs to.
+    pub fn bone_of(&self, part: u32) -> u32 {
+        self.source_bones[part as usize]
+    }
+
     /// The straight parts as segments. A bone without control points reaches as far as its `extents`, the least and the largest
     /// parameter on each bone of the source, 0 and 1 included.
     pub fn segments(&self, extents: &[[f64; 2]]) -> Vec<[DVec3; 2]> {

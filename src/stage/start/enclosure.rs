@@ -118,7 +118,7 @@ pub fn encloses_but_for(garment: &TriangleMesh, segments: &[[DVec3; 2]], widest:
 }
 
 /// The segments that `triangles` surround, as planes show it: across the segments, and the piece's own where it is flat.
-fn surrounded(positions: &[DVec3], triangles: Vec<[u32; 3]>, segments: &[[DVec3; 2]], widest: Gap) -> Enclosure {
+pub fn surrounded(positions: &[DVec3], triangles: Vec<[u32; 3]>, segments: &[[DVec3; 2]], widest: Gap) -> Enclosure {
     let piece = compact(positions, triangles);
     let low = piece.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = piece.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);

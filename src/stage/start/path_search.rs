@@ -9,7 +9,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::bent_skeleton::{BentSkeleton, ControlPoint};
+use super::bent_skeleton::BentSkeleton;
+use super::inside::Inside;
 use super::offset_grid::{UniformGrid, ball, disc};
 use super::section::Section;
 use crate::control::{Cancel, Cancelled};
@@ -40,6 +41,8 @@ pub struct PathSearch<'a> {
     pub extents: Vec<[f64; 2]>,
     /// Bones that should go through points that the garment encloses, where there are any.
     pub prefer_enclosed: Vec<bool>,
+    /// What each bone must stay inside of, where it must.
+    pub keep_inside: Vec<Option<Inside<'a>>>,
 }
 
 /// A bent skeleton, and how it differs from the source.
@@ -79,59 +82,28 @@ const RETRACT_BONE: [f64; 2] = [1.0, 300.0];
 const RETRACT_LEAF: [f64; 2] = [0.02, 2.0];
 
 /// The successor that stands for "all that lies beyond is retracted to here".
-const RETRACTED: u32 = u32::MAX;
+pub(super) const RETRACTED: u32 = u32::MAX;
 
 /// Candidates for the bent skeleton at one joint or station: a stage of the dynamic programme.
-struct Candidates {
-    base: DVec3,
-    offsets: Vec<DVec3>,
+pub(super) struct Candidates {
+    pub(super) base: DVec3,
+    pub(super) offsets: Vec<DVec3>,
     /// Distance of each candidate to the garment.
     distance: Vec<f64>,
     cost: Vec<f64>,
 }
 
 /// A bone from the joint nearer to the root to the other, or what lies beyond a leaf.
-struct Chain {
-    bone: u32,
+pub(super) struct Chain {
+    pub(super) bone: u32,
     /// The joint at its end, none beyond a leaf.
-    end: Option<u32>,
+    pub(super) end: Option<u32>,
     /// Of the stations after the joint where it begins; the last is its end.
-    parameters: Vec<f64>,
+    pub(super) parameters: Vec<f64>,
     /// At those stations, but for a joint at its end.
-    candidates: Vec<Candidates>,
+    pub(super) candidates: Vec<Candidates>,
     /// For each station and candidate but those of the last, the candidate that follows.
-    next: Vec<Vec<u32>>,
-}
-
-/// What is chosen at a joint or station.
-#[derive(Clone, Copy)]
-enum Choice {
-    /// A candidate of its own.
-    Candidate(usize),
-    /// The point that it is retracted to.
-    Retracted(DVec3),
-}
-
-/// A chain with the points that are chosen for it.
-struct Polyline {
-    bone: usize,
-    /// Whether it ends at a joint.
-    inner: bool,
-    /// Parameters and points.
-    points: Vec<(f64, DVec3)>,
-}
-
-/// The choices of least cost, followed from the root.
-struct Trace {
-    /// Positions of the joints.
-    positions: Vec<DVec3>,
-    /// Length of each joint's offset.
-    moved: Vec<f64>,
-    /// The largest offset on each bone, its joints apart.
-    displacements: Vec<f64>,
-    /// As in [`SkeletonPath`].
-    retracted: Vec<[f64; 2]>,
-    polylines: Vec<Polyline>,
+    pub(super) next: Vec<Vec<u32>>,
 }
 
 impl PathSearch<'_> {
@@ -234,7 +206,7 @@ impl PathSearch<'_> {
         order
     }
 
-    fn length(&self, bone: usize) -> f64 {
+    pub(super) fn length(&self, bone: usize) -> f64 {
         let [a, b] = self.source.bones[bone].map(|j| self.source.joints[j as usize]);
         a.distance(b)
     }
@@ -249,7 +221,7 @@ impl PathSearch<'_> {
     }
 
     /// The parameter of station `k`; 0 is the joint where the chain begins.
-    fn parameter(&self, chain: &Chain, k: usize) -> f64 {
+    pub(super) fn parameter(&self, chain: &Chain, k: usize) -> f64 {
         if k > 0 {
             return chain.parameters[k - 1];
         }
@@ -270,7 +242,9 @@ impl PathSearch<'_> {
             let (u, v) = (b - a).try_normalize().unwrap_or(DVec3::Z).any_orthonormal_pair();
             let mut candidates =
                 self.candidates(base, disc(settings.radius, settings.spacing, count, [u, v]), step, settings);
-            if prefer_enclosed {
+            if let Some(inside) = &self.keep_inside[chain.bone as usize] {
+                candidates.keep(&inside.at(base, b - a, &candidates.offsets));
+            } else if prefer_enclosed {
                 let section = Section::cut(self.garment, base, b - a);
                 let enclosed: Vec<bool> = candidates.offsets.iter().map(|&o| section.encloses(base + o)).collect();
                 if enclosed.iter().any(|&e| e) {
@@ -352,7 +326,7 @@ impl PathSearch<'_> {
     }
 
     /// Whether the segment between two points keeps half the clearance, given the distances of its ends: by sphere tracing.
-    fn is_clear(&self, [a, b]: [DVec3; 2], [distance_a, distance_b]: [f64; 2], clearance: f64) -> bool {
+    pub(super) fn is_clear(&self, [a, b]: [DVec3; 2], [distance_a, distance_b]: [f64; 2], clearance: f64) -> bool {
         let length = a.distance(b);
         if distance_a + distance_b - length >= clearance {
             return true;
@@ -371,119 +345,6 @@ impl PathSearch<'_> {
         }
         false
     }
-
-    /// The bent skeleton of least cost, from the root's candidate `first`.
-    fn trace(
-        &self,
-        root: u32,
-        first: usize,
-        chains: &[Vec<Chain>],
-        joints: &[Candidates],
-        cut: &[bool],
-        settings: &SearchSettings,
-    ) -> SkeletonPath {
-        let Trace { positions, moved, mut displacements, retracted, polylines } =
-            self.follow(root, first, chains, joints);
-        for (bone, ends) in self.source.bones.iter().enumerate() {
-            displacements[bone] = ends.iter().map(|&j| moved[j as usize]).fold(displacements[bone], f64::max);
-        }
-        let mut control_points = vec![Vec::new(); self.source.bones.len()];
-        for Polyline { bone, inner, points } in polylines {
-            if displacements[bone] > 0.0 || retracted[bone] != [0.0; 2] {
-                control_points[bone].extend(self.control_points(&points, inner, settings));
-            }
-        }
-        let bent = BentSkeleton::new(self.source, &positions, &control_points, cut);
-        SkeletonPath { bent, displacements, retracted }
-    }
-
-    /// Follows the successors of least cost outwards from the root's candidate `first`.
-    fn follow(&self, root: u32, first: usize, chains: &[Vec<Chain>], joints: &[Candidates]) -> Trace {
-        let bones = self.source.bones.len();
-        let mut trace = Trace {
-            positions: self.source.joints.clone(),
-            moved: vec![0.0; self.source.joints.len()],
-            displacements: vec![0.0; bones],
-            retracted: vec![[0.0; 2]; bones],
-            polylines: Vec::new(),
-        };
-        let mut stack = vec![(root, Choice::Candidate(first))];
-        while let Some((joint, choice)) = stack.pop() {
-            let j = joint as usize;
-            trace.positions[j] = match choice {
-                Choice::Candidate(k) => {
-                    trace.moved[j] = joints[j].offsets[k].length();
-                    joints[j].point(k)
-                }
-                Choice::Retracted(point) => point,
-            };
-            for chain in &chains[j] {
-                let last = self.follow_chain(chain, choice, joints, trace.positions[j], &mut trace);
-                stack.extend(chain.end.map(|end| (end, last)));
-            }
-        }
-        trace
-    }
-
-    /// Follows one chain from `choice`, at the point `start`, and returns the choice at its end.
-    fn follow_chain(
-        &self,
-        chain: &Chain,
-        mut choice: Choice,
-        joints: &[Candidates],
-        start: DVec3,
-        trace: &mut Trace,
-    ) -> Choice {
-        let bone = chain.bone as usize;
-        let mut points = vec![(self.parameter(chain, 0), start)];
-        for (k, &parameter) in chain.parameters.iter().enumerate() {
-            let (before, before_point) = points[k];
-            if let Choice::Candidate(candidate) = choice {
-                choice = match chain.next[k][candidate] {
-                    RETRACTED => Choice::Retracted(before_point),
-                    next => Choice::Candidate(next as usize),
-                };
-            }
-            let (point, displacement) = match choice {
-                Choice::Candidate(c) => {
-                    let joint = chain.end.filter(|_| k + 1 == chain.parameters.len());
-                    let candidates = joint.map_or_else(|| &chain.candidates[k], |j| &joints[j as usize]);
-                    (candidates.point(c), candidates.offsets[c].length())
-                }
-                Choice::Retracted(point) => {
-                    let part = self.length(bone) * (parameter - before).abs();
-                    trace.retracted[bone][usize::from(chain.end.is_none())] += part;
-                    (point, 0.0)
-                }
-            };
-            trace.displacements[bone] = trace.displacements[bone].max(displacement);
-            points.push((parameter, point));
-        }
-        trace.polylines.push(Polyline { bone, inner: chain.end.is_some(), points });
-        choice
-    }
-
-    /// As few control points as keep a polyline clear of the garment and near to what it was; `inner` where it ends at a joint.
-    fn control_points(&self, points: &[(f64, DVec3)], inner: bool, settings: &SearchSettings) -> Vec<ControlPoint> {
-        let mut control_points = Vec::new();
-        let last = points.len() - 1;
-        let mut from = 0;
-        while from < last {
-            let straight = |to: usize| {
-                let ((s, a), (t, b)) = (points[from], points[to]);
-                let near = points[from..to]
-                    .iter()
-                    .all(|&(r, p)| p.distance(a.lerp(b, (r - s) / (t - s))) <= 0.5 * settings.spacing);
-                near && self.is_clear([a, b], [a, b].map(|p| self.tree.distance(p)), settings.clearance)
-            };
-            let to = (from + 2..=last).rev().find(|&to| straight(to)).unwrap_or(from + 1);
-            if to < last || !inner {
-                control_points.push(ControlPoint { parameter: points[to].0, position: points[to].1 });
-            }
-            from = to;
-        }
-        control_points
-    }
 }
 
 impl Candidates {
@@ -491,7 +352,17 @@ impl Candidates {
         Self { base: DVec3::ZERO, offsets: Vec::new(), distance: Vec::new(), cost: Vec::new() }
     }
 
-    fn point(&self, k: usize) -> DVec3 {
+    /// Keeps those that are marked.
+    fn keep(&mut self, kept: &[bool]) {
+        let mut each = kept.iter();
+        self.offsets.retain(|_| each.next() == Some(&true));
+        for values in [&mut self.distance, &mut self.cost] {
+            let mut each = kept.iter();
+            values.retain(|_| each.next() == Some(&true));
+        }
+    }
+
+    pub(super) fn point(&self, k: usize) -> DVec3 {
         self.base + self.offsets[k]
     }
 }

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::caps::Caps;
 use super::enclosure;
+use super::inside::{Design, Lost};
 use super::path_search::{PathSearch, SearchSettings, SkeletonPath, enclosing_planes};
 use super::projection::ProjectedAvatar;
 use crate::control::Cancel;
@@ -33,6 +34,8 @@ const MAX_RETRACTED: f64 = 0.2;
 const MIN_ENCLOSED_SHARE: f64 = 0.85;
 /// A bent skeleton with more joints than this is not tried: the table of paths between them grows with its square.
 const MAX_JOINTS: usize = 8192;
+/// A piece of this size, its bounding box's diagonal, has to stay around what it was around: a shoe, not a button.
+const MIN_PIECE: f64 = 0.1;
 /// Joints that may be the root, those nearest to the garment's middle.
 const ROOTS: usize = 64;
 /// Garment triangles that an error names.
@@ -64,16 +67,23 @@ pub fn resolve(
     let mut penetrations = find_penetrations(garment, projected, cancel)?;
     penetrations.iter_mut().for_each(|penetration| penetration.garment = callers[penetration.garment as usize]);
     let extents = extents(projected, source);
+    let segment = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
+    let straight: Vec<[DVec3; 2]> = extents.iter().zip(0..).map(segment).collect();
     if penetrations.is_empty() {
-        let segment = |(ends, bone): (&[f64; 2], u32)| ends.map(|s| source.point_at(bone, s));
-        return Ok(extents.iter().zip(0..).map(segment).collect());
+        return Ok(straight);
     }
-    let Some((path, start)) = search_path(garment, &avatar.mesh, projected, source, &penetrations, cancel)? else {
-        diagnostics.extend(
-            penetrations.iter().take(MAX_DIAGNOSTICS).map(|penetration| refusal_of(penetration, source, avatar)),
-        );
+    let design = Design::new(garment, straight);
+    let found = search_path(garment, &avatar.mesh, projected, source, &design, &penetrations, cancel)?;
+    let refusals = || penetrations.iter().take(MAX_DIAGNOSTICS).map(|p| refusal_of(p, source, avatar));
+    let Some(Repair { path, start, lost, .. }) = found else {
+        diagnostics.extend(refusals());
         return Err(refusal(&penetrations, source));
     };
+    if let Some(lost) = design.emptied(&lost).into_iter().find(|lost| design.size(lost.piece) >= MIN_PIECE) {
+        diagnostics.extend(refusals());
+        let triangle = callers[design.triangle(lost.piece) as usize];
+        return Err(outside(triangle, bone_of(lost.bone, source)));
+    }
     diagnostics.extend(repairs(&penetrations, &path, source));
     *projected = start;
     Ok(path.bent.segments(&extents))
@@ -107,44 +117,72 @@ fn find_penetrations(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel
     Ok(found.pairs.iter().map(penetration).collect())
 }
 
-/// The first path that retracts no bone, or else the one that retracts least.
+/// A start that is clear of the garment.
+struct Repair {
+    /// The length that is retracted between joints.
+    retracted: f64,
+    path: SkeletonPath,
+    start: ProjectedAvatar,
+    lost: Vec<Lost>,
+}
+
+/// The first path that retracts no bone, or else the one that retracts least. Where that leads bones out of what is around
+/// them, they are kept inside by force, if that can be done.
 fn search_path(
     garment: &TriangleMesh,
     avatar: &TriangleMesh,
     projected: &ProjectedAvatar,
     source: &Skeleton,
+    design: &Design,
     penetrations: &[Penetration],
     cancel: &Cancel,
-) -> Result<Option<(SkeletonPath, ProjectedAvatar)>> {
+) -> Result<Option<Repair>> {
     let root = choose_root(garment, source);
     let cut = cycles(source, root);
-    let search = PathSearch {
+    let mut search = PathSearch {
         garment,
         tree: ClosestPoint::new(garment),
         source,
         extents: extents(projected, source),
         prefer_enclosed: near_penetrations(penetrations, source),
+        keep_inside: source.bones.iter().map(|_| None).collect(),
     };
     let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
-    let mut best: Option<(f64, SkeletonPath, ProjectedAvatar)> = None;
-    for settings in &ROUNDS {
-        let Some(path) = search.find(root, &cut, settings, cancel)? else { continue };
-        let retracted: f64 = path.retracted.iter().map(|p| p[0]).sum();
-        let better = best.as_ref().is_none_or(|(least, ..)| retracted < *least);
-        if !better || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS {
-            continue;
-        }
-        let start = path.bent.reproject(avatar, projected);
-        if find_penetrations(garment, &start, cancel)?.is_empty()
-            && enclosure::enclosed_share(garment, &path.bent.segments(&search.extents)) >= MIN_ENCLOSED_SHARE
-        {
-            best = Some((retracted, path, start));
-            if retracted == 0.0 {
-                break;
+    let rounds = |search: &PathSearch| -> Result<Option<Repair>> {
+        let mut best: Option<Repair> = None;
+        for settings in &ROUNDS {
+            let Some(path) = search.find(root, &cut, settings, cancel)? else { continue };
+            let retracted: f64 = path.retracted.iter().map(|p| p[0]).sum();
+            let better = best.as_ref().is_none_or(|best| retracted < best.retracted);
+            if !better || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS {
+                continue;
+            }
+            let start = path.bent.reproject(avatar, projected);
+            if find_penetrations(garment, &start, cancel)?.is_empty()
+                && enclosure::enclosed_share(garment, &path.bent.segments(&search.extents)) >= MIN_ENCLOSED_SHARE
+            {
+                best = Some(Repair { retracted, path, start, lost: Vec::new() });
+                if retracted == 0.0 {
+                    break;
+                }
             }
         }
+        if let Some(best) = &mut best {
+            best.lost = design.lost(&best.path.bent, &search.extents);
+        }
+        Ok(best)
+    };
+    let free = rounds(&search)?;
+    let lost = match &free {
+        Some(free) => free.lost.clone(),
+        None => design.around(&search.prefer_enclosed),
+    };
+    if lost.is_empty() {
+        return Ok(free);
     }
-    Ok(best.map(|(_, path, start)| (path, start)))
+    search.keep_inside = design.keep(&lost);
+    let kept = rounds(&search)?.filter(|kept| free.is_none() || kept.lost.len() < lost.len());
+    Ok(kept.or(free))
 }
 
 fn length(source: &Skeleton, ends: [u32; 2]) -> f64 {
@@ -265,6 +303,19 @@ fn refusal(penetrations: &[Penetration], source: &Skeleton) -> Error {
             at_bone(penetrations.first().and_then(|p| p.bone).map(|bone| source.bones[bone as usize])),
             named.join(", "),
             if count > named.len() { ", ..." } else { "" },
+        ),
+    )
+}
+
+/// The error of a piece of the garment, named by one of its triangles, that was around a bone and is around none now.
+fn outside(triangle: u32, bone: Bone) -> Error {
+    Error::new(
+        ErrorKind::NotEnclosed,
+        format!(
+            "garment: the piece of triangle {triangle} is around the source skeleton's {}, which passes through its wall, and \
+             the bone cannot be kept clear of it inside; move the bone's end to the middle of what that piece is to cover, \
+             where it is inside",
+            at_bone(Some(bone.joints)).trim_start_matches("at the "),
         ),
     )
 }
