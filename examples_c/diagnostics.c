@@ -37,6 +37,9 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED] = "limb_misplaced",
     [BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED] = "piece_resized",
     [BESPOKE_DIAGNOSTIC_KIND_NOT_CONVERGED] = "not_converged",
+    [BESPOKE_DIAGNOSTIC_KIND_UNIT_MISMATCH] = "unit_mismatch",
+    [BESPOKE_DIAGNOSTIC_KIND_FACING_MISMATCH] = "facing_mismatch",
+    [BESPOKE_DIAGNOSTIC_KIND_SIDES_SWAPPED] = "sides_swapped",
 };
 static const char *const severities[] = {NULL, "note", "warning", "error"};
 static const char *const subjects[] = {NULL, "garment", "target_avatar", "source_avatar", "source_skeleton", "target_skeleton"};

@@ -289,6 +289,14 @@ enum BespokeDiagnosticKind
   /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
   /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
   BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED = 14,
+  /// An input is in another unit than the one that it belongs to: garment or source avatar and the source skeleton, or
+  /// target avatar and target skeleton. The message has the factor.
+  BESPOKE_DIAGNOSTIC_KIND_UNIT_MISMATCH = 15,
+  /// An input is turned against the one that it belongs to, or the target faces another way than the garment, in which
+  /// case it is turned while it is solved for. The message has the turn.
+  BESPOKE_DIAGNOSTIC_KIND_FACING_MISMATCH = 16,
+  /// Left and right of the target are exchanged, or it is mirrored.
+  BESPOKE_DIAGNOSTIC_KIND_SIDES_SWAPPED = 17,
   /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where no bone
   /// does, such as a head above the joint from which the shoulders branch off. The bone is named; the distance is how
   /// far the body goes on.
@@ -467,8 +475,9 @@ typedef struct BespokeCoordinateSystem {
   double metres_per_unit;
   /// Of front faces, one of BespokeWinding. Default: counter-clockwise.
   uint32_t winding;
-  /// 0.
-  uint32_t reserved;
+  /// 1: it is right as it is. What is given in it is not compared with the rest for unit, axes, facing and sides, and
+  /// neither turned nor refused for them. Default 0.
+  uint32_t trusted;
 } BespokeCoordinateSystem;
 
 /// The options of a session. Zero in a field means its default. Unless noted otherwise, lengths are in the normalised

@@ -136,6 +136,9 @@ enum class DiagnosticKind : std::uint32_t {
     pin_not_reached = BESPOKE_DIAGNOSTIC_KIND_PIN_NOT_REACHED,
     rigid_group_bent = BESPOKE_DIAGNOSTIC_KIND_RIGID_GROUP_BENT,
     inflation_blocked = BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED,
+    unit_mismatch = BESPOKE_DIAGNOSTIC_KIND_UNIT_MISMATCH,
+    facing_mismatch = BESPOKE_DIAGNOSTIC_KIND_FACING_MISMATCH,
+    sides_swapped = BESPOKE_DIAGNOSTIC_KIND_SIDES_SWAPPED,
     joint_misplaced = BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED,
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
@@ -696,6 +699,8 @@ struct CoordinateSystem {
     double metres_per_unit = 1.0;
     /// The order of a front face's corners, seen from the front.
     Winding winding = Winding::counter_clockwise;
+    /// It is right as it is: what is given in it is neither turned nor refused for unit, axes, facing and sides.
+    bool trusted = false;
 
     /// As the C API takes it.
     BespokeCoordinateSystem get() const noexcept {
@@ -706,6 +711,7 @@ struct CoordinateSystem {
         made.forward = static_cast<std::uint32_t>(forward);
         made.metres_per_unit = metres_per_unit;
         made.winding = static_cast<std::uint32_t>(winding);
+        made.trusted = trusted ? 1 : 0;
         return made;
     }
 };

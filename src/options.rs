@@ -29,7 +29,8 @@ macro_rules! option_table {
             /// Bytes that the session may take at most; 0 is no limit.
             memory_limit: u64 = 0;
             /// Refuse a garment that intersects itself at the start, instead of exempting those triangles from contact; and
-            /// take skin weights and the avatar's pieces as they are, instead of mending what contradicts the rest.
+            /// take skin weights and the avatar's pieces as they are, instead of mending what contradicts the rest; and
+            /// refuse a target that faces another way than the source, instead of turning it.
             strict: bool = false;
             /// Refuse a garment that is closed by caps where bones leave it, instead of leaving the caps out while it is
             /// fitted.

@@ -55,8 +55,9 @@ pub struct BespokeCoordinateSystem {
     pub metres_per_unit: f64,
     /// Of front faces, one of BespokeWinding. Default: counter-clockwise.
     pub winding: u32,
-    /// 0.
-    pub reserved: u32,
+    /// 1: it is right as it is. What is given in it is not compared with the rest for unit, axes, facing and sides, and
+    /// neither turned nor refused for them. Default 0.
+    pub trusted: u32,
 }
 
 // SAFETY: repr(C) of u32 pairs and f64 without padding.
@@ -75,8 +76,8 @@ impl BespokeCoordinateSystem {
             6 => Ok(Axis::NegativeZ),
             _ => invalid(format!("{name}: {direction} is {code}; it must be one of BespokeAxis")),
         };
-        if self.reserved != 0 {
-            return invalid(format!("{name}: reserved is {}; it must be 0", self.reserved));
+        if self.trusted > 1 {
+            return invalid(format!("{name}: trusted is {}; it must be 0 or 1", self.trusted));
         }
         Ok(CoordinateSystem {
             right: axis(self.right, default.right, "right")?,
@@ -88,6 +89,7 @@ impl BespokeCoordinateSystem {
                 1 => Winding::Clockwise,
                 other => return invalid(format!("{name}: winding is {other}; it must be one of BespokeWinding")),
             },
+            trusted: self.trusted == 1,
         })
     }
 }

@@ -50,6 +50,14 @@ pub enum BespokeDiagnosticKind {
     /// is named and the avatar's triangles on its sides, and with one part its bone. The distance is that between the
     /// garment and one part now, or that between two parts at full size, which is 0 where they touch or overlap.
     InflationBlocked = 14,
+    /// An input is in another unit than the one that it belongs to: garment or source avatar and the source skeleton, or
+    /// target avatar and target skeleton. The message has the factor.
+    UnitMismatch = 15,
+    /// An input is turned against the one that it belongs to, or the target faces another way than the garment, in which
+    /// case it is turned while it is solved for. The message has the turn.
+    FacingMismatch = 16,
+    /// Left and right of the target are exchanged, or it is mirrored.
+    SidesSwapped = 17,
     /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where no bone
     /// does, such as a head above the joint from which the shoulders branch off. The bone is named; the distance is how
     /// far the body goes on.
@@ -200,6 +208,9 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::PinNotReached => BespokeDiagnosticKind::PinNotReached,
             DiagnosticKind::RigidGroupBent => BespokeDiagnosticKind::RigidGroupBent,
             DiagnosticKind::InflationBlocked => BespokeDiagnosticKind::InflationBlocked,
+            DiagnosticKind::UnitMismatch => BespokeDiagnosticKind::UnitMismatch,
+            DiagnosticKind::FacingMismatch => BespokeDiagnosticKind::FacingMismatch,
+            DiagnosticKind::SidesSwapped => BespokeDiagnosticKind::SidesSwapped,
             DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,

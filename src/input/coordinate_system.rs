@@ -37,7 +37,18 @@ impl Axis {
         }
     }
 
-    fn name(self) -> &'static str {
+    /// The axis along coordinate `k` (0, 1 or 2), in the direction of `sign`.
+    fn along(k: usize, sign: f64) -> Self {
+        let both = match k {
+            0 => [Axis::PositiveX, Axis::NegativeX],
+            1 => [Axis::PositiveY, Axis::NegativeY],
+            _ => [Axis::PositiveZ, Axis::NegativeZ],
+        };
+        both[usize::from(sign < 0.0)]
+    }
+
+    /// "+x", "-x" and so on.
+    pub fn name(self) -> &'static str {
         match self {
             Axis::PositiveX => "+x",
             Axis::NegativeX => "-x",
@@ -75,6 +86,9 @@ pub struct CoordinateSystem {
     pub metres_per_unit: f64,
     /// The caller's winding of front faces.
     pub winding: Winding,
+    /// It is right as it is: unit, axes, facing and sides of what is given in it are not compared with the rest, and nothing
+    /// is turned or refused for them.
+    pub trusted: bool,
 }
 
 impl Default for CoordinateSystem {
@@ -86,11 +100,33 @@ impl Default for CoordinateSystem {
             forward: Axis::NegativeZ,
             metres_per_unit: 1.0,
             winding: Winding::CounterClockwise,
+            trusted: false,
         }
     }
 }
 
 impl CoordinateSystem {
+    /// This system as it has to be told where what is given in it is to be turned by `turn` as well, which is meant
+    /// internally.
+    pub fn turned(&self, turn: AxisTurn) -> Self {
+        // The rows of the map from the caller's coordinates to the internal ones.
+        let back = self.forward.parts();
+        let own = [self.right.parts(), self.up.parts(), (back.0, -back.1)];
+        let [right, up, back] = turn.rows.map(|(k, sign)| (own[k].0, own[k].1 * sign));
+        let axis = |(k, sign): (usize, f64)| Axis::along(k, sign);
+        Self { right: axis(right), up: axis(up), forward: axis((back.0, -back.1)), ..*self }
+    }
+
+    /// An internal turn as it is in the caller's coordinates.
+    pub fn turn_from_internal(&self, turn: AxisTurn) -> AxisTurn {
+        let image = |k: usize| {
+            let unit = DVec3::AXES[k];
+            let forth = turn.apply(self.position_to_internal(unit));
+            self.position_from_internal(forth)
+        };
+        AxisTurn::from_columns([0, 1, 2].map(image))
+    }
+
     /// Refuses an invalid coordinate system; `name` names it in error messages ("target coordinate system").
     ///
     /// # Errors
@@ -151,5 +187,97 @@ impl CoordinateSystem {
             Winding::CounterClockwise => [a, b, c],
             Winding::Clockwise => [a, c, b],
         }
+    }
+}
+
+/// A turn that maps the axes onto each other, as between two conventions for axes: one of 24 rotations, or with a mirror
+/// one of 48.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisTurn {
+    /// For each coordinate of the image, the coordinate that it is and its sign.
+    rows: [(usize, f64); 3],
+}
+
+impl AxisTurn {
+    /// No turn.
+    pub const IDENTITY: Self = Self { rows: [(0, 1.0), (1, 1.0), (2, 1.0)] };
+
+    /// All 24 rotations, the smaller first.
+    pub fn rotations() -> Vec<Self> {
+        let mut all: Vec<Self> = Self::all().into_iter().filter(|turn| turn.determinant() > 0.0).collect();
+        all.sort_by(|a, b| a.degrees().total_cmp(&b.degrees()));
+        all
+    }
+
+    /// The mirrors along one coordinate.
+    pub fn mirrors() -> [Self; 3] {
+        [0, 1, 2].map(|axis| {
+            let mut mirror = Self::IDENTITY;
+            mirror.rows[axis].1 = -1.0;
+            mirror
+        })
+    }
+
+    fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for [i, j, k] in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            for signs in 0..8 {
+                let sign = |bit: u32| if signs >> bit & 1 == 0 { 1.0 } else { -1.0 };
+                all.push(Self { rows: [(i, sign(0)), (j, sign(1)), (k, sign(2))] });
+            }
+        }
+        all
+    }
+
+    fn from_columns(columns: [DVec3; 3]) -> Self {
+        let row = |r: usize| {
+            let entries = columns.map(|column| column[r]);
+            let k = (0..3).max_by(|&a, &b| entries[a].abs().total_cmp(&entries[b].abs())).unwrap_or(0);
+            (k, entries[k].signum())
+        };
+        Self { rows: [0, 1, 2].map(row) }
+    }
+
+    /// The image of a point.
+    #[inline]
+    pub fn apply(&self, p: DVec3) -> DVec3 {
+        let [x, y, z] = self.rows.map(|(k, sign)| sign * p[k]);
+        DVec3::new(x, y, z)
+    }
+
+    /// `self` after `first`.
+    pub fn after(&self, first: Self) -> Self {
+        Self { rows: self.rows.map(|(k, sign)| (first.rows[k].0, sign * first.rows[k].1)) }
+    }
+
+    fn columns(&self) -> [DVec3; 3] {
+        DVec3::AXES.map(|unit| self.apply(unit))
+    }
+
+    /// 1 for a rotation, -1 with a mirror.
+    pub fn determinant(&self) -> f64 {
+        let [x, y, z] = self.columns();
+        x.cross(y).dot(z)
+    }
+
+    /// The angle of a rotation, from 0 to 180 degrees.
+    pub fn degrees(&self) -> f64 {
+        let trace: f64 = self.rows.iter().enumerate().filter(|(r, row)| *r == row.0).map(|(_, row)| row.1).sum();
+        (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos().to_degrees().round()
+    }
+
+    /// The axis of a rotation, in whole numbers; its sense is that of the right hand in right-handed coordinates.
+    pub fn axis(&self) -> [i32; 3] {
+        let [x, y, z] = self.columns();
+        let twisted = DVec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
+        let axis = if twisted.length() > 0.5 {
+            twisted
+        } else {
+            // A half turn, or none: what stays. Each of the columns of 1 + R is along the axis.
+            let stays = [x + DVec3::X, y + DVec3::Y, z + DVec3::Z];
+            stays.into_iter().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or(DVec3::Y)
+        };
+        let unit = axis / axis.abs().max_element().max(1e-9);
+        unit.to_array().map(|x| x.round() as i32)
     }
 }

@@ -1,6 +1,8 @@
 //! Diagnostics about the inputs and the result: typed data, whose messages are made in [`super::diagnostic_text`]
 //! alone.
 
+use super::coordinate_system::{AxisTurn, CoordinateSystem};
+
 /// Which of the caller's inputs an element belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Subject {
@@ -112,6 +114,12 @@ pub enum DiagnosticKind {
     PieceResized,
     /// The fit ended by the limit of iterations, not by its tolerance.
     NotConverged,
+    /// An input is in another unit than the one that it belongs to.
+    UnitMismatch,
+    /// An input is in other axes than the one that it belongs to, or the target faces another way than the garment.
+    FacingMismatch,
+    /// Left and right of the target are exchanged, or it is mirrored.
+    SidesSwapped,
 }
 
 /// How much a diagnostic matters.
@@ -475,6 +483,47 @@ pub enum Diagnostic {
         /// The iterations of the fit.
         iterations: u32,
     },
+    /// An input is in another unit than the one that it belongs to.
+    UnitMismatch {
+        /// The input.
+        subject: Subject,
+        /// The one that it belongs to.
+        against: Subject,
+        /// How many times too large it is; below 1 where it is too small.
+        factor: f64,
+        /// Another ratio of units that suits as well, where two are near each other.
+        or: Option<f64>,
+        /// The turn that it needs as well, in the caller's coordinates.
+        turn: Option<AxisTurn>,
+        /// It is refused.
+        gross: bool,
+    },
+    /// An input is turned against the one that it belongs to.
+    FacingMismatch {
+        /// The input; the target avatar stands for its skeleton as well.
+        subject: Subject,
+        /// The one that it belongs to.
+        against: Subject,
+        /// The turn that mends it, in the caller's coordinates.
+        turn: AxisTurn,
+        /// The target's coordinate system that says so, where the target is solved for as if it had been told.
+        told: Option<CoordinateSystem>,
+        /// It is refused.
+        gross: bool,
+        /// Front and back of the bodies agree with it.
+        sure: bool,
+    },
+    /// Left and right of the target are exchanged, or it is mirrored.
+    SidesSwapped {
+        /// A pair of joints of the target that belong into each other's places.
+        joints: [u32; 2],
+        /// The target's coordinate system where it is not the names but the coordinates that are mirrored.
+        mirrored: Option<CoordinateSystem>,
+        /// All limbs are exchanged.
+        all: bool,
+        /// It is refused.
+        sure: bool,
+    },
     /// There are more of one sort than are listed.
     More {
         /// The first of them.
@@ -529,6 +578,9 @@ impl Diagnostic {
             Self::LimbMisplaced { .. } => DiagnosticKind::LimbMisplaced,
             Self::PieceResized { .. } => DiagnosticKind::PieceResized,
             Self::NotConverged { .. } => DiagnosticKind::NotConverged,
+            Self::UnitMismatch { .. } => DiagnosticKind::UnitMismatch,
+            Self::FacingMismatch { .. } => DiagnosticKind::FacingMismatch,
+            Self::SidesSwapped { .. } => DiagnosticKind::SidesSwapped,
             Self::More { like, .. } => like.kind(),
         }
     }
@@ -547,7 +599,8 @@ impl Diagnostic {
             | Self::CarriedPiece { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. }
-            | Self::Untangled { .. } => Severity::Note,
+            | Self::Untangled { .. }
+            | Self::FacingMismatch { told: Some(_), sure: true, gross: false, .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
             | Self::SelfIntersection { strict: false, .. }
             | Self::BoneMoved { .. }
@@ -560,7 +613,10 @@ impl Diagnostic {
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
             | Self::PieceResized { is_gross: false, .. }
-            | Self::NotConverged { .. } => Severity::Warning,
+            | Self::NotConverged { .. }
+            | Self::UnitMismatch { gross: false, .. }
+            | Self::FacingMismatch { gross: false, .. }
+            | Self::SidesSwapped { sure: false, .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
             | Self::ResultSelfIntersection { .. }
@@ -568,7 +624,10 @@ impl Diagnostic {
             | Self::InflationHeld { .. }
             | Self::InflationSqueezed { .. }
             | Self::LimbMisplaced { .. }
-            | Self::PieceResized { is_gross: true, .. } => Severity::Error,
+            | Self::PieceResized { is_gross: true, .. }
+            | Self::UnitMismatch { gross: true, .. }
+            | Self::FacingMismatch { gross: true, .. }
+            | Self::SidesSwapped { sure: true, .. } => Severity::Error,
             Self::More { like, .. } => like.severity(),
         }
     }
@@ -629,6 +688,9 @@ impl Diagnostic {
             Self::CoarseCoordinates { .. }
             | Self::SettingsAdjusted { .. }
             | Self::NotConverged { .. }
+            | Self::UnitMismatch { .. }
+            | Self::FacingMismatch { .. }
+            | Self::SidesSwapped { .. }
             | Self::More { .. } => Vec::new(),
         }
     }

@@ -2,7 +2,9 @@
 
 use std::fmt::{Display, Formatter, Result};
 
+use super::coordinate_system::{AxisTurn, CoordinateSystem};
 use super::diagnostic::{AvatarPart, Bone, Diagnostic, Element, Foreignness, LimbPlace, Subject};
+use super::placement::size::RATIOS;
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -253,6 +255,57 @@ impl Display for Diagnostic {
                 "result: the fit ended after {iterations} iterations by the limit, not by its tolerance, so that the garment is \
                  not as near to the body or its own shape as it could be; raise max_iterations"
             ),
+            Self::UnitMismatch { subject, against, factor, or, turn, .. } => {
+                let (subject, against) = (input(*subject), input(*against));
+                let is_large = *factor > 1.0;
+                let size = if is_large { "large" } else { "small" };
+                let times = |factor: f64| {
+                    let times = if is_large { factor } else { 1.0 / factor };
+                    format!("{} times{}", short(times), units(times))
+                };
+                let other = or.map_or(String::new(), |or| format!(", or {}", times(or)));
+                write!(f, "{subject}: it is too {size} for the {against}: {}{other}", times(*factor))?;
+                let other = or.map_or(String::new(), |or| format!(" or {}", short(1.0 / or)));
+                let also = turn.map_or(String::new(), |turn| format!(", and turn it by {}", turned(turn)));
+                write!(f, "; multiply its coordinates by {}{other}{also}", short(1.0 / factor))
+            }
+            Self::FacingMismatch { subject, against, turn, told: None, .. } => write!(
+                f,
+                "{}: it lies across the {}, as where one is y-up and the other z-up; turn it by {}",
+                input(*subject),
+                input(*against),
+                turned(*turn)
+            ),
+            Self::FacingMismatch { turn, told: Some(system), gross: true, .. } => write!(
+                f,
+                "target avatar and skeleton: they are turned against the source by {}, which the option strict refuses; tell \
+                 the target coordinate system, which would be {}",
+                turned(*turn),
+                axes(system)
+            ),
+            Self::FacingMismatch { turn, told: Some(system), sure, .. } => {
+                let unsure = "; whether front is front then could not be seen, so look at the result";
+                write!(
+                    f,
+                    "target avatar and skeleton: they are turned against the source; they are fitted as if turned by {}, and the result is as they are. The target coordinate system {} says the same{}",
+                    turned(*turn),
+                    axes(system),
+                    if *sure { "" } else { unsure }
+                )
+            }
+            Self::SidesSwapped { mirrored: Some(system), .. } => write!(
+                f,
+                "target avatar and skeleton: they are mirrored, so that left is right, and the triangles are turned inside out; tell the target coordinate system, which would be {}",
+                axes(system)
+            ),
+            Self::SidesSwapped { joints: [a, b], mirrored: None, all, .. } => {
+                let which = if *all { "left and right are swapped" } else { "some limbs are on the wrong side" };
+                write!(
+                    f,
+                    "target skeleton: {which}: joints {a} and {b} belong into each other's places, and what hangs on them; exchange them, with their rows of skin weights{}",
+                    if *all { ", or mirror the target back if it is mirrored" } else { "" }
+                )
+            }
             Self::More { like, count } => write!(f, "{count} more {}", several(like)),
         }
     }
@@ -356,4 +409,59 @@ pub fn avatar_triangle(triangle: Element) -> String {
         Element { subject: Subject::Layer(layer), index, .. } => format!("triangle {index} of layer {layer}"),
         Element { index, .. } => format!("avatar triangle {index}"),
     }
+}
+
+/// An input by its name.
+fn input(subject: Subject) -> &'static str {
+    match subject {
+        Subject::Garment => "garment",
+        Subject::TargetAvatar => "target avatar",
+        Subject::SourceAvatar => "source avatar",
+        Subject::SourceSkeleton => "source skeleton",
+        Subject::TargetSkeleton => "target skeleton",
+        Subject::Layer(_) => "layer",
+    }
+}
+
+/// A number with four digits and no zeros at its end: "39.37", "100", "0.01".
+fn short(number: f64) -> String {
+    let places = (3 - number.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{number:.places$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+}
+
+/// Which units have this ratio.
+fn units(ratio: f64) -> String {
+    let names = [
+        "an inch is in centimetres",
+        "a metre is in feet",
+        "a decimetre is in centimetres",
+        "a foot is in inches",
+        "an inch is in millimetres",
+        "a foot is in centimetres",
+        "a metre is in inches",
+        "a metre is in centimetres",
+        "a metre is in millimetres",
+    ];
+    let known = RATIOS.iter().position(|r| (ratio / r - 1.0).abs() < 1e-6);
+    known.map_or(String::new(), |k| format!(" (as where {})", names[k]))
+}
+
+/// "180 degrees about y", "90 degrees about -x", "120 degrees about (1, 1, 1)".
+fn turned(turn: AxisTurn) -> String {
+    let axis = match turn.axis() {
+        [1, 0, 0] => "x".to_string(),
+        [0, 1, 0] => "y".to_string(),
+        [0, 0, 1] => "z".to_string(),
+        [-1, 0, 0] => "-x".to_string(),
+        [0, -1, 0] => "-y".to_string(),
+        [0, 0, -1] => "-z".to_string(),
+        [x, y, z] => format!("({x}, {y}, {z})"),
+    };
+    format!("{} degrees about {axis}", turn.degrees())
+}
+
+/// The axes of a coordinate system, in words.
+fn axes(system: &CoordinateSystem) -> String {
+    format!("right {}, up {}, forward {}", system.right.name(), system.up.name(), system.forward.name())
 }

@@ -7,6 +7,7 @@ pub mod diagnostic;
 pub mod diagnostic_text;
 mod mesh;
 pub mod near_seams;
+pub mod placement;
 pub mod precision;
 pub mod skeleton;
 pub mod skin;

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::Session;
 use super::inputs::{Inputs, Pin};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::weld::Weld;
 use crate::stage::setup::pin_targets::PinRequest;
 
@@ -76,8 +77,8 @@ impl Inputs {
         Ok(())
     }
 
-    /// The pins, one for each welded vertex that has any; targets in the internal coordinate system.
-    pub(super) fn welded_pins(&self, weld: &Weld) -> Result<Vec<PinRequest>> {
+    /// The pins, one for each welded vertex that has any; targets, which are given in `system`, in the internal one.
+    pub(super) fn welded_pins(&self, weld: &Weld, system: &CoordinateSystem) -> Result<Vec<PinRequest>> {
         let mut pins: Vec<(u32, &Pin)> =
             self.pins.iter().map(|pin| (weld.to_welded[pin.vertex as usize], pin)).collect();
         pins.sort_by_key(|&(welded, pin)| (welded, pin.vertex));
@@ -92,7 +93,7 @@ impl Inputs {
             }
         }
         pins.dedup_by_key(|pin| pin.0);
-        let internal = |target: Option<DVec3>| target.map(|p| self.target_coordinate_system.position_to_internal(p));
+        let internal = |target: Option<DVec3>| target.map(|p| system.position_to_internal(p));
         Ok(pins.into_iter().map(|(welded, pin)| (welded, internal(pin.target))).collect())
     }
 

@@ -11,6 +11,8 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::diagnostic::Diagnostic;
+use crate::input::placement;
+use crate::input::placement::scene::Scene;
 use crate::input::precision::Precision;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
@@ -257,12 +259,17 @@ impl Inputs {
         }
     }
 
-    /// Checks the inputs against each other and poses the problem; returns it with the body as its caller has it. Adds to
+    /// Checks the inputs against each other and poses the problem; returns it with the body as its caller has it, and with
+    /// the coordinate system in which the target was read: the caller's, turned where it faces another way. Adds to
     /// `diagnostics`.
     ///
     /// # Errors
-    /// `InvalidState` where an input is missing, those of [`Problem::new`].
-    pub(super) fn pose_problem(&self, cancel: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<(Problem, Body)> {
+    /// `InvalidState` where an input is missing, those of [`placement::check`] and of [`Problem::new`].
+    pub(super) fn pose_problem(
+        &self,
+        cancel: &Cancel,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<(Problem, Body, CoordinateSystem)> {
         let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
         let Some(source) = &self.source_skeleton else {
             return missing("the source skeleton", "set_source_skeleton");
@@ -291,33 +298,49 @@ impl Inputs {
         let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);
         diagnostics.extend(found);
         cancel.check()?;
-        let pins = self.welded_pins(&weld)?;
+        let garment = mesh_to_internal(&self.source_coordinate_system, &weld.mesh);
+        let source = skeleton_to_internal(&self.source_coordinate_system, source);
+        let source_avatar = self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m));
+        let told = self.target_coordinate_system;
+        let turn = placement::check(
+            &Scene {
+                garment: &garment,
+                source_skeleton: &source,
+                source_avatar: source_avatar.as_ref(),
+                avatar: &mesh_to_internal(&told, avatar),
+                target_skeleton: &skeleton_to_internal(&told, &target),
+                skin: self.skin.as_deref(),
+                source_coordinate_system: self.source_coordinate_system,
+                target_coordinate_system: told,
+            },
+            self.options.strict,
+            diagnostics,
+        )?;
+        cancel.check()?;
+        let target_system = told.turned(turn);
+        let pins = self.welded_pins(&weld, &target_system)?;
         let rigid_groups = self.welded_groups(&weld)?;
         let body = Body::with_roles(avatar, &self.layers, &self.resolve_roles(avatar, &target, diagnostics)?)?;
         let problem = Problem::new(
             &Posed {
-                garment: &mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
-                source_skeleton: &skeleton_to_internal(&self.source_coordinate_system, source),
-                avatar: &body.with_mesh(mesh_to_internal(&self.target_coordinate_system, &body.mesh)),
-                target_skeleton: &skeleton_to_internal(&self.target_coordinate_system, &target),
+                garment: &garment,
+                source_skeleton: &source,
+                avatar: &body.with_mesh(mesh_to_internal(&target_system, &body.mesh)),
+                target_skeleton: &skeleton_to_internal(&target_system, &target),
                 skin: self.skin.as_deref(),
-                source_avatar: self
-                    .source_avatar
-                    .as_ref()
-                    .map(|mesh| mesh_to_internal(&self.source_coordinate_system, mesh))
-                    .as_ref(),
+                source_avatar: source_avatar.as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &pins,
                 rigid_groups: &rigid_groups,
-                offset: self.target_coordinate_system.metres_per_unit * self.options.offset,
+                offset: target_system.metres_per_unit * self.options.offset,
                 weld: Arc::new(weld),
-                coordinate_error: self.target_coordinate_system.metres_per_unit * precision.error_near(&body.mesh),
+                coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),
             },
             &self.options,
             cancel,
             diagnostics,
         )?;
-        Ok((problem, body))
+        Ok((problem, body, target_system))
     }
 
     /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what

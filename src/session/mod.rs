@@ -129,7 +129,7 @@ impl Session {
             }
         };
         self.report = run.report.clone();
-        self.snapshot = Some(Snapshot::of(&run, self.inputs.target_coordinate_system));
+        self.snapshot = Some(Snapshot::of(&run));
         self.run = Some(run);
         self.enter(Stage::Prepared);
         Ok(())

@@ -10,6 +10,7 @@ use super::inputs::Inputs;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
+use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::diagnostic::Diagnostic;
 use crate::memory::{MemoryLimit, Part, Sizes};
 use crate::options::Options;
@@ -33,6 +34,8 @@ pub(super) struct Run {
     pub(super) problem: Arc<Problem>,
     /// The body to dress with its layers, as the caller gave them.
     pub(super) body: Arc<Body>,
+    /// In which they are read: the caller's, turned where the target faces another way than the source.
+    pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) state: State,
     objective: Objective,
     newton: Newton,
@@ -83,7 +86,8 @@ impl Run {
         let begun = Instant::now();
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
-        let (mut problem, body, expected) = pose(inputs, limit, stop, diagnostics)?;
+        let Pose { mut problem, body, target_coordinate_system, field: expected } =
+            pose(inputs, limit, stop, diagnostics)?;
         let mut field = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
         let mut distance = None;
         if !problem.carried.is_empty() {
@@ -104,6 +108,7 @@ impl Run {
             options,
             problem: Arc::new(problem),
             body: Arc::new(body),
+            target_coordinate_system,
             state,
             initial_intersections: objective.contact.exempt_pairs().triangle_pairs().into(),
             objective,
@@ -328,23 +333,26 @@ impl Run {
     }
 }
 
-/// The problem of `inputs`, the body, and the bytes that the distance field is expected to take. Refuses early what will
-/// exceed `limit`.
-fn pose(
-    inputs: &Inputs,
-    limit: MemoryLimit,
-    stop: &Cancel,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Result<(Problem, Body, u64)> {
+/// What is known before anything is set up.
+struct Pose {
+    problem: Problem,
+    body: Body,
+    target_coordinate_system: CoordinateSystem,
+    /// The bytes that the distance field is expected to take.
+    field: u64,
+}
+
+/// The problem of `inputs`. Refuses early what will exceed `limit`.
+fn pose(inputs: &Inputs, limit: MemoryLimit, stop: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<Pose> {
     let left = limit.reserving(inputs.memory());
     let sizes = inputs.sizes();
     left.check(&sizes.estimate())?;
-    let (problem, body) = inputs.pose_problem(stop, diagnostics)?;
+    let (problem, body, target_coordinate_system) = inputs.pose_problem(stop, diagnostics)?;
     stop.check()?;
     let field = Field::estimate(&problem.fitted, inputs.options.voxel_size)?;
     let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field, ..sizes };
     left.check(&sizes.estimate())?;
-    Ok((problem, body, field))
+    Ok(Pose { problem, body, target_coordinate_system, field })
 }
 
 /// The report before the first iteration.

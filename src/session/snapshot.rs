@@ -33,12 +33,12 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// The present iterate of `run`. The target is in `coordinate_system`.
-    pub(super) fn of(run: &Run, coordinate_system: CoordinateSystem) -> Self {
+    /// The present iterate of `run`.
+    pub(super) fn of(run: &Run) -> Self {
         Self {
             problem: run.problem.clone(),
             body: run.body.clone(),
-            coordinate_system,
+            coordinate_system: run.target_coordinate_system,
             initial_intersections: run.initial_intersections.clone(),
             x: run.state.x.clone(),
             t: run.state.t,

@@ -233,7 +233,7 @@ fn coordinate_systems_are_checked() {
         forward: 0,
         metres_per_unit: 0.0,
         winding: 0,
-        reserved: 0,
+        trusted: 0,
     };
     // SAFETY: the struct is as large as it says.
     let set = |system: BespokeCoordinateSystem| unsafe {
@@ -247,7 +247,7 @@ fn coordinate_systems_are_checked() {
         (BespokeCoordinateSystem { up: BespokeAxis::NegativeX as u32, ..default }, "perpendicular"),
         (BespokeCoordinateSystem { right: 7, ..default }, "right is 7"),
         (BespokeCoordinateSystem { winding: 2, ..default }, "winding is 2"),
-        (BespokeCoordinateSystem { reserved: 1, ..default }, "reserved is 1"),
+        (BespokeCoordinateSystem { trusted: 2, ..default }, "trusted is 2"),
         (BespokeCoordinateSystem { metres_per_unit: -1.0, ..default }, "-1"),
         (BespokeCoordinateSystem { metres_per_unit: f64::NAN, ..default }, "NaN"),
     ] {

@@ -1,5 +1,6 @@
 //! Every sort of diagnostic, with its message to the letter.
 
+use bespoke::input::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{
     AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, LimbPlace, Severity, Subject,
 };
@@ -295,4 +296,63 @@ fn a_misplaced_limb_names_its_bone_and_where_it_is() {
         assert_eq!(found.elements(), [bone, element]);
         assert_eq!((found.kind(), found.severity()), (DiagnosticKind::LimbMisplaced, Severity::Error));
     }
+}
+
+#[test]
+fn what_does_not_belong_together_is_said_with_what_mends_it() {
+    let unit = |factor, or, gross| Diagnostic::UnitMismatch {
+        subject: Subject::Garment,
+        against: Subject::SourceSkeleton,
+        factor,
+        or,
+        turn: None,
+        gross,
+    };
+    let centimetres = unit(100.0, None, true);
+    assert_eq!(
+        centimetres.to_string(),
+        "garment: it is too large for the source skeleton: 100 times (as where a metre is in centimetres); multiply its \
+         coordinates by 0.01"
+    );
+    assert_eq!((centimetres.kind(), centimetres.severity()), (DiagnosticKind::UnitMismatch, Severity::Error));
+    let unsure = unit(0.1, Some(1.0 / 12.0), false);
+    assert_eq!(
+        unsure.to_string(),
+        "garment: it is too small for the source skeleton: 10 times (as where a decimetre is in centimetres), or 12 times (as \
+         where a foot is in inches); multiply its coordinates by 10 or 12"
+    );
+    assert_eq!(unsure.severity(), Severity::Warning);
+
+    let system = CoordinateSystem { right: Axis::NegativeX, forward: Axis::PositiveZ, ..CoordinateSystem::default() };
+    let about =
+        AxisTurn::rotations().into_iter().find(|turn| turn.degrees() == 180.0 && turn.axis() == [0, 1, 0]).unwrap();
+    let facing = |told, gross, sure| Diagnostic::FacingMismatch {
+        subject: Subject::TargetAvatar,
+        against: Subject::Garment,
+        turn: about,
+        told,
+        gross,
+        sure,
+    };
+    let turned = facing(Some(system), false, true);
+    assert_eq!(
+        turned.to_string(),
+        "target avatar and skeleton: they are turned against the source; they are fitted as if turned by 180 degrees about y, \
+         and the result is as they are. The target coordinate system right -x, up +y, forward +z says the same"
+    );
+    assert_eq!((turned.kind(), turned.severity()), (DiagnosticKind::FacingMismatch, Severity::Note));
+    assert_eq!(facing(Some(system), false, false).severity(), Severity::Warning);
+    assert_eq!(facing(Some(system), true, true).severity(), Severity::Error);
+    assert_eq!(facing(None, true, true).severity(), Severity::Error);
+
+    let swapped = |all, mirrored, sure| Diagnostic::SidesSwapped { joints: [3, 6], mirrored, all, sure };
+    assert_eq!(
+        swapped(false, None, true).to_string(),
+        "target skeleton: some limbs are on the wrong side: joints 3 and 6 belong into each other's places, and what hangs on \
+         them; exchange them, with their rows of skin weights"
+    );
+    assert!(swapped(true, None, true).to_string().contains("left and right are swapped: joints 3 and 6"));
+    assert!(swapped(true, Some(system), true).to_string().contains("would be right -x, up +y, forward +z"));
+    assert_eq!(swapped(true, None, true).kind(), DiagnosticKind::SidesSwapped);
+    assert_eq!([true, false].map(|sure| swapped(true, None, sure).severity()), [Severity::Error, Severity::Warning]);
 }

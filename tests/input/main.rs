@@ -4,6 +4,7 @@ mod body;
 mod buffer;
 mod coordinate_system;
 mod diagnostic;
+mod placement;
 mod skeleton;
 mod skin;
 mod weld;

@@ -118,6 +118,7 @@ fn three_layers_in_another_coordinate_system_and_unit() {
         forward: Axis::PositiveX,
         metres_per_unit: 0.01,
         winding: Winding::Clockwise,
+        trusted: false,
     };
     let there = |mesh: &TriangleMesh| TriangleMesh {
         positions: mesh.positions.iter().map(|&p| space.position_from_internal(p)).collect(),

@@ -20,3 +20,4 @@ mod shifted;
 mod small;
 mod threads;
 mod together;
+mod turned;

@@ -19,6 +19,10 @@ namespace Bespoke
         /// <summary>The winding of front faces.</summary>
         public Winding Winding { get; set; }
 
+        /// <summary>It is right as it is: what is given in it is neither turned nor refused for unit, axes, facing and
+        /// sides.</summary>
+        public bool Trusted { get; set; }
+
         /// <summary>Unity's: left-handed, y up, z forwards, metres, clockwise.</summary>
         public static CoordinateSystem Unity
         {
@@ -45,6 +49,7 @@ namespace Bespoke
                 forward = Forward,
                 metres_per_unit = MetresPerUnit,
                 winding = Winding,
+                trusted = Trusted ? 1u : 0u,
             };
         }
     }

@@ -235,6 +235,21 @@ namespace Bespoke
         InflationBlocked = 14,
 
         /// <summary>
+        /// An input is in another unit than the one that it belongs to: garment or source avatar and the source
+        /// skeleton, or target avatar and target skeleton. The message has the factor.
+        /// </summary>
+        UnitMismatch = 15,
+
+        /// <summary>
+        /// An input is turned against the one that it belongs to, or the target faces another way than the garment, in
+        /// which case it is turned while it is solved for. The message has the turn.
+        /// </summary>
+        FacingMismatch = 16,
+
+        /// <summary>Left and right of the target are exchanged, or it is mirrored.</summary>
+        SidesSwapped = 17,
+
+        /// <summary>
         /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where
         /// no bone does, such as a head above the joint from which the shoulders branch off. The bone is named; the
         /// distance is how far the body goes on.

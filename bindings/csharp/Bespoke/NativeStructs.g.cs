@@ -36,7 +36,7 @@ namespace Bespoke
         internal Axis forward;
         internal double metres_per_unit;
         internal Winding winding;
-        internal uint reserved;
+        internal uint trusted;
     }
 
     [StructLayout(LayoutKind.Sequential)]

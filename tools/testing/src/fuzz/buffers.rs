@@ -286,7 +286,7 @@ fn space(
         forward: axes[2],
         metres_per_unit: if source.one_in(2) { 10f64.powf(8.0 * source.signed()) } else { 0.0 },
         winding: u32::from(source.one_in(2)),
-        reserved: 0,
+        trusted: u32::from(source.one_in(2)),
     };
     let words = any_struct(source, &base);
     // SAFETY: the session is alive and the struct as large as it says.

@@ -293,7 +293,7 @@ impl Program {
             forward: axis(source),
             metres_per_unit: [0.0, 0.01, 100.0, 1.0, source.number()][source.below(5)],
             winding: u32::from(source.byte() % 3),
-            reserved: u32::from(source.one_in(16)),
+            trusted: u32::from(source.byte() % 3),
         };
         let space = or_null(&space, source);
         let set = if source.one_in(2) {

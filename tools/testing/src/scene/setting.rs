@@ -76,7 +76,7 @@ fn space(random: &mut Random) -> CoordinateSystem {
     let (right, up, forward) = (axis(first), axis(second), axis(3 - first - second));
     let metres_per_unit = [1.0, 0.01, 0.0254, 0.3048][below(random, 4)];
     let winding = if chance(random, 0.5) { Winding::Clockwise } else { Winding::CounterClockwise };
-    CoordinateSystem { right, up, forward, metres_per_unit, winding }
+    CoordinateSystem { right, up, forward, metres_per_unit, winding, trusted: false }
 }
 
 fn options(random: &mut Random, hard: bool) -> Options {

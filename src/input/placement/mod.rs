@@ -1,0 +1,156 @@
+//! Whether the inputs belong together, looked at before the work begins: unit and axes of each mesh against its skeleton,
+//! which way the two bodies face, and their left and right sides.
+//!
+//! Nothing is known of a skeleton but joints and bones, so everything is a comparison: a mesh lies around its bones, and
+//! one body in the other's pose looks like it.
+
+pub mod alignment;
+pub mod front;
+pub mod mirror;
+pub mod scene;
+pub mod size;
+
+use alignment::Alignment;
+use front::Front;
+use mirror::MirrorPairs;
+use scene::Scene;
+use size::{Mend, Surroundings};
+
+use super::coordinate_system::{AxisTurn, CoordinateSystem};
+use super::diagnostic::{Diagnostic, Severity, Subject};
+use super::skeleton::Skeleton;
+use crate::error::{Error, ErrorKind, Result};
+
+/// Turns of up to this many degrees need nothing: the body finds its way as it grows. By a half turn it does not, for half-way
+/// all of it would lie in one plane.
+const HARMLESS: f64 = 90.0;
+
+/// Compares the inputs, and adds what is found to `diagnostics`. Returns the turn of the target after which both bodies face the
+/// same way: none where they do, or where a turn does no harm. With `strict` the target is refused instead of turned. A side
+/// whose coordinate system is trusted is not looked at.
+///
+/// # Errors
+/// `NotEnclosed` where the garment is in another unit or in other axes than its skeleton, `InvalidSkeleton` where an avatar
+/// is, where left and right are swapped, or, with `strict`, where the target faces another way.
+pub fn check(scene: &Scene<'_>, strict: bool, diagnostics: &mut Vec<Diagnostic>) -> Result<AxisTurn> {
+    let mut found = units(scene);
+    let turn =
+        if scene.target_coordinate_system.trusted { AxisTurn::IDENTITY } else { sides(scene, strict, &mut found) };
+    let first = found.iter().find(|d| d.severity() == Severity::Error).map(|d| {
+        let kind = match d {
+            Diagnostic::UnitMismatch { subject: Subject::Garment, .. }
+            | Diagnostic::FacingMismatch { subject: Subject::Garment, .. } => ErrorKind::NotEnclosed,
+            _ => ErrorKind::InvalidSkeleton,
+        };
+        Error::new(kind, d.to_string())
+    });
+    diagnostics.extend(found);
+    first.map_or(Ok(turn), Err)
+}
+
+/// Each mesh against its own skeleton.
+fn units(scene: &Scene<'_>) -> Vec<Diagnostic> {
+    let (source, target) = (scene.source_skeleton, scene.target_skeleton);
+    let source_body = scene.source_avatar.map(|mesh| Surroundings::of_body(mesh, source, None));
+    let body = Surroundings::of_body(scene.avatar, target, scene.skin);
+    let (of_source, of_body) = (source_body.as_ref().map(Surroundings::mend), body.mend());
+    // How thick a body is around its bones: the garment's own where it is known.
+    let thickness = match (&source_body, &of_source) {
+        (Some(body), Some(mend)) => body.thickness(mend),
+        _ => body.thickness(&of_body),
+    };
+    let of_garment = Surroundings::of_garment(scene.garment, source, thickness).mend();
+    let mut found = Vec::new();
+    let mut add = |mend: Mend, subject, against, system: &CoordinateSystem| {
+        let turn = system.turn_from_internal(mend.turn);
+        if let Some(gross) = mend.is_gross() {
+            found.push(if mend.factor == 1.0 {
+                Diagnostic::FacingMismatch { subject, against, turn, told: None, gross, sure: true }
+            } else {
+                let turn = (turn != AxisTurn::IDENTITY).then_some(turn);
+                Diagnostic::UnitMismatch {
+                    subject,
+                    against,
+                    factor: 1.0 / mend.factor,
+                    or: mend.or.map(|or| 1.0 / or),
+                    turn,
+                    gross,
+                }
+            });
+        }
+    };
+    let (from, to) = (&scene.source_coordinate_system, &scene.target_coordinate_system);
+    match of_source {
+        _ if from.trusted => {}
+        // Both against the skeleton: it is the skeleton that is in another unit.
+        Some(mend) if mend.is_gross().is_some() && mend.is_like(&of_garment) => {
+            add(mend.inverse(), Subject::SourceSkeleton, Subject::Garment, from);
+        }
+        _ => {
+            add(of_garment, Subject::Garment, Subject::SourceSkeleton, from);
+            if let Some(mend) = of_source {
+                add(mend, Subject::SourceAvatar, Subject::SourceSkeleton, from);
+            }
+        }
+    }
+    if !to.trusted {
+        add(of_body, Subject::TargetAvatar, Subject::TargetSkeleton, to);
+    }
+    found
+}
+
+/// The target against the source: the turn between them, and whether left is left.
+fn sides(scene: &Scene<'_>, strict: bool, found: &mut Vec<Diagnostic>) -> AxisTurn {
+    let (source, target) = (scene.source_skeleton, scene.target_skeleton);
+    let turn = Alignment::between(source, target).turn_if_clear();
+    let Some(pairs) = MirrorPairs::of(source) else {
+        return facing(scene, turn, 1.0, strict, found);
+    };
+    // Some of the limbs alone.
+    let limbs = pairs.limbs_swapped(source, target, turn);
+    if !limbs.is_empty() {
+        let joints = pairs.example(&limbs);
+        found.push(Diagnostic::SidesSwapped { joints, mirrored: None, all: false, sure: true });
+        return AxisTurn::IDENTITY;
+    }
+    // All of them: the joints alone cannot tell that from a half turn, but front and back of the bodies can.
+    let front = Front::compare(scene, &pairs, turn);
+    let turns_front = turn != AxisTurn::IDENTITY;
+    if front < if turns_front { -front::LIKELY } else { -front::SURE } {
+        let joints = pairs.example(&pairs.all_limbs());
+        let mirrored = front::is_turned_inside_out(scene).then(|| mirror_to_tell(scene)).flatten();
+        let sure = turns_front && front < -front::SURE;
+        found.push(Diagnostic::SidesSwapped { joints, mirrored, all: true, sure });
+        return if turn.degrees() > HARMLESS { turn } else { AxisTurn::IDENTITY };
+    }
+    facing(scene, turn, front, strict, found)
+}
+
+/// Says that the target is turned, where that does harm, and how it would be told.
+fn facing(scene: &Scene<'_>, turn: AxisTurn, front: f64, strict: bool, found: &mut Vec<Diagnostic>) -> AxisTurn {
+    if turn.degrees() <= HARMLESS {
+        return AxisTurn::IDENTITY;
+    }
+    let system = scene.target_coordinate_system;
+    found.push(Diagnostic::FacingMismatch {
+        subject: Subject::TargetAvatar,
+        against: Subject::Garment,
+        turn: system.turn_from_internal(turn),
+        told: Some(system.turned(turn)),
+        gross: strict,
+        sure: front > front::LIKELY,
+    });
+    turn
+}
+
+/// The coordinate system that undoes the mirror: of the three, that after which the bodies need the least turn.
+fn mirror_to_tell(scene: &Scene<'_>) -> Option<CoordinateSystem> {
+    let mirrored = AxisTurn::mirrors().map(|mirror| {
+        let joints = scene.target_skeleton.joints.iter().map(|&p| mirror.apply(p)).collect();
+        let target = Skeleton { joints, bones: scene.target_skeleton.bones.clone() };
+        let turn = Alignment::between(scene.source_skeleton, &target).turn_if_clear();
+        (turn.degrees(), turn.after(mirror))
+    });
+    let least = mirrored.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map(|(_, turn)| scene.target_coordinate_system.turned(turn))
+}

@@ -1,0 +1,246 @@
+//! Unit and axes of a mesh against its skeleton.
+//!
+//! A mesh lies around its bones. So it is tried in other units and axes, about the origin of coordinates as a file would be
+//! read, and where it then lies much nearer to the bones, in proportion to its own extent, its numbers are meant so.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::geometry::closest_point::closest_on_segment;
+use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::input::coordinate_system::AxisTurn;
+use crate::input::skeleton::Skeleton;
+use crate::input::skin::SkinWeights;
+
+/// Ratios of units: of foot, inch, decimetre, centimetre and millimetre among themselves and to the metre.
+pub const RATIOS: [f64; 9] = [2.54, 3.280_84, 10.0, 12.0, 25.4, 30.48, 39.370_1, 100.0, 1000.0];
+/// A measured factor within this of a ratio, in the logarithm, is that ratio.
+const SAME_RATIO: f64 = 0.2;
+/// Points of the mesh that are looked at, and how many times a bone where there are many.
+const MOST_POINTS: usize = 256;
+const MOST_PAIRS: usize = 8000;
+const MOST_BONES: usize = 200;
+/// A body and its skeleton have about one extent: the least and the most of one in the other.
+const BODY_EXTENTS: [f64; 2] = [0.5, 8.0];
+/// How many times farther from the bones than the body's own surface, or nearer, a garment lies as a rule, and at most.
+const LOOSENESS: [f64; 2] = [2.0, 6.0];
+/// What a factor costs that leaves the first of these ranges for the second, for each e-fold.
+const LOOSE: f64 = 0.3;
+/// Ratios nearer to each other than this, in the logarithm, are told apart by their cost alone, if it differs by this much.
+const BESIDE: f64 = 0.3;
+const ALMOST: f64 = 0.35;
+/// What another reading has to be better by, as a factor, to be told, and to be refused.
+const TOLD: f64 = 1.9;
+const REFUSED: f64 = 2.5;
+
+/// How a mesh has to be read to lie around its bones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mend {
+    /// What its coordinates are to be multiplied by.
+    pub factor: f64,
+    /// Another ratio of units that suits as well.
+    pub or: Option<f64>,
+    /// What it is to be turned by.
+    pub turn: AxisTurn,
+    /// How many times nearer it then lies.
+    pub gain: f64,
+}
+
+impl Mend {
+    /// None where the mesh lies around its bones as it is; else whether it is refused.
+    pub fn is_gross(&self) -> Option<bool> {
+        let is_other = self.factor != 1.0 || self.turn != AxisTurn::IDENTITY;
+        (is_other && self.gain > TOLD).then_some(self.gain > REFUSED)
+    }
+
+    /// Whether it is the same for another mesh.
+    pub fn is_like(&self, other: &Self) -> bool {
+        other.is_gross().is_some() && self.factor == other.factor && self.turn == other.turn
+    }
+
+    /// The other way round: what the skeleton needs.
+    pub fn inverse(self) -> Self {
+        let back = AxisTurn::rotations().into_iter().find(|turn| turn.after(self.turn) == AxisTurn::IDENTITY);
+        Self {
+            factor: 1.0 / self.factor,
+            or: self.or.map(f64::recip),
+            turn: back.unwrap_or(AxisTurn::IDENTITY),
+            gain: self.gain,
+        }
+    }
+}
+
+/// What is expected of a mesh beside lying around the bones.
+enum Expected {
+    /// An extent like the skeleton's.
+    Body,
+    /// Distances from the bones like the body's, which are given in sizes of the skeleton.
+    Garment(f64),
+}
+
+/// A point and the joint that it moves with.
+type Point = (DVec3, Option<u32>);
+
+/// Points of a mesh, and the bones that they lie around.
+pub struct Surroundings {
+    /// Spread evenly by area.
+    points: Vec<Point>,
+    /// Corners of every so many triangles.
+    corners: Vec<Point>,
+    bones: Vec<([DVec3; 2], [u32; 2])>,
+    /// Root mean square of the distances of the points from their mean.
+    radius: f64,
+    /// The longest sides of the boxes around mesh and joints.
+    extents: [f64; 2],
+    expected: Expected,
+}
+
+impl Surroundings {
+    /// A body around its skeleton. With a skin, each point is compared with the bones of its joint.
+    pub fn of_body(mesh: &TriangleMesh, skeleton: &Skeleton, skin: Option<&SkinWeights>) -> Self {
+        Self::new(mesh, skeleton, skin, Expected::Body)
+    }
+
+    /// A garment around the skeleton that it was designed on, for a body whose surface is `thickness` away from it.
+    pub fn of_garment(mesh: &TriangleMesh, skeleton: &Skeleton, thickness: f64) -> Self {
+        Self::new(mesh, skeleton, None, Expected::Garment(thickness))
+    }
+
+    fn new(mesh: &TriangleMesh, skeleton: &Skeleton, skin: Option<&SkinWeights>, expected: Expected) -> Self {
+        let every = skeleton.bones.len().div_ceil(MOST_BONES).max(1);
+        // All of them where a skin chooses among them.
+        let every = if skin.is_some() { 1 } else { every };
+        let ends = |bone: [u32; 2]| bone.map(|j| skeleton.joints[j as usize]);
+        let bones: Vec<_> = skeleton.bones.iter().step_by(every).map(|&bone| (ends(bone), bone)).collect();
+        let wanted = (MOST_PAIRS / bones.len().max(1)).clamp(40, MOST_POINTS);
+        let with_joint = |(p, v): (DVec3, u32)| (p, skin.and_then(|s| s.dominant_joint(v as usize)));
+        let points: Vec<Point> = spread(mesh, wanted).into_iter().map(with_joint).collect();
+        let some = mesh.triangles.iter().step_by(mesh.triangles.len().div_ceil(wanted).max(1));
+        let corners = some.map(|t| with_joint((mesh.positions[t[0] as usize], t[0]))).collect();
+        let mean = points.iter().map(|p| p.0).sum::<DVec3>() / points.len().max(1) as f64;
+        let square: f64 = points.iter().map(|p| p.0.distance_squared(mean)).sum();
+        let radius = (square / points.len().max(1) as f64).sqrt();
+        let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
+        let extents = [longest_side(used), longest_side(skeleton.joints.iter().copied())];
+        Self { points, corners, bones, radius, extents, expected }
+    }
+
+    /// The mean distance from the bones, once the mesh has been mended.
+    fn distance(&self, factor: f64, turn: AxisTurn) -> f64 {
+        let sum: f64 = self.points.iter().map(|point| self.distance_of(point, factor, turn)).sum();
+        sum / self.points.len().max(1) as f64
+    }
+
+    fn distance_of(&self, &(p, joint): &Point, factor: f64, turn: AxisTurn) -> f64 {
+        let p = factor * turn.apply(p);
+        let own = self.bones.iter().filter(|(_, joints)| joint.is_none_or(|j| joints.contains(&j)));
+        let squares = own.map(|([a, b], _)| p.distance_squared(closest_on_segment(p, *a, *b - *a)));
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// How far the surface is from the bones, in sizes of the skeleton: a median, for a ground plane in the body's file can
+    /// be most of its area.
+    pub fn thickness(&self, mend: &Mend) -> f64 {
+        let median = |points: &[Point]| {
+            let mut all: Vec<f64> = points.iter().map(|p| self.distance_of(p, mend.factor, mend.turn)).collect();
+            let middle = all.len() / 2;
+            if all.is_empty() { f64::INFINITY } else { *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
+        };
+        median(&self.points).min(median(&self.corners)) / self.extents[1].max(f64::MIN_POSITIVE)
+    }
+
+    /// The logarithm of what is bad about a reading.
+    fn cost(&self, factor: f64, turn: AxisTurn) -> f64 {
+        let distance = self.distance(factor, turn);
+        let beyond = |ratio: f64, [low, high]: [f64; 2]| (ratio / high).ln().max((low / ratio).ln()).max(0.0);
+        let unlikely = match self.expected {
+            Expected::Body => beyond(factor * self.extents[0] / self.extents[1], BODY_EXTENTS),
+            Expected::Garment(thickness) => {
+                let looseness = distance / self.extents[1] / thickness;
+                let [rule, most] = LOOSENESS.map(|x| beyond(looseness, [1.0 / x, x]));
+                LOOSE * rule + most
+            }
+        };
+        (distance / (factor * self.radius)).ln() + unlikely
+    }
+
+    /// The reading that suits the bones best: as it is where no other is better.
+    pub fn mend(&self) -> Mend {
+        let as_it_is = Mend { factor: 1.0, or: None, turn: AxisTurn::IDENTITY, gain: 1.0 };
+        let now = self.cost(1.0, AxisTurn::IDENTITY);
+        if !now.is_finite() {
+            return as_it_is;
+        }
+        let turns = AxisTurn::rotations();
+        let factors = [1.0].into_iter().chain(RATIOS.into_iter().flat_map(|r| [1.0 / r, r]));
+        let readings: Vec<(f64, AxisTurn)> =
+            factors.flat_map(|factor| turns.iter().map(move |&turn| (factor, turn))).collect();
+        let costs: Vec<f64> = readings.par_iter().map(|&(factor, turn)| self.cost(factor, turn)).collect();
+        let mut best = (now, 1.0, AxisTurn::IDENTITY);
+        for (&cost, &(factor, turn)) in costs.iter().zip(&readings) {
+            // Of readings that are as good, as of a round garment, the first: the smaller turn, and no other unit.
+            if cost < best.0 - 0.05 {
+                best = (cost, factor, turn);
+            }
+        }
+        let (cost, ratio, turn) = best;
+        if now - cost < TOLD.ln() {
+            return as_it_is;
+        }
+        let (cost, factor) = self.measured(ratio, turn, cost);
+        let or = self.neighbour(factor, turn, cost);
+        Mend { factor, or, turn, gain: (now - cost).exp() }
+    }
+
+    /// The ratio beside `factor`, where it suits almost as well.
+    fn neighbour(&self, factor: f64, turn: AxisTurn, cost: f64) -> Option<f64> {
+        let beside = |other: &f64| *other != factor && (other / factor).ln().abs() < BESIDE;
+        let others = RATIOS.into_iter().flat_map(|r| [1.0 / r, r]).filter(beside);
+        let costs = others.map(|other| (self.cost(other, turn), other));
+        let best = costs.filter(|(other, _)| *other < cost + ALMOST);
+        best.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
+    }
+
+    /// The factor near `ratio` that suits best where it is none of the ratios.
+    fn measured(&self, ratio: f64, turn: AxisTurn, cost: f64) -> (f64, f64) {
+        if ratio == 1.0 {
+            return (cost, ratio);
+        }
+        let steps = (-40..=40).map(|k| ratio * (0.02 * f64::from(k)).exp());
+        let (least, factor) = steps
+            .map(|factor| (self.cost(factor, turn), factor))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or((cost, ratio));
+        if (factor / ratio).ln().abs() < SAME_RATIO || cost - least < 0.1 { (cost, ratio) } else { (least, factor) }
+    }
+}
+
+/// About `wanted` points spread over the surface by area, and a vertex beside each.
+fn spread(mesh: &TriangleMesh, wanted: usize) -> Vec<(DVec3, u32)> {
+    let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
+    let areas: Vec<f64> = mesh.triangles.iter().map(|t| triangle_area(corners(t))).collect();
+    let step = areas.iter().sum::<f64>() / wanted as f64;
+    let mut points = Vec::with_capacity(wanted);
+    let mut passed = 0.5 * step;
+    for (triangle, area) in mesh.triangles.iter().zip(areas) {
+        passed += area;
+        if passed < step || step == 0.0 {
+            continue;
+        }
+        // Of a large triangle several, along the line from a corner to the middle of the side opposite to it.
+        let [a, b, c] = corners(triangle);
+        let count = (passed / step).floor();
+        passed -= count * step;
+        let count = count.min(16.0) as usize;
+        for k in 0..count {
+            let along = ((k as f64 + 0.5) / count as f64).sqrt();
+            points.push((a.lerp(0.5 * (b + c), along), triangle[0]));
+        }
+    }
+    points
+}
+
+fn longest_side(points: impl Iterator<Item = DVec3>) -> f64 {
+    let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
+    (high - low).max_element()
+}

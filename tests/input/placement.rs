@@ -1,0 +1,310 @@
+//! Units, axes, facing and sides of the inputs, compared before the work: mixtures of them, and inputs that are right.
+
+use std::sync::LazyLock;
+
+use bespoke::error::Result;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::coordinate_system::{AxisTurn, CoordinateSystem};
+use bespoke::input::diagnostic::{Diagnostic, Severity, Subject};
+use bespoke::input::placement;
+use bespoke::input::placement::scene::Scene;
+use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
+use closet::avatars::{Avatar, avatar};
+use closet::garments::{Garment, garment};
+use closet::skeleton::{ARMS, BONES, LEGS};
+use closet::{Kind, Sample, sample};
+use glam::DVec3;
+
+/// A garment, the body that it was designed on, and the one to dress.
+#[derive(Clone)]
+struct Inputs {
+    garment: TriangleMesh,
+    source: Skeleton,
+    source_avatar: Option<TriangleMesh>,
+    avatar: TriangleMesh,
+    target: Skeleton,
+    skin: Option<SkinWeights>,
+    trusted: bool,
+}
+
+fn mesh(sample: &Sample) -> TriangleMesh {
+    TriangleMesh { positions: sample.mesh.positions.clone(), triangles: sample.mesh.triangles.clone() }
+}
+
+fn skeleton(sample: &Sample) -> Skeleton {
+    Skeleton { joints: sample.skeleton.joints.to_vec(), bones: BONES.to_vec() }
+}
+
+fn inputs(garment: &Sample, mannequin: &Sample, body: &Sample) -> Inputs {
+    let rows = body.skin.concat();
+    let skin = SkinWeights::from_dense(&rows, body.skin.len(), body.mesh.positions.len(), "skin").unwrap();
+    Inputs {
+        garment: mesh(garment),
+        source: skeleton(garment),
+        source_avatar: Some(mesh(mannequin)),
+        avatar: mesh(body),
+        target: skeleton(body),
+        skin: Some(skin),
+        trusted: false,
+    }
+}
+
+impl Inputs {
+    fn check(&self, strict: bool) -> (Result<AxisTurn>, Vec<Diagnostic>) {
+        let told = CoordinateSystem { trusted: self.trusted, ..CoordinateSystem::default() };
+        let mut found = Vec::new();
+        let scene = Scene {
+            garment: &self.garment,
+            source_skeleton: &self.source,
+            source_avatar: self.source_avatar.as_ref(),
+            avatar: &self.avatar,
+            target_skeleton: &self.target,
+            skin: self.skin.as_ref(),
+            source_coordinate_system: told,
+            target_coordinate_system: told,
+        };
+        (placement::check(&scene, strict, &mut found), found)
+    }
+
+    /// The target, body and skeleton, elsewhere.
+    fn target_through(mut self, map: impl Fn(DVec3) -> DVec3) -> Self {
+        self.avatar.positions.iter_mut().chain(&mut self.target.joints).for_each(|p| *p = map(*p));
+        self
+    }
+
+    /// The joints of some limbs in each other's places, and their weights with them as a wrong list of names would have it.
+    fn swapped(mut self, limbs: &[[[usize; 3]; 2]]) -> Self {
+        for [left, right] in limbs {
+            left.iter().zip(right).for_each(|(&a, &b)| self.target.joints.swap(a, b));
+        }
+        self.skin = None;
+        self
+    }
+}
+
+fn scaled(points: &mut [DVec3], factor: f64) {
+    points.iter_mut().for_each(|p| *p *= factor);
+}
+
+/// z up becomes y up.
+fn laid(p: DVec3) -> DVec3 {
+    DVec3::new(p.x, p.z, -p.y)
+}
+
+/// A half turn about the upright axis.
+fn about(p: DVec3) -> DVec3 {
+    DVec3::new(-p.x, -p.y, p.z)
+}
+
+/// What has to be found.
+#[derive(Debug)]
+enum Named {
+    Unit(Subject, f64),
+    Axes(Subject),
+    Turned(f64, [i32; 3]),
+    Sides { all: bool },
+}
+
+impl Named {
+    fn is_in(&self, found: &[Diagnostic]) -> bool {
+        found.iter().any(|d| match (self, d) {
+            (Self::Unit(whose, right), Diagnostic::UnitMismatch { subject, factor, or, .. }) => {
+                let is_right = |factor: f64| (factor / right - 1.0).abs() < 0.02;
+                whose == subject && (is_right(*factor) || or.is_some_and(is_right))
+            }
+            (Self::Axes(whose), Diagnostic::FacingMismatch { subject, told: None, turn, .. }) => {
+                whose == subject && turn.degrees() == 90.0 && turn.axis()[1..] == [0, 0]
+            }
+            (Self::Turned(degrees, axis), Diagnostic::FacingMismatch { told: Some(_), turn, .. }) => {
+                turn.degrees() == *degrees && turn.axis().map(i32::abs) == axis.map(i32::abs)
+            }
+            (Self::Sides { all }, Diagnostic::SidesSwapped { all: found, .. }) => all == found,
+            _ => false,
+        })
+    }
+}
+
+type Change = Box<dyn Fn(Inputs) -> Inputs>;
+
+fn change(of: impl Fn(&mut Inputs) + 'static) -> Change {
+    Box::new(move |mut inputs| {
+        of(&mut inputs);
+        inputs
+    })
+}
+
+/// Twenty ways to hand in what does not belong together, and what each is called. The flag says that it is refused.
+fn mixtures() -> Vec<(&'static str, Change, Vec<Named>, bool)> {
+    use Subject::{Garment as G, SourceAvatar, SourceSkeleton, TargetAvatar};
+    let mut all: Vec<(&'static str, Change, Vec<Named>, bool)> = Vec::new();
+    for (name, factor) in [
+        ("garment in centimetres", 100.0),
+        ("garment in inches", 39.370_1),
+        ("garment times 2.54", 2.54),
+        ("garment in millimetres", 1000.0),
+        ("garment in metres, skeleton in centimetres", 0.01),
+    ] {
+        let of = change(move |i| scaled(&mut i.garment.positions, factor));
+        all.push((name, of, vec![Named::Unit(G, factor)], true));
+    }
+    for (name, factor) in [
+        ("avatar in centimetres", 100.0),
+        ("avatar in inches", 39.370_1),
+        ("avatar times 2.54", 2.54),
+        ("avatar in millimetres", 1000.0),
+        ("avatar in metres, skeleton in centimetres", 0.01),
+    ] {
+        let of = change(move |i| scaled(&mut i.avatar.positions, factor));
+        all.push((name, of, vec![Named::Unit(TargetAvatar, factor)], true));
+    }
+    let mut add = |name, of: Change, named, refused| all.push((name, of, named, refused));
+    add(
+        "source skeleton in centimetres",
+        change(|i| scaled(&mut i.source.joints, 100.0)),
+        vec![Named::Unit(SourceSkeleton, 100.0)],
+        true,
+    );
+    add(
+        "source avatar in centimetres",
+        change(|i| scaled(&mut i.source_avatar.as_mut().unwrap().positions, 100.0)),
+        vec![Named::Unit(SourceAvatar, 100.0)],
+        true,
+    );
+    add(
+        "garment y-up, skeleton z-up",
+        change(|i| i.garment.positions.iter_mut().for_each(|p| *p = laid(*p))),
+        vec![Named::Axes(G)],
+        true,
+    );
+    add(
+        "avatar y-up, skeleton z-up",
+        change(|i| i.avatar.positions.iter_mut().for_each(|p| *p = laid(*p))),
+        vec![Named::Axes(TargetAvatar)],
+        true,
+    );
+    let upright = Named::Turned(180.0, [0, 0, 1]);
+    add("target turned about", Box::new(|i| i.target_through(about)), vec![upright], false);
+    let metres = |i: Inputs| i.target_through(|p| 100.0 * about(p));
+    add("target turned about, in centimetres", Box::new(metres), vec![Named::Turned(180.0, [0, 0, 1])], false);
+    let both = |i: Inputs| {
+        let mut turned = i.target_through(about);
+        scaled(&mut turned.garment.positions, 100.0);
+        turned
+    };
+    let named = vec![Named::Turned(180.0, [0, 0, 1]), Named::Unit(G, 100.0)];
+    add("target turned about, garment in centimetres", Box::new(both), named, true);
+    add("left and right", Box::new(|i| i.swapped(&[ARMS, LEGS])), vec![Named::Sides { all: true }], true);
+    add("left and right arm", Box::new(|i| i.swapped(&[ARMS])), vec![Named::Sides { all: false }], true);
+    add("left and right leg", Box::new(|i| i.swapped(&[LEGS])), vec![Named::Sides { all: false }], true);
+    all
+}
+
+/// Every garment on every body, modelled once.
+static PAIRS: LazyLock<Vec<(Garment, Avatar, Inputs)>> = LazyLock::new(|| {
+    let mannequin = sample(Kind::Mannequin);
+    let garments = Garment::ALL.map(garment);
+    let bodies = Avatar::ALL.map(avatar);
+    let pair = |(kind, cloth): (Garment, &Sample)| {
+        let on = |(who, body): (Avatar, &Sample)| (kind, who, inputs(cloth, &mannequin, body));
+        Avatar::ALL.into_iter().zip(&bodies).map(on).collect::<Vec<_>>()
+    };
+    Garment::ALL.into_iter().zip(&garments).flat_map(pair).collect()
+});
+
+fn dressed(garments: &[Garment], bodies: &[Avatar]) -> Vec<(String, Inputs)> {
+    let wanted = PAIRS.iter().filter(|(garment, body, _)| garments.contains(garment) && bodies.contains(body));
+    wanted.map(|(garment, body, inputs)| (format!("{} on {}", garment.name(), body.name()), inputs.clone())).collect()
+}
+
+#[test]
+fn twenty_mixtures_of_units_axes_sides_and_facing_are_named() {
+    let pairs = dressed(&Garment::ALL, &[Avatar::Slim, Avatar::Child]);
+    let mixtures = mixtures();
+    assert_eq!(mixtures.len(), 20);
+    let mut missed = Vec::new();
+    for (pair, good) in &pairs {
+        for (mixture, change, named, refused) in &mixtures {
+            let (turn, found) = change(good.clone()).check(false);
+            // Trousers alone do not tell a metre in inches from one in feet: refused, and the factor is that of feet.
+            if pair.starts_with("trousers") && *mixture == "garment in inches" {
+                assert!(matches!(found[..], [Diagnostic::UnitMismatch { gross: true, .. }]), "{found:?}");
+                continue;
+            }
+            if turn.is_err() != *refused || !named.iter().all(|n| n.is_in(&found)) {
+                let texts: Vec<String> = found.iter().map(ToString::to_string).collect();
+                missed.push(format!("{pair}: {mixture}: {texts:?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{} of {}:\n{}", missed.len(), 20 * pairs.len(), missed.join("\n"));
+}
+
+#[test]
+fn sides_of_every_body_are_told() {
+    let mut missed = Vec::new();
+    for (pair, good) in dressed(&[Garment::Jumpsuit], &Avatar::ALL) {
+        for (name, limbs) in [("arms", &[ARMS][..]), ("legs", &[LEGS]), ("all", &[ARMS, LEGS])] {
+            let (_, found) = good.clone().swapped(limbs).check(false);
+            let named = Named::Sides { all: limbs.len() == 2 };
+            if !named.is_in(&found) {
+                missed.push(format!("{pair}: {name}: {found:?}"));
+            }
+        }
+        let (_, found) = good.clone().target_through(about).check(false);
+        if !Named::Turned(180.0, [0, 0, 1]).is_in(&found) {
+            missed.push(format!("{pair}: turned: {found:?}"));
+        }
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+#[test]
+fn good_pairs_are_not_flagged() {
+    for (pair, good) in dressed(&Garment::ALL, &Avatar::ALL) {
+        let bare = Inputs { source_avatar: None, skin: None, ..good.clone() };
+        for inputs in [&good, &bare] {
+            let (turn, found) = inputs.check(true);
+            assert!(found.is_empty(), "{pair}: {found:?}");
+            assert_eq!(turn.unwrap(), AxisTurn::IDENTITY);
+        }
+    }
+}
+
+#[test]
+fn what_needs_nothing_is_not_told() {
+    let (_, good) = dressed(&[Garment::Jumpsuit], &[Avatar::Slim]).remove(0);
+    let (sine, cosine) = 45_f64.to_radians().sin_cos();
+    let by_45 = move |p: DVec3| DVec3::new(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
+    let by_90 = |p: DVec3| DVec3::new(-p.y, p.x, p.z);
+    for (name, map) in [
+        ("45 degrees", Box::new(by_45) as Box<dyn Fn(DVec3) -> DVec3>),
+        ("90 degrees", Box::new(by_90)),
+        ("y-up", Box::new(laid)),
+        ("centimetres", Box::new(|p| 100.0 * p)),
+        ("elsewhere", Box::new(|p| p + DVec3::new(3.0, -2.0, 5.0))),
+    ] {
+        let (turn, found) = good.clone().target_through(map).check(true);
+        assert!(found.is_empty(), "{name}: {found:?}");
+        assert_eq!(turn.unwrap(), AxisTurn::IDENTITY, "{name}");
+    }
+}
+
+#[test]
+fn a_turned_target_is_turned_back_refused_or_taken_as_it_is() {
+    let (_, good) = dressed(&[Garment::Jumpsuit], &[Avatar::Slim]).remove(0);
+    let mut turned = good.target_through(about);
+    let (turn, found) = turned.check(false);
+    assert_eq!((turn.unwrap().degrees(), found[0].severity()), (180.0, Severity::Note));
+    let Diagnostic::FacingMismatch { told: Some(told), .. } = &found[0] else { panic!("{found:?}") };
+    let p = DVec3::new(1.0, 2.0, 3.0);
+    assert_eq!(told.position_to_internal(about(p)), p);
+    let (turn, found) = turned.check(true);
+    assert!(turn.unwrap_err().to_string().contains("180 degrees about z"));
+    assert_eq!(found[0].severity(), Severity::Error);
+    turned.trusted = true;
+    scaled(&mut turned.garment.positions, 100.0);
+    let (turn, found) = turned.check(false);
+    assert_eq!(turn.unwrap(), AxisTurn::IDENTITY);
+    assert!(found.is_empty());
+}
