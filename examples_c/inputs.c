@@ -6,6 +6,12 @@
 #include "numbers.h"
 #include "parts.h"
 
+/* Where none is told, the library has its own. */
+static bool set_space(Session *session, const BespokeCoordinateSystem *space, const char *option,
+                      BespokeStatus (*set)(BespokeSession *, const BespokeCoordinateSystem *)) {
+    return space->struct_size == 0 || session_good(session, set(session->handle, space), option);
+}
+
 static bool set_mesh(Session *session, const Obj *obj, const char *path,
                      BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *)) {
     const BespokeView positions = view_of(obj->positions, obj->vertex_count, BESPOKE_COMPONENT_F32);
@@ -133,6 +139,8 @@ static bool add_rigid_groups(Session *session, const char *path) {
 bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
     memset(inputs, 0, sizeof *inputs);
     return session_good(session, bespoke_session_set_options(session->handle, &options->library), NULL) &&
+           set_space(session, &options->source_space, "--source-space", bespoke_session_set_source_coordinate_system) &&
+           set_space(session, &options->target_space, "--target-space", bespoke_session_set_target_coordinate_system) &&
            obj_read(&inputs->garment, options->garment, &session->message) &&
            set_mesh(session, &inputs->garment, options->garment, bespoke_session_set_garment) &&
            set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton) &&

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "space.h"
+
 /* What a row of the table is, and so the type of its field. */
 typedef enum Kind {
     TEXT,      /* no option: what stands between them in --help */
@@ -17,6 +19,7 @@ typedef enum Kind {
     POSITIVE,  /* double above 0 */
     COUNT,     /* uint32_t up to `number` */
     MEGABYTES, /* a number above 0: uint64_t, in bytes */
+    SPACE,     /* words between commas: BespokeCoordinateSystem */
 } Kind;
 
 typedef struct Entry {
@@ -46,6 +49,11 @@ static const Entry entries[] = {
      "the body the garment was modelled on; the fit then aims at the looseness it had there"},
     {"--skin-weights", "FILE", PATH, FIELD(skin_weights), 0,
      "skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex"},
+    {"--source-space", "AXES", SPACE, FIELD(source_space), 0,
+     "axes of garment, source skeleton and source avatar that point right, up and forward, and\n"
+     "metres a unit where that is not 1: -x,y,z or y,z,x,0.01 (x,y,-z). With ',trusted' at its end\n"
+     "nothing is turned or refused for unit, axes, facing and sides"},
+    {"--target-space", "AXES", SPACE, FIELD(target_space), 0, "the same of avatar, layers and target skeleton"},
     {"--layer", "FILE", LAYER, FIELD(layers), 0,
      "a garment that the avatar wears already, placed like it; may be given several times"},
     {"--ignore-groups", "NAMES", PATH, FIELD(ignore_groups), 0,
@@ -193,6 +201,8 @@ static bool set_field(Options *options, const Entry *entry, const char *value, M
     case CHOICE:
         *(uint32_t *)field = entry->number;
         return true;
+    case SPACE:
+        return space_read((BespokeCoordinateSystem *)field, entry->name, value, message);
     default:
         return set_number(field, entry, value, message);
     }

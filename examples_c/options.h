@@ -19,6 +19,9 @@ typedef struct Options {
     const char *no_fit;
     const char *pins;
     const char *rigid;
+    /* Where struct_size is 0, none is told. */
+    BespokeCoordinateSystem source_space;
+    BespokeCoordinateSystem target_space;
     /* Names in the avatar's file, separated by commas. */
     const char *body_groups;
     const char *collision_groups;

@@ -13,6 +13,9 @@ fn wrong_command_lines_are_refused() {
     folder.refuses(&["--dhat=-1"], 2, &["--dhat", "-1"]);
     folder.refuses(&["--threads", "1.5"], 2, &["--threads"]);
     folder.refuses(&["--report", "out.obj"], 2, &["out.obj"]);
+    folder.refuses(&["--target-space", "x,y"], 2, &["--target-space", "three axes"]);
+    folder.refuses(&["--target-space", "x,y,z,far"], 2, &["--target-space", "far"]);
+    folder.refuses(&["--source-space", "x,y,-x"], 1, &["perpendicular"]);
     folder.refuses(&["--dhat", "0"], 2, &["--dhat", "above 0"]);
     folder.refuses(&["--dhat", "1"], 1, &["dhat"]);
     folder.refuses(&["--designed-clearance", "3"], 1, &["designed_clearance"]);
