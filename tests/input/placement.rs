@@ -200,35 +200,35 @@ fn mixtures() -> Vec<(&'static str, Change, Vec<Named>, bool)> {
     all
 }
 
-/// Every garment on every body, modelled once.
-static PAIRS: LazyLock<Vec<(Garment, Avatar, Inputs)>> = LazyLock::new(|| {
-    let mannequin = sample(Kind::Mannequin);
-    let garments = Garment::ALL.map(garment);
-    let bodies = Avatar::ALL.map(avatar);
-    let pair = |(kind, cloth): (Garment, &Sample)| {
-        let on = |(who, body): (Avatar, &Sample)| (kind, who, inputs(cloth, &mannequin, body));
-        Avatar::ALL.into_iter().zip(&bodies).map(on).collect::<Vec<_>>()
-    };
-    Garment::ALL.into_iter().zip(&garments).flat_map(pair).collect()
-});
+/// Garments and bodies, modelled once.
+static GARMENTS: LazyLock<Vec<Sample>> = LazyLock::new(|| Garment::ALL.map(garment).into_iter().collect());
+static BODIES: LazyLock<Vec<Sample>> = LazyLock::new(|| Avatar::ALL.map(avatar).into_iter().collect());
 
 fn dressed(garments: &[Garment], bodies: &[Avatar]) -> Vec<(String, Inputs)> {
-    let wanted = PAIRS.iter().filter(|(garment, body, _)| garments.contains(garment) && bodies.contains(body));
-    wanted.map(|(garment, body, inputs)| (format!("{} on {}", garment.name(), body.name()), inputs.clone())).collect()
+    let mannequin = sample(Kind::Mannequin);
+    let mut all = Vec::new();
+    for (kind, cloth) in Garment::ALL.iter().zip(GARMENTS.iter()).filter(|(kind, _)| garments.contains(kind)) {
+        for (who, body) in Avatar::ALL.iter().zip(BODIES.iter()).filter(|(who, _)| bodies.contains(who)) {
+            all.push((format!("{} on {}", kind.name(), who.name()), inputs(cloth, &mannequin, body)));
+        }
+    }
+    all
 }
 
 #[test]
 fn twenty_mixtures_of_units_axes_sides_and_facing_are_named() {
-    let pairs = dressed(&Garment::ALL, &[Avatar::Slim, Avatar::Child]);
+    let pairs = dressed(&[Garment::Jumpsuit, Garment::Trousers], &[Avatar::Child]);
     let mixtures = mixtures();
     assert_eq!(mixtures.len(), 20);
     let mut missed = Vec::new();
     for (pair, good) in &pairs {
         for (mixture, change, named, refused) in &mixtures {
             let (turn, found) = change(good.clone()).check(false);
-            // Trousers alone do not tell a metre in inches from one in feet: refused, and the factor is that of feet.
+            // Trousers lie around so few bones that a metre in inches, in feet or in lengths of 25.4 suit alike: they are
+            // refused, and the sentence names a candidate near to the inch, not the inch itself.
             if pair.starts_with("trousers") && *mixture == "garment in inches" {
-                assert!(matches!(found[..], [Diagnostic::UnitMismatch { gross: true, .. }]), "{found:?}");
+                let [Diagnostic::UnitMismatch { gross: true, factor, .. }] = found[..] else { panic!("{found:?}") };
+                assert!((25.0..40.0).contains(&factor), "{found:?}");
                 continue;
             }
             if turn.is_err() != *refused || !named.iter().all(|n| n.is_in(&found)) {
@@ -261,7 +261,8 @@ fn sides_of_every_body_are_told() {
 
 #[test]
 fn good_pairs_are_not_flagged() {
-    for (pair, good) in dressed(&Garment::ALL, &Avatar::ALL) {
+    let on_one = dressed(&Garment::ALL, &[Avatar::Slim]);
+    for (pair, good) in on_one.into_iter().chain(dressed(&[Garment::Jumpsuit], &Avatar::ALL)) {
         let bare = Inputs { source_avatar: None, skin: None, ..good.clone() };
         for inputs in [&good, &bare] {
             let (turn, found) = inputs.check(true);

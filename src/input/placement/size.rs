@@ -71,6 +71,7 @@ impl Mend {
 }
 
 /// What is expected of a mesh beside lying around the bones.
+#[derive(Clone, Copy)]
 enum Expected {
     /// An extent like the skeleton's.
     Body,
@@ -188,8 +189,24 @@ impl Surroundings {
             return as_it_is;
         }
         let (cost, factor) = self.measured(ratio, turn, cost);
+        // What merely lies elsewhere needs a move: then neither unit nor axes are to blame.
+        let worse = self.moved_to_bones().cost(1.0, AxisTurn::IDENTITY) - cost;
+        if worse < if factor == 1.0 { 0.0 } else { ALMOST } {
+            return as_it_is;
+        }
         let or = self.neighbour(factor, turn, cost);
         Mend { factor, or, turn, gain: (now - cost).exp() }
+    }
+
+    /// The mesh with its mean in the middle of the bones, its size and axes as they are.
+    fn moved_to_bones(&self) -> Self {
+        let mean = self.points.iter().map(|p| p.0).sum::<DVec3>() / self.points.len().max(1) as f64;
+        let length = |[a, b]: [DVec3; 2]| a.distance(b);
+        let whole: f64 = self.bones.iter().map(|b| length(b.0)).sum();
+        let middle: DVec3 = self.bones.iter().map(|b| 0.5 * length(b.0) * (b.0[0] + b.0[1])).sum();
+        let away = middle / whole.max(f64::MIN_POSITIVE) - mean;
+        let moved = |points: &[Point]| points.iter().map(|&(p, joint)| (p + away, joint)).collect();
+        Self { points: moved(&self.points), corners: moved(&self.corners), bones: self.bones.clone(), ..*self }
     }
 
     /// The ratio beside `factor`, where it suits almost as well.
@@ -197,7 +214,7 @@ impl Surroundings {
         let beside = |other: &f64| *other != factor && (other / factor).ln().abs() < BESIDE;
         let others = RATIOS.into_iter().flat_map(|r| [1.0 / r, r]).filter(beside);
         let costs = others.map(|other| (self.cost(other, turn), other));
-        let best = costs.filter(|(other, _)| *other < cost + ALMOST);
+        let best = costs.filter(|(its, _)| *its < cost + ALMOST);
         best.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
     }
 
