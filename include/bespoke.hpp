@@ -745,7 +745,8 @@ struct Options {
     /// its meshes before it begins, and checked again during the run.
     std::uint64_t memory_limit = 0;
     /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
-    /// exempted from contact until they separate and named by Session::read_diagnostics; none are added later.
+    /// exempted from contact until they separate and named by Session::read_diagnostics; none are added later. So is a
+    /// target that faces another way than the source, which is turned by default.
     bool strict = false;
     /// True: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems, stay,
     /// and the garment is refused for them. Default false: they are left out while it is fitted, go with their rim, and

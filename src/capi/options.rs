@@ -53,7 +53,8 @@ pub struct BespokeOptions {
     /// its meshes before it begins, and checked again during the run.
     pub memory_limit: u64,
     /// 1: a garment that intersects itself at the start is refused. Default 0: the triangles that do so are exempted
-    /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later.
+    /// from contact until they separate and named by bespoke_session_read_diagnostics; none are added later. So is a target
+    /// that faces another way than the source, which is turned by default.
     pub strict: u32,
     /// 1: triangles that close an opening where a bone leaves the garment, as at neck, waist, cuffs and hems, stay, and the
     /// garment is refused for them. Default 0: they are left out while it is fitted, go with their rim, and are named by

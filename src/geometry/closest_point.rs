@@ -125,7 +125,7 @@ impl ClosestPoint {
                 continue;
             }
             let from = node.start as usize;
-            if self.corners[from..from + node.count as usize].iter().any(|c| ray_meets_triangle(p, direction, c)) {
+            if self.corners[from..from + node.count as usize].iter().any(|c| ray_triangle(p, direction, c).is_some()) {
                 return true;
             }
         }
@@ -259,13 +259,15 @@ pub fn closest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
     best
 }
 
-fn ray_meets_triangle(p: DVec3, direction: DVec3, [a, b, c]: &[DVec3; 3]) -> bool {
+/// Where the half-line from `p` meets the triangle: in multiples of `direction`.
+pub fn ray_triangle(p: DVec3, direction: DVec3, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
     let (a, b, c) = (*a - p, *b - p, *c - p);
     // Volumes that the line spans with each side: of one sign where it passes inside.
     let [u, v, w] = [[b, c], [c, a], [a, b]].map(|[s, t]| direction.dot(s.cross(t)));
     let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     let volume = u + v + w;
-    inside && volume != 0.0 && a.dot((b - a).cross(c - a)) / volume >= 0.0
+    let along = a.dot((b - a).cross(c - a)) / volume;
+    (inside && volume != 0.0 && along >= 0.0).then_some(along)
 }
 
 /// Barycentric coordinates of a point of a triangle: at least 0, of sum 1. In a triangle without area, the nearest

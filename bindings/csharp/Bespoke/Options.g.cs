@@ -55,6 +55,7 @@ namespace Bespoke
         /// <summary>
         /// True: a garment that intersects itself at the start is refused. Default false: the triangles that do so are
         /// exempted from contact until they separate and named by <c>Session.ReadDiagnostics</c>; none are added later.
+        /// So is a target that faces another way than the source, which is turned by default.
         /// </summary>
         public bool Strict { get; set; }
 

@@ -7,9 +7,9 @@
 use rayon::prelude::*;
 
 use super::cover::cover;
-use super::{Misplacement, Outcome};
+use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::control::{Cancel, Cancelled};
-use crate::geometry::closest_point::ClosestPoint;
+use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::BoneGraph;
 
@@ -62,6 +62,7 @@ pub(super) fn misplaced(
         let [first, last] = outcome.source.bones[bone as usize].map(|j| graph.is_leaf(j));
         // Along the bone towards the end, which has parameter 1 there.
         let ends = [(last, 1.0, 0.0), (first, -1.0, 1.0)].into_iter().filter(|(is_end, ..)| *is_end);
+        let ends = ends.filter(|_| !leaves_through_cloth(bone, outcome, graph));
         found.extend(ends.filter_map(|(_, sign, offset)| shut_up(bone, &samples, |s| sign * s + offset)));
         let inner = || samples.iter().filter(|s| (0.0..=1.0).contains(&s.parameter));
         let beside = share_of(inner(), |s| s.is_inside(0), |s| s.is_outside(1));
@@ -70,6 +71,21 @@ pub(super) fn misplaced(
         }
     }
     Ok(found)
+}
+
+/// Whether the last bone of a limb, with what goes on beyond it, or a bone that it hangs on passes through the cloth of the
+/// design. Then the end is outside by mistake, as that of a foot bone through the sole, and belongs inside.
+fn leaves_through_cloth(bone: u32, outcome: &Outcome<'_>, graph: &BoneGraph) -> bool {
+    let (design, skeleton) = (outcome.design, outcome.source);
+    let passes = |&bone: &u32| {
+        let reach = skeleton.bones[bone as usize].map(|j| if graph.is_leaf(j) { LEAF_REACH } else { 0.0 });
+        let [a, b] = [-reach[0], 1.0 + reach[1]].map(|s| skeleton.point_at(bone, s));
+        let meets = |t: &[u32; 3]| {
+            ray_triangle(a, b - a, &t.map(|v| design.positions[v as usize])).is_some_and(|along| along <= 1.0)
+        };
+        design.triangles.par_iter().any(meets)
+    };
+    skeleton.bones[bone as usize].iter().flat_map(|&joint| graph.bones_at(joint)).any(passes)
 }
 
 /// The end of the limb where `along` is 1, if it is shut up.
