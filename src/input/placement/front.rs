@@ -104,8 +104,8 @@ fn bends(skeleton: &Skeleton, across: DVec3) -> Vec<f64> {
             if square == 0.0 {
                 return 0.0;
             }
-            let off = p - a - along * ((p - a).dot(along) / square);
-            off.dot(across) / square.sqrt()
+            let aside = p - a - along * ((p - a).dot(along) / square);
+            aside.dot(across) / square.sqrt()
         })
         .collect()
 }
