@@ -222,7 +222,7 @@ void fields_of_options() {
 void coordinate_systems() {
     const BespokeCoordinateSystem plain = CoordinateSystem().get();
     CHECK(plain.struct_size == sizeof plain && plain.right == BESPOKE_AXIS_POSITIVE_X);
-    CHECK(plain.up == BESPOKE_AXIS_POSITIVE_Y && plain.forward == BESPOKE_AXIS_NEGATIVE_Z && plain.reserved == 0);
+    CHECK(plain.up == BESPOKE_AXIS_POSITIVE_Y && plain.forward == BESPOKE_AXIS_NEGATIVE_Z && plain.trusted == 0);
     CHECK(plain.metres_per_unit == 1.0 && plain.winding == BESPOKE_WINDING_COUNTER_CLOCKWISE);
 
     const Scene scene;
