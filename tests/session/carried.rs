@@ -508,7 +508,9 @@ fn what_nothing_can_carry_is_refused() {
         let mut session = session(&garment, &STOUT, true);
         let error = session.prepare().unwrap_err();
         assert_eq!(error.kind, ErrorKind::NotEnclosed);
-        assert!(error.message.contains("does not enclose the source skeleton"), "{error}");
+        // The unit is not always found for what encloses nothing, but it is refused.
+        let says = ["does not enclose the source skeleton", "for the source skeleton"];
+        assert!(says.iter().any(|words| error.message.contains(words)), "{error}");
         assert!(session.diagnostics().iter().all(|d| d.kind() != DiagnosticKind::CarriedPiece));
     }
 }

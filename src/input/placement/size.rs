@@ -189,6 +189,10 @@ impl Surroundings {
             return as_it_is;
         }
         let (cost, factor) = self.measured(ratio, turn, cost);
+        // No unit is the cause of another factor, and what is small, such as an earring, suits many.
+        if factor != ratio {
+            return as_it_is;
+        }
         // What merely lies elsewhere needs a move: then neither unit nor axes are to blame.
         let worse = self.moved_to_bones().cost(1.0, AxisTurn::IDENTITY) - cost;
         if worse < if factor == 1.0 { 0.0 } else { ALMOST } {
