@@ -2,10 +2,9 @@
 
 use bespoke::control::Stage;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 
-use testing::obj::{assets, read_mesh, read_skeleton};
+use testing::obj::{assets, read_mesh, read_skeleton, read_skin};
 
 /// A session with a real garment, changed by `change` first, on a real avatar; none where they are not at hand.
 pub fn load(garment: &str, avatar: &str, options: Options, change: fn(&mut TriangleMesh)) -> Option<Session> {
@@ -17,9 +16,7 @@ pub fn load(garment: &str, avatar: &str, options: Options, change: fn(&mut Trian
     change(&mut cloth);
     let body = read_mesh(&avatar.join("avatar.obj"));
     let skeleton = read_skeleton(&avatar.join("skeleton.obj"));
-    if let Ok(text) = std::fs::read_to_string(avatar.join("skin.txt")) {
-        let weights: Vec<f64> = text.split_whitespace().map(|w| w.parse().unwrap()).collect();
-        let skin = SkinWeights::from_dense(&weights, skeleton.joints.len(), body.positions.len(), "skin").unwrap();
+    if let Some(skin) = read_skin(&avatar.join("skin.txt"), skeleton.joints.len(), body.positions.len()) {
         session.set_target_skin(skin).unwrap();
     }
     if let Ok(text) = std::fs::read_to_string(garment.join("no-fit.txt")) {

@@ -2,12 +2,11 @@
 
 use bespoke::control::Stage;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
 use bespoke::stage::setup::normalization::{Normalization, SIDE};
 use glam::{DQuat, DVec3};
 
-use testing::obj::{assets, read_mesh, read_skeleton};
+use testing::obj::{assets, read_mesh, read_skeleton, read_skin};
 
 /// How the garment is moved: by a share of the skeleton's size, then turned about its middle, in degrees about an axis.
 fn dress(garment: &str, avatar: &str, shift: DVec3, axis: DVec3, degrees: f64) {
@@ -22,9 +21,7 @@ fn dress(garment: &str, avatar: &str, shift: DVec3, axis: DVec3, degrees: f64) {
     let body = read_mesh(&avatar.join("avatar.obj"));
     let target = read_skeleton(&avatar.join("skeleton.obj"));
     let mut session = Session::new();
-    if let Ok(text) = std::fs::read_to_string(avatar.join("skin.txt")) {
-        let weights: Vec<f64> = text.split_whitespace().map(|w| w.parse().unwrap()).collect();
-        let skin = SkinWeights::from_dense(&weights, target.joints.len(), body.positions.len(), "skin").unwrap();
+    if let Some(skin) = read_skin(&avatar.join("skin.txt"), target.joints.len(), body.positions.len()) {
         session.set_target_skin(skin).unwrap();
     }
     session.set_garment(moved, Precision::F32).unwrap();

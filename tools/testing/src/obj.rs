@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
 use glam::DVec3;
 use wavefront_obj::obj::{Primitive, VTNIndex, parse};
 
@@ -56,4 +57,14 @@ pub fn read_mesh(path: &Path) -> TriangleMesh {
 pub fn read_skeleton(path: &Path) -> Skeleton {
     let (joints, _, bones) = read(path);
     Skeleton { joints, bones }
+}
+
+/// The skin weights of a file, which has a row for each of `joints` and a column for each of `vertices`; none where there is no
+/// such file.
+pub fn read_skin(path: &Path, joints: usize, vertices: usize) -> Option<SkinWeights> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let number = |word: &str| word.parse().unwrap_or_else(|e| panic!("{}: {word}: {e}", path.display()));
+    let weights: Vec<f64> = text.split_whitespace().map(number).collect();
+    let skin = SkinWeights::from_dense(&weights, joints, vertices, "skin weights");
+    Some(skin.unwrap_or_else(|e| panic!("{}: {}", path.display(), e.message)))
 }

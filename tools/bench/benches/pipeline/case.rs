@@ -8,7 +8,7 @@ use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 
-use testing::obj::{read_mesh, read_skeleton};
+use testing::obj::{read_mesh, read_skeleton, read_skin};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -71,13 +71,7 @@ impl Inputs {
         for points in [&mut garment.positions, &mut avatar.positions, &mut source.joints, &mut target.joints] {
             points.iter_mut().for_each(|p| *p = Precision::F32.round(*p));
         }
-        let skin = match fs::read_to_string(case.avatar.join("skin.txt")) {
-            Ok(text) => {
-                let weights: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
-                Some(SkinWeights::from_dense(&weights, target.joints.len(), avatar.positions.len(), "skin.txt")?)
-            }
-            Err(_) => None,
-        };
+        let skin = read_skin(&case.avatar.join("skin.txt"), target.joints.len(), avatar.positions.len());
         let fit_weights = match fs::read_to_string(case.garment.join("no-fit.txt")) {
             Ok(text) => {
                 let mut weights = vec![1.0; garment.positions.len()];

@@ -15,13 +15,12 @@ use std::process::ExitCode;
 
 use bespoke::error::{Error, ErrorKind, Result};
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use gallery::look;
 use gallery::sheet::{Cell, Heading, Layer, Role, Sheet, View};
 use glam::DVec3;
-use testing::obj::{read_mesh, read_skeleton};
+use testing::obj::{read_mesh, read_skeleton, read_skin};
 
 /// The colour of garments.
 const GARMENT: &str = "#2f6d73";
@@ -119,10 +118,9 @@ impl Pair {
         let target = target.iter().find(|path| path.is_file());
         let missing = || Error::new(ErrorKind::InvalidState, format!("{}: no skeleton", self.folder.display()));
         let skeleton = read_skeleton(target.ok_or_else(missing)?);
-        if let Ok(text) = fs::read_to_string(self.folder.join("skin.txt")) {
-            let weights: Vec<f64> = text.split_whitespace().filter_map(|w| w.parse().ok()).collect();
-            let [joints, vertices] = [skeleton.joints.len(), self.avatar.positions.len()];
-            session.set_target_skin(SkinWeights::from_dense(&weights, joints, vertices, "skin.txt")?)?;
+        let [joints, vertices] = [skeleton.joints.len(), self.avatar.positions.len()];
+        if let Some(skin) = read_skin(&self.folder.join("skin.txt"), joints, vertices) {
+            session.set_target_skin(skin)?;
         }
         session.set_garment(self.garment.clone(), Precision::F32)?;
         session.set_source_skeleton(read_skeleton(&self.folder.join("source_skeleton.obj")))?;
