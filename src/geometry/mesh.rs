@@ -25,6 +25,11 @@ impl TriangleMesh {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
     }
 
+    /// The mean of the corners of a triangle.
+    pub fn centre(&self, triangle: u32) -> DVec3 {
+        self.corners(triangle).iter().sum::<DVec3>() / 3.0
+    }
+
     /// Area of each triangle.
     pub fn areas(&self) -> Vec<f64> {
         self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()

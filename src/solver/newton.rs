@@ -105,7 +105,7 @@ const MIN_DAMPING: f64 = 1e-7;
 /// [`MAX_SHORT_STEPS`]-th consecutive short step on, each multiplies the damping by [`DAMPING_FACTOR`], up to
 /// [`MAX_DAMPING`]; each step of at least [`LONG_STEP`] divides it again. Damping shortens steps in soft directions
 /// more than in stiff ones, along which contact opens.
-const SHORT_STEP: f64 = 0.05;
+pub(crate) const SHORT_STEP: f64 = 0.05;
 const MAX_SHORT_STEPS: u32 = 3;
 const LONG_STEP: f64 = 0.5;
 const DAMPING_FACTOR: f64 = 100.0;

@@ -14,6 +14,7 @@ use crate::energy::barrier::{Activity, Barrier, BarrierPathRates, BarrierSetting
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::memory::MemoryLimit;
+use crate::solver::newton::SHORT_STEP;
 use crate::solver::profile::Profile;
 use crate::verify::intersecting;
 
@@ -24,8 +25,7 @@ const SEPARATION_SHARE: f64 = 0.25;
 const SEARCH_AHEAD: f64 = 2.5;
 const MIN_SEARCH: f64 = 0.05;
 
-/// Fractions of a step: below the first contact makes it short, from the second on it hardly does.
-const SHORT_STEP: f64 = 0.05;
+/// From this feasible fraction on, contact hardly makes a step shorter.
 const WHOLE_STEP: f64 = 0.95;
 
 /// The barrier term and all that keeps it valid: the pairs, the step length, the separation.

@@ -54,9 +54,14 @@ impl Alignment {
 
 /// The joints with their mean at 0 and a radius of gyration of 1.
 pub fn normalised(joints: &[DVec3]) -> Vec<DVec3> {
+    let (mean, scale) = normalisation(joints);
+    joints.iter().map(|&p| (p - mean) * scale).collect()
+}
+
+/// The mean of the joints, and one over their radius of gyration, 0 where they are in one place.
+pub fn normalisation(joints: &[DVec3]) -> (DVec3, f64) {
     let count = joints.len().max(1) as f64;
     let mean = joints.iter().sum::<DVec3>() / count;
     let radius = (joints.iter().map(|p| p.distance_squared(mean)).sum::<f64>() / count).sqrt();
-    let scale = if radius > 0.0 { radius.recip() } else { 0.0 };
-    joints.iter().map(|&p| (p - mean) * scale).collect()
+    (mean, if radius > 0.0 { radius.recip() } else { 0.0 })
 }

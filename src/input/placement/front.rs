@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::alignment::normalised;
+use super::alignment::{normalisation, normalised};
 use super::mirror::MirrorPairs;
 use super::scene::Scene;
 use crate::geometry::mesh::{TriangleMesh, triangle_area};
@@ -77,10 +77,7 @@ fn third_direction(joints: &[DVec3], sideways: DVec3) -> DVec3 {
 
 /// The mesh in the space in which its skeleton is normalised.
 fn placed(mesh: &TriangleMesh, skeleton: &Skeleton, turn: AxisTurn) -> TriangleMesh {
-    let count = skeleton.joints.len().max(1) as f64;
-    let mean = skeleton.joints.iter().sum::<DVec3>() / count;
-    let square: f64 = skeleton.joints.iter().map(|p| p.distance_squared(mean)).sum();
-    let scale = (square / count).sqrt().recip();
+    let (mean, scale) = normalisation(&skeleton.joints);
     TriangleMesh {
         positions: mesh.positions.iter().map(|&p| turn.apply(p - mean) * scale).collect(),
         triangles: mesh.triangles.clone(),

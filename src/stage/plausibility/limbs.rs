@@ -4,6 +4,7 @@
 //! skeleton whether the garment covers what is there. Only ends of limbs are looked at for what is shut up: where cuffs and
 //! hems end is for the position term, and a limb that comes out of the garment is in its place.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cover::cover;
@@ -55,6 +56,7 @@ pub(super) fn misplaced(
     cancel: &Cancel,
 ) -> Result<Vec<Misplacement>, Cancelled> {
     let trees = [outcome.design, outcome.result].map(ClosestPoint::new);
+    let segments = outcome.source.lengthened(LEAF_REACH);
     let mut found = Vec::new();
     for (bone, parts) in (0u32..).zip(parts_of_bones(outcome.body, outcome, graph)) {
         cancel.check()?;
@@ -62,7 +64,7 @@ pub(super) fn misplaced(
         let [first, last] = outcome.source.bones[bone as usize].map(|j| graph.is_leaf(j));
         // Along the bone towards the end, which has parameter 1 there.
         let ends = [(last, 1.0, 0.0), (first, -1.0, 1.0)].into_iter().filter(|(is_end, ..)| *is_end);
-        let ends = ends.filter(|_| !leaves_through_cloth(bone, outcome, graph));
+        let ends = ends.filter(|_| !leaves_through_cloth(bone, &segments, outcome, graph));
         found.extend(ends.filter_map(|(_, sign, offset)| shut_up(bone, &samples, |s| sign * s + offset)));
         let inner = || samples.iter().filter(|s| (0.0..=1.0).contains(&s.parameter));
         let beside = share_of(inner(), |s| s.is_inside(0), |s| s.is_outside(1));
@@ -75,17 +77,14 @@ pub(super) fn misplaced(
 
 /// Whether the last bone of a limb, with what goes on beyond it, or a bone that it hangs on passes through the cloth of the
 /// design. Then the end is outside by mistake, as that of a foot bone through the sole, and belongs inside.
-fn leaves_through_cloth(bone: u32, outcome: &Outcome<'_>, graph: &BoneGraph) -> bool {
-    let (design, skeleton) = (outcome.design, outcome.source);
+fn leaves_through_cloth(bone: u32, segments: &[[DVec3; 2]], outcome: &Outcome<'_>, graph: &BoneGraph) -> bool {
+    let design = outcome.design;
     let passes = |&bone: &u32| {
-        let reach = skeleton.bones[bone as usize].map(|j| if graph.is_leaf(j) { LEAF_REACH } else { 0.0 });
-        let [a, b] = [-reach[0], 1.0 + reach[1]].map(|s| skeleton.point_at(bone, s));
-        let meets = |t: &[u32; 3]| {
-            ray_triangle(a, b - a, &t.map(|v| design.positions[v as usize])).is_some_and(|along| along <= 1.0)
-        };
-        design.triangles.par_iter().any(meets)
+        let [a, b] = segments[bone as usize];
+        let meets = |t: u32| ray_triangle(a, b - a, &design.corners(t)).is_some_and(|along| along <= 1.0);
+        (0..design.triangles.len() as u32).into_par_iter().any(meets)
     };
-    skeleton.bones[bone as usize].iter().flat_map(|&joint| graph.bones_at(joint)).any(passes)
+    outcome.source.bones[bone as usize].iter().flat_map(|&joint| graph.bones_at(joint)).any(passes)
 }
 
 /// The end of the limb where `along` is 1, if it is shut up.
@@ -119,15 +118,15 @@ type Part = (u32, f64, f64);
 /// For each bone, the triangles of the body that are nearest to it.
 fn parts_of_bones(body: &TriangleMesh, outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Vec<Part>> {
     let skeleton = outcome.target;
-    let nearest = |t: &[u32; 3]| {
-        let middle = centre(body, t);
+    let nearest = |t: u32| {
+        let middle = body.centre(t);
         let at = |bone: u32| {
             let parameter = graph.project(skeleton, bone, middle);
             (middle.distance_squared(skeleton.point_at(bone, parameter)), bone, parameter)
         };
         (0..skeleton.bones.len() as u32).map(at).min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let located: Vec<_> = body.triangles.par_iter().map(nearest).collect();
+    let located: Vec<_> = (0..body.triangles.len() as u32).into_par_iter().map(nearest).collect();
     let mut parts = vec![Vec::new(); skeleton.bones.len()];
     for ((t, area), at) in (0u32..).zip(body.areas()).zip(located) {
         if let Some((_, bone, parameter)) = at {
@@ -135,10 +134,6 @@ fn parts_of_bones(body: &TriangleMesh, outcome: &Outcome<'_>, graph: &BoneGraph)
         }
     }
     parts
-}
-
-fn centre(mesh: &TriangleMesh, triangle: &[u32; 3]) -> glam::DVec3 {
-    triangle.iter().map(|&v| mesh.positions[v as usize]).sum::<glam::DVec3>() / 3.0
 }
 
 /// Points of the parts at a bone, each for an equal share of their area.
@@ -157,7 +152,7 @@ fn samples(bone: u32, parts: &[Part], outcome: &Outcome<'_>, trees: &[ClosestPoi
         }
     }
     let sample = |&&(triangle, _, parameter): &&Part| {
-        let on_body = centre(outcome.body, &outcome.body.triangles[triangle as usize]);
+        let on_body = outcome.body.centre(triangle);
         let on_source = outcome.source.point_at(bone, parameter);
         Sample { triangle, parameter, cover: [cover(&trees[0], on_source), cover(&trees[1], on_body)] }
     };

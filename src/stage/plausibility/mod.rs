@@ -102,9 +102,9 @@ impl Findings {
 pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cancelled> {
     let topology = Topology::new(outcome.design.positions.len(), &outcome.design.triangles);
     let graph = BoneGraph::new(outcome.source);
-    let openings = opening::openings(outcome, &topology, &graph);
+    let openings = opening::openings(outcome, &topology);
     cancel.check()?;
-    let mut misplaced = opening::empty_openings(outcome, &openings, &graph);
+    let mut misplaced = opening::empty_openings(outcome, &openings);
     cancel.check()?;
     misplaced.extend(limbs::misplaced(outcome, &graph, cancel)?);
     cancel.check()?;

@@ -9,7 +9,6 @@ use glam::DVec3;
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{Topology, TriangleMesh};
-use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::stage::start::winding::{Winding, windings};
 
 /// Nothing goes through an opening where what the body's surface cuts out of it is below this share of its area, and the
@@ -99,10 +98,10 @@ pub(super) struct Opening {
     pub(super) bone: Option<u32>,
 }
 
-/// All openings of the design; `graph` is that of the skeletons.
-pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology, graph: &BoneGraph) -> Vec<Opening> {
+/// All openings of the design.
+pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology) -> Vec<Opening> {
     let loops: Vec<&[u32]> = topology.loops.iter().map(|boundary| boundary.vertices.as_slice()).collect();
-    let segments = segments(outcome.source, graph);
+    let segments = outcome.source.lengthened(LEAF_REACH);
     let opening = |(vertices, winding): (&[u32], Winding)| {
         let middle = Disc::new(&points(outcome.design, vertices)).middle;
         let distance = |&bone: &u32| {
@@ -124,10 +123,10 @@ pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology, graph: &BoneG
 }
 
 /// The openings through which bones went in the design, and through which neither a bone nor anything of the body goes now.
-pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening], graph: &BoneGraph) -> Vec<Misplacement> {
+pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec<Misplacement> {
     let around: Vec<(&Opening, u32)> = openings.iter().filter_map(|opening| Some((opening, opening.bone?))).collect();
     let loops: Vec<&[u32]> = around.iter().map(|(opening, _)| opening.vertices.as_slice()).collect();
-    let now = windings_of(outcome.result, &loops, &segments(outcome.target, graph));
+    let now = windings_of(outcome.result, &loops, &outcome.target.lengthened(LEAF_REACH));
     let is_empty = |opening: &Opening, winding: Winding| {
         if winding.linked {
             return false;
@@ -162,15 +161,4 @@ fn windings_of(mesh: &TriangleMesh, loops: &[&[u32]], segments: &[[DVec3; 2]]) -
 
 fn points(mesh: &TriangleMesh, vertices: &[u32]) -> Vec<DVec3> {
     vertices.iter().map(|&v| mesh.positions[v as usize]).collect()
-}
-
-/// The bones, beyond leaf joints by [`LEAF_REACH`].
-fn segments(skeleton: &Skeleton, graph: &BoneGraph) -> Vec<[DVec3; 2]> {
-    let end = |bone: u32, joint: u32, parameter: f64| {
-        // Joints to the bit, so that bones meet there.
-        if graph.is_leaf(joint) { skeleton.point_at(bone, parameter) } else { skeleton.joints[joint as usize] }
-    };
-    let of_bone =
-        |(bone, &[first, last]): (u32, &[u32; 2])| [end(bone, first, -LEAF_REACH), end(bone, last, 1.0 + LEAF_REACH)];
-    (0u32..).zip(&skeleton.bones).map(of_bone).collect()
 }

@@ -7,7 +7,8 @@ use glam::DVec3;
 
 use super::opening::Opening;
 use super::{Outcome, Resized};
-use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces};
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::piece::Piece;
 
 /// A piece is reported where it became larger or smaller than it should by more than this factor, and is gross beyond that.
 const REPORTED: f64 = 2.0;
@@ -21,45 +22,33 @@ const JUDGED: usize = 256;
 /// Neighbours of a piece are nearer to it than this many times its own size.
 const NEIGHBOURHOOD: f64 = 1.0;
 
-#[derive(Clone, Copy, Default)]
-struct Piece {
-    first: u32,
-    triangles: usize,
-    /// Of the design and of the result.
-    area: [f64; 2],
-    low: DVec3,
-    high: DVec3,
-    is_around_bone: bool,
-}
-
-impl Piece {
-    /// By what factor it became larger.
-    fn scale(&self) -> f64 {
-        (self.area[1] / self.area[0]).sqrt()
-    }
-}
-
 /// The pieces whose size is far from what it should be, in the order of their lowest vertices.
 pub(super) fn resized(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec<Resized> {
-    let (labels, pieces) = pieces(outcome, openings);
-    let areas = [outcome.design, outcome.result].map(|mesh| mesh.areas());
-    let whole: f64 = pieces.iter().map(|piece| piece.area[0]).sum();
-    let least = least_judged(&pieces);
+    let design = outcome.design;
+    let pieces = Piece::find(&design.positions, &design.triangles, []);
+    let areas = [design, outcome.result].map(TriangleMesh::areas);
+    let is_around_bone = around_bones(&pieces, openings);
+    let whole: f64 = pieces.iter().map(|piece| piece.area).sum();
+    let least = least_judged(&pieces, &is_around_bone);
     let mut seen = 0.0;
     let mut found = Vec::new();
-    for (label, piece) in (0u32..).zip(&pieces).filter(|(_, piece)| piece.area[0] > 0.0 && piece.area[0] >= least) {
-        let scale = piece.scale();
-        let (scale, reported, gross) = if piece.is_around_bone {
+    for (piece, around_bone) in pieces.iter().zip(is_around_bone) {
+        if piece.area <= 0.0 || piece.area < least {
+            continue;
+        }
+        let now: f64 = piece.triangles.iter().map(|&t| areas[1][t as usize]).sum();
+        let scale = (now / piece.area).sqrt();
+        let (scale, reported, gross) = if around_bone {
             (scale, GROSS_AROUND_BONE, GROSS_AROUND_BONE)
         } else {
-            (scale / scale_beside(outcome.design, &areas, label, piece, &labels), REPORTED, GROSS)
+            (scale / scale_beside(design, &areas, piece), REPORTED, GROSS)
         };
         let is_beyond = |factor: f64| scale.max(scale.recip()) > factor;
         if is_beyond(reported) {
-            seen += if is_beyond(gross) { piece.area[0] } else { 0.0 };
+            seen += if is_beyond(gross) { piece.area } else { 0.0 };
             found.push(Resized {
-                triangle: piece.first,
-                triangles: piece.triangles,
+                triangle: piece.triangles[0],
+                triangles: piece.triangles.len(),
                 scale,
                 is_gross: is_beyond(gross),
             });
@@ -71,49 +60,32 @@ pub(super) fn resized(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec<Resize
     found
 }
 
-/// The piece of each vertex, and the pieces.
-fn pieces(outcome: &Outcome<'_>, openings: &[Opening]) -> (Vec<u32>, Vec<Piece>) {
-    let triangles = &outcome.design.triangles;
-    let links = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c]]);
-    let (labels, count) = label_pieces(outcome.design.positions.len(), links);
-    let mut pieces = vec![Piece { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, ..Piece::default() }; count];
-    let areas = [outcome.design.areas(), outcome.result.areas()];
-    for (t, corners) in triangles.iter().enumerate() {
-        let piece = &mut pieces[labels[corners[0] as usize] as usize];
-        if piece.triangles == 0 {
-            piece.first = t as u32;
-        }
-        piece.triangles += 1;
-        (0..2).for_each(|k| piece.area[k] += areas[k][t]);
-    }
-    for (&p, &label) in outcome.design.positions.iter().zip(&labels).filter(|(_, label)| **label != NO_PIECE) {
-        let piece = &mut pieces[label as usize];
-        (piece.low, piece.high) = (piece.low.min(p), piece.high.max(p));
-    }
-    for opening in openings.iter().filter(|opening| opening.bone.is_some()) {
-        pieces[labels[opening.vertices[0] as usize] as usize].is_around_bone = true;
-    }
-    (labels, pieces)
+/// For each piece whether a bone goes through an opening of it.
+fn around_bones(pieces: &[Piece], openings: &[Opening]) -> Vec<bool> {
+    let through = || openings.iter().filter(|opening| opening.bone.is_some()).map(|opening| opening.vertices[0]);
+    pieces.iter().map(|piece| through().any(|v| piece.vertices.binary_search(&v).is_ok())).collect()
 }
 
 /// The area of the smallest piece that is judged.
-fn least_judged(pieces: &[Piece]) -> f64 {
-    let mut areas: Vec<f64> = pieces.iter().filter(|piece| !piece.is_around_bone).map(|piece| piece.area[0]).collect();
+fn least_judged(pieces: &[Piece], is_around_bone: &[bool]) -> f64 {
+    let free = pieces.iter().zip(is_around_bone).filter(|(_, around_bone)| !**around_bone);
+    let mut areas: Vec<f64> = free.map(|(piece, _)| piece.area).collect();
     areas.sort_by(|a, b| b.total_cmp(a));
     areas.get(JUDGED).copied().unwrap_or(0.0)
 }
 
 /// By what factor what is beside `piece` became larger; 1 where nothing is near it.
-fn scale_beside(design: &TriangleMesh, areas: &[Vec<f64>; 2], label: u32, piece: &Piece, labels: &[u32]) -> f64 {
-    let reach = NEIGHBOURHOOD * piece.low.distance(piece.high);
-    let distance = |t: &[u32; 3]| {
-        let middle = t.iter().map(|&v| design.positions[v as usize]).sum::<DVec3>() / 3.0;
-        (piece.low - middle).max(middle - piece.high).max(DVec3::ZERO).length()
-    };
+fn scale_beside(design: &TriangleMesh, areas: &[Vec<f64>; 2], piece: &Piece) -> f64 {
+    let reach = NEIGHBOURHOOD * piece.size();
+    let mut own = piece.triangles.iter().peekable();
     let mut sums = [0.0; 2];
-    for (t, corners) in design.triangles.iter().enumerate() {
-        if labels[corners[0] as usize] != label && distance(corners) <= reach {
-            (0..2).for_each(|k| sums[k] += areas[k][t]);
+    for t in 0..design.triangles.len() as u32 {
+        if own.next_if_eq(&&t).is_some() {
+            continue;
+        }
+        let middle = design.centre(t);
+        if (piece.low - middle).max(middle - piece.high).max(DVec3::ZERO).length() <= reach {
+            (0..2).for_each(|k| sums[k] += areas[k][t as usize]);
         }
     }
     if sums.iter().all(|sum| *sum > 0.0) { (sums[1] / sums[0]).sqrt() } else { 1.0 }
