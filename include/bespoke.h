@@ -298,8 +298,9 @@ enum BespokeDiagnosticKind
   /// Left and right of the target are exchanged, or it is mirrored.
   BESPOKE_DIAGNOSTIC_KIND_SIDES_SWAPPED = 17,
   /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where no bone
-  /// does, such as a head above the joint from which the shoulders branch off. The bone is named; the distance is how
-  /// far the body goes on.
+  /// does, such as a head above the joint from which the shoulders branch off, or the joint is outside of the body, as a
+  /// root on the floor is. The bone is named; the distance is how far the body goes on, or how far the joint is off. It is
+  /// taken to lie where the message says, unless the option strict is set.
   BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED = 18,
   /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
   /// for them, unless the option strict is set. The first vertices are named.

@@ -94,6 +94,17 @@ impl Bone {
     }
 }
 
+/// What is wrong with the place of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointFault {
+    /// It is outside of the body.
+    Outside,
+    /// Its bone is no limb's: it runs between parts of the body, as one to a root on the floor does.
+    Stray,
+    /// It is inside, but its bone leaves the body on the way to it.
+    BoneOutside,
+}
+
 /// Why a piece of the avatar's mesh is no part of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreignness {
@@ -350,6 +361,25 @@ pub enum Diagnostic {
         /// How far it goes on.
         reach: f64,
         /// The body starts beyond the joint, as if a bone went on there.
+        mended: bool,
+    },
+    /// A joint does not lie where the body wants it.
+    JointMisplaced {
+        /// The source or the target skeleton.
+        skeleton: Subject,
+        /// A bone that leads to it; its second joint is the one.
+        bone: Bone,
+        /// What is wrong with it.
+        fault: JointFault,
+        /// How far it is from the body, or from the better place.
+        distance: f64,
+        /// The same, in the caller's unit.
+        length: f64,
+        /// The same, as a share of the bone's length.
+        share: f64,
+        /// The better place, in the caller's coordinates; none where none is known.
+        place: Option<[f64; 3]>,
+        /// The joint is taken to lie there.
         mended: bool,
     },
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near.

@@ -26,7 +26,7 @@ impl Diagnostic {
             Self::PinNotReached { .. } => DiagnosticKind::PinNotReached,
             Self::RigidGroupBent { .. } => DiagnosticKind::RigidGroupBent,
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
-            Self::EndWithoutBone { .. } => DiagnosticKind::JointMisplaced,
+            Self::EndWithoutBone { .. } | Self::JointMisplaced { .. } => DiagnosticKind::JointMisplaced,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -66,6 +66,7 @@ impl Diagnostic {
             | Self::PinNotReached { .. }
             | Self::RigidGroupBent { .. }
             | Self::EndWithoutBone { .. }
+            | Self::JointMisplaced { .. }
             | Self::WeightsContradict { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
@@ -125,6 +126,7 @@ impl Diagnostic {
             }
             Self::InflationSqueezed { garment, parts: [a, b], .. } => vec![triangle(garment), a.triangle, b.triangle],
             Self::EndWithoutBone { bone, .. } => vec![bone.element()],
+            Self::JointMisplaced { skeleton, bone, .. } => vec![Element::bone(skeleton, bone.index)],
             Self::WeightsContradict { ref first, .. } => {
                 first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
             }
@@ -160,6 +162,7 @@ impl Diagnostic {
             | Self::CarriedPiece { distance, .. }
             | Self::PinNotReached { distance, .. }
             | Self::RigidGroupBent { distance, .. }
+            | Self::JointMisplaced { distance, .. }
             | Self::InflationHeld { distance, .. } => distance,
             Self::EndWithoutBone { reach, .. } => reach,
             Self::ForeignPart { size, .. } => size,

@@ -1,10 +1,12 @@
-//! Messages of diagnostics, all in this file, so that they can be translated.
+//! Messages of diagnostics, all in this file, so that they can be translated; names and numbers in them are made in
+//! [`super::diagnostic_words`].
 
 use std::fmt::{Display, Formatter, Result};
 
-use super::coordinate_system::{AxisTurn, CoordinateSystem};
-use super::diagnostic::{AvatarPart, Bone, Diagnostic, Element, Foreignness, LimbPlace, Subject};
-use super::placement::size::RATIOS;
+use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
+use super::diagnostic_words::{
+    at_bone, avatar_triangle, axes, bone_name, input, part_name, point, short, turned, units,
+};
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -178,6 +180,34 @@ impl Display for Diagnostic {
                      bone goes on (the skeleton is 2 long); {fate}; give both skeletons a joint at the end of that part, such as \
                      the top of the head, and look whether joint {joint} lies where that part begins"
                 )
+            }
+            Self::JointMisplaced { skeleton, bone, fault, length, share, place, mended, .. } => {
+                let [from, joint] = bone.joints;
+                let size = format!("{} ({share:.2} of the bone from joint {from})", short(*length));
+                let name = input(*skeleton);
+                match fault {
+                    JointFault::Outside => write!(f, "{name}: joint {joint} lies outside of the body, by {size}")?,
+                    JointFault::Stray => write!(
+                        f,
+                        "{name}: the bone between joints {from} and {joint} runs outside of the body, between its parts, over \
+                         {size}"
+                    )?,
+                    JointFault::BoneOutside => write!(
+                        f,
+                        "{name}: the bone between joints {from} and {joint} leaves the body, by {size}, although both are inside"
+                    )?,
+                }
+                match place {
+                    Some(place) => {
+                        let fate = if *mended { "where it is taken to lie" } else { "but is taken as it is" };
+                        write!(f, "; joint {joint} belongs at {}, {fate}; move it there", point(*place))?;
+                    }
+                    None => write!(f, "; move its joints into the middle of the limb, or add one between them")?,
+                }
+                match fault {
+                    JointFault::Stray => f.write_str(", or leave it out of both skeletons"),
+                    JointFault::Outside | JointFault::BoneOutside => Ok(()),
+                }
             }
             Self::WeightsContradict { count, weighted, first, example, mended } => {
                 let fate = match mended {
@@ -377,91 +407,4 @@ fn moves(aside: f64, between: f64, beyond: f64) -> String {
         done.push("a bone beside it was moved".to_string());
     }
     done.join(", and ")
-}
-
-/// The place of a bone with these joints; none is between bones that form a cycle.
-pub fn at_bone(joints: Option<[u32; 2]>) -> String {
-    match joints {
-        Some([a, b]) => format!("at the bone between joints {a} and {b}"),
-        None => "between bones that form a cycle".to_string(),
-    }
-}
-
-/// A bone of a part of the avatar: "bone 3 (joints 3-4)".
-fn bone_name(bone: Option<Bone>) -> String {
-    match bone {
-        Some(Bone { index, joints: [a, b] }) => format!("bone {index} (joints {a}-{b})"),
-        None => "bones that form a cycle".to_string(),
-    }
-}
-
-/// A part of the avatar: "the part around bone 3 (joints 3-4)", "the loose piece of 20 triangles around bone 3 (joints 3-4)".
-fn part_name(part: AvatarPart) -> String {
-    match part.loose {
-        Some(triangles) => format!("the loose piece of {triangles} triangles around {}", bone_name(part.bone)),
-        None => format!("the part around {}", bone_name(part.bone)),
-    }
-}
-
-/// A triangle of the avatar or of a layer: "avatar triangle 5", "triangle 7 of layer 0".
-pub fn avatar_triangle(triangle: Element) -> String {
-    match triangle {
-        Element { subject: Subject::Layer(layer), index, .. } => format!("triangle {index} of layer {layer}"),
-        Element { index, .. } => format!("avatar triangle {index}"),
-    }
-}
-
-/// An input by its name.
-fn input(subject: Subject) -> &'static str {
-    match subject {
-        Subject::Garment => "garment",
-        Subject::TargetAvatar => "target avatar",
-        Subject::SourceAvatar => "source avatar",
-        Subject::SourceSkeleton => "source skeleton",
-        Subject::TargetSkeleton => "target skeleton",
-        Subject::Layer(_) => "layer",
-    }
-}
-
-/// A number with four digits and no zeros at its end: "39.37", "100", "0.01".
-fn short(number: f64) -> String {
-    let places = (3 - number.abs().log10().floor() as i32).max(0) as usize;
-    let text = format!("{number:.places$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
-}
-
-/// Which units have this ratio.
-fn units(ratio: f64) -> String {
-    let names = [
-        "an inch is in centimetres",
-        "a metre is in feet",
-        "a decimetre is in centimetres",
-        "a foot is in inches",
-        "an inch is in millimetres",
-        "a foot is in centimetres",
-        "a metre is in inches",
-        "a metre is in centimetres",
-        "a metre is in millimetres",
-    ];
-    let known = RATIOS.iter().position(|r| (ratio / r - 1.0).abs() < 1e-6);
-    known.map_or(String::new(), |k| format!(" (as where {})", names[k]))
-}
-
-/// "180 degrees about y", "90 degrees about -x", "120 degrees about (1, 1, 1)".
-fn turned(turn: AxisTurn) -> String {
-    let axis = match turn.axis() {
-        [1, 0, 0] => "x".to_string(),
-        [0, 1, 0] => "y".to_string(),
-        [0, 0, 1] => "z".to_string(),
-        [-1, 0, 0] => "-x".to_string(),
-        [0, -1, 0] => "-y".to_string(),
-        [0, 0, -1] => "-z".to_string(),
-        [x, y, z] => format!("({x}, {y}, {z})"),
-    };
-    format!("{} degrees about {axis}", turn.degrees())
-}
-
-/// The axes of a coordinate system, in words.
-fn axes(system: &CoordinateSystem) -> String {
-    format!("right {}, up {}, forward {}", system.right.name(), system.up.name(), system.forward.name())
 }

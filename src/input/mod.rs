@@ -6,6 +6,7 @@ pub mod coordinate_system;
 pub mod diagnostic;
 pub mod diagnostic_facts;
 pub mod diagnostic_text;
+pub mod diagnostic_words;
 pub mod element;
 mod mesh;
 pub mod near_seams;

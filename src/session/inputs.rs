@@ -10,7 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::CoordinateSystem;
-use crate::input::diagnostic::Diagnostic;
+use crate::input::diagnostic::{Diagnostic, Subject};
 use crate::input::placement;
 use crate::input::placement::scene::Scene;
 use crate::input::precision::Precision;
@@ -21,6 +21,7 @@ use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as Posed, Problem};
 use crate::stage::start::foreign_parts;
+use crate::stage::start::joints::{self, Figure, Misplaced};
 
 /// A garment vertex that is held in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -299,7 +300,7 @@ impl Inputs {
         diagnostics.extend(found);
         cancel.check()?;
         let garment = mesh_to_internal(&self.source_coordinate_system, &weld.mesh);
-        let source = skeleton_to_internal(&self.source_coordinate_system, source);
+        let mut source = skeleton_to_internal(&self.source_coordinate_system, source);
         let source_avatar = self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m));
         let told = self.target_coordinate_system;
         let turn = placement::check(
@@ -321,12 +322,25 @@ impl Inputs {
         let pins = self.welded_pins(&weld, &target_system)?;
         let rigid_groups = self.welded_groups(&weld)?;
         let body = Body::with_roles(avatar, &self.layers, &self.resolve_roles(avatar, &target, diagnostics)?)?;
+        let posed_body = body.with_mesh(mesh_to_internal(&target_system, &body.mesh));
+        let mut target = skeleton_to_internal(&target_system, &target);
+        let misplaced = misplaced_joints([&target, &source], [Some(&posed_body.avatar()), source_avatar.as_ref()]);
+        cancel.check()?;
+        let mends = !self.options.strict;
+        diagnostics.extend(misplaced.iter().map(|joint| match joint.skeleton {
+            Subject::SourceSkeleton => joint.diagnostic(&self.source_coordinate_system, mends),
+            _ => joint.diagnostic(&target_system, mends),
+        }));
+        if mends {
+            joints::mend(&mut target, Subject::TargetSkeleton, &misplaced);
+            joints::mend(&mut source, Subject::SourceSkeleton, &misplaced);
+        }
         let problem = Problem::new(
             &Posed {
                 garment: &garment,
                 source_skeleton: &source,
-                avatar: &body.with_mesh(mesh_to_internal(&target_system, &body.mesh)),
-                target_skeleton: &skeleton_to_internal(&target_system, &target),
+                avatar: &posed_body,
+                target_skeleton: &target,
                 skin: self.skin.as_deref(),
                 source_avatar: source_avatar.as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
@@ -372,6 +386,13 @@ impl Inputs {
         }
         Ok(roles)
     }
+}
+
+/// The joints of the target and of the source skeleton that do not lie where the bodies want them.
+fn misplaced_joints([target, source]: [&Skeleton; 2], [avatar, worn_by]: [Option<&TriangleMesh>; 2]) -> Vec<Misplaced> {
+    let target = Figure::new(Subject::TargetSkeleton, target, avatar);
+    let source = Figure::new(Subject::SourceSkeleton, source, worn_by);
+    target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(&target, &source))
 }
 
 fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {

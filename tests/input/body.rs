@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::body::{Body, PartRole};
 use bespoke::input::diagnostic::{Element, Subject};
-use bespoke::input::diagnostic_text::avatar_triangle;
+use bespoke::input::diagnostic_words::avatar_triangle;
 use glam::DVec3;
 
 /// A strip of so many triangles, at this height.

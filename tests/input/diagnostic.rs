@@ -2,7 +2,7 @@
 
 use bespoke::input::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{
-    AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, LimbPlace, Severity, Subject,
+    AvatarPart, Bone, Diagnostic, DiagnosticKind, Element, Foreignness, JointFault, LimbPlace, Severity, Subject,
 };
 
 const BONE: Bone = Bone { index: 4, joints: [5, 7] };
@@ -159,6 +159,52 @@ fn every_sentence_is_made_of_its_data() {
             Diagnostic::RigidGroupBent { group: 1, vertex: 12, distance: 0.25 },
             "garment: rigid group 1 ends bent, by 2.5e-1 at vertex 12 in units in which the skeleton is 2 long, for the body or \
              another part of the garment is in its way"
+                .into(),
+        ),
+        (
+            Diagnostic::JointMisplaced {
+                skeleton: Subject::TargetSkeleton,
+                bone: BONE,
+                fault: JointFault::Outside,
+                distance: 0.5,
+                length: 42.0,
+                share: 0.25,
+                place: Some([100.0, -1.25, 0.0]),
+                mended: true,
+            },
+            "target skeleton: joint 7 lies outside of the body, by 42 (0.25 of the bone from joint 5); joint 7 belongs at \
+             (100, -1.2, 0), where it is taken to lie; move it there"
+                .into(),
+        ),
+        (
+            Diagnostic::JointMisplaced {
+                skeleton: Subject::SourceSkeleton,
+                bone: BONE,
+                fault: JointFault::Stray,
+                distance: 0.5,
+                length: 0.25,
+                share: 1.0,
+                place: Some([0.0, 0.0, 0.0]),
+                mended: false,
+            },
+            "source skeleton: the bone between joints 5 and 7 runs outside of the body, between its parts, over 0.25 (1.00 of \
+             the bone from joint 5); joint 7 belongs at (0, 0, 0), but is taken as it is; move it there, or leave it out of both \
+             skeletons"
+                .into(),
+        ),
+        (
+            Diagnostic::JointMisplaced {
+                skeleton: Subject::TargetSkeleton,
+                bone: BONE,
+                fault: JointFault::BoneOutside,
+                distance: 0.5,
+                length: 0.25,
+                share: 0.5,
+                place: None,
+                mended: false,
+            },
+            "target skeleton: the bone between joints 5 and 7 leaves the body, by 0.25 (0.50 of the bone from joint 5), although \
+             both are inside; move its joints into the middle of the limb, or add one between them"
                 .into(),
         ),
         (

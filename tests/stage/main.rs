@@ -9,6 +9,7 @@ mod enclosure;
 mod fit_region;
 mod foreign_parts;
 mod inside;
+mod joints;
 mod layer_skin;
 mod loop_axis;
 mod normalization;

@@ -251,8 +251,9 @@ namespace Bespoke
 
         /// <summary>
         /// A joint is missing or does not lie where the body wants it: the body goes on beyond the end of a bone where
-        /// no bone does, such as a head above the joint from which the shoulders branch off. The bone is named; the
-        /// distance is how far the body goes on.
+        /// no bone does, such as a head above the joint from which the shoulders branch off, or the joint is outside of
+        /// the body, as a root on the floor is. The bone is named; the distance is how far the body goes on, or how far
+        /// the joint is off. It is taken to lie where the message says, unless the option strict is set.
         /// </summary>
         JointMisplaced = 18,
 

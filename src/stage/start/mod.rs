@@ -7,6 +7,7 @@ pub mod contour;
 pub mod enclosure;
 pub mod foreign_parts;
 pub mod inside;
+pub mod joints;
 pub mod offset_grid;
 pub mod open_ends;
 pub mod path_search;

@@ -17,7 +17,7 @@ use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Bone, Diagnostic};
-use crate::input::diagnostic_text::at_bone;
+use crate::input::diagnostic_words::at_bone;
 use crate::input::skeleton::{Location, Skeleton};
 use crate::verify::intersections_with_cancel;
 

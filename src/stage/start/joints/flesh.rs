@@ -1,0 +1,70 @@
+//! A body around its skeleton: what is inside of it, and where.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
+use crate::geometry::mesh::TriangleMesh;
+
+/// The body winds around a point inside this often at least, and less than half of it around one that is surely outside;
+/// between the two the body is open nearby.
+const INSIDE: f64 = 0.5;
+
+/// The surface of a body.
+pub struct Flesh {
+    /// Its mesh, in the space of its skeleton.
+    pub mesh: TriangleMesh,
+    tree: ClosestPoint,
+}
+
+impl Flesh {
+    /// The body with this surface, which may be open, pass through itself, and face either way.
+    pub fn new(mesh: TriangleMesh) -> Self {
+        let tree = ClosestPoint::new(&mesh);
+        Self { mesh, tree }
+    }
+
+    /// Distance to the surface.
+    pub fn distance(&self, p: DVec3) -> f64 {
+        self.tree.distance(p)
+    }
+
+    /// Whether `p` is inside.
+    pub fn contains(&self, p: DVec3) -> bool {
+        self.winding(p) >= INSIDE
+    }
+
+    /// Whether `p` is outside without a doubt.
+    pub fn excludes(&self, p: DVec3) -> bool {
+        self.winding(p) < 0.5 * INSIDE
+    }
+
+    /// How often the surface winds around `p`, in either orientation: 1 inside, 0 outside, between them near holes.
+    pub fn winding(&self, p: DVec3) -> f64 {
+        let angle = |t: u32| {
+            let [a, b, c] = self.mesh.corners(t).map(|corner| corner - p);
+            let [la, lb, lc] = [a, b, c].map(DVec3::length);
+            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+            2.0 * a.dot(b.cross(c)).atan2(below)
+        };
+        // In pieces of fixed size, so that the sum does not depend on the number of threads.
+        let triangles: Vec<u32> = (0..self.mesh.triangles.len() as u32).collect();
+        let sums: Vec<f64> = triangles.par_chunks(4096).map(|part| part.iter().map(|&t| angle(t)).sum()).collect();
+        (sums.iter().sum::<f64>() / (2.0 * TAU)).abs()
+    }
+
+    /// The middle of the limb that is nearest to `p`, which is outside: half-way from where the shortest way to the surface
+    /// enters the body to where that line leaves it. None where it does not pass through a body there.
+    pub fn middle_near(&self, p: DVec3) -> Option<DVec3> {
+        let entry = self.tree.closest(p)?;
+        let along = (entry.point - p).try_normalize()?;
+        let behind = (0..self.mesh.triangles.len() as u32)
+            .filter_map(|t| ray_triangle(p, along, &self.mesh.corners(t)))
+            .filter(|&s| s > entry.distance * (1.0 + 1e-9))
+            .min_by(f64::total_cmp)?;
+        let middle = p + 0.5 * (entry.distance + behind) * along;
+        self.contains(middle).then_some(middle)
+    }
+}

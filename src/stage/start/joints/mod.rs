@@ -1,0 +1,124 @@
+//! Joints that do not lie where the bodies want them, and where they would lie better.
+//!
+//! A skeleton decides where each part of a body begins, so a joint beside its limb decides wrongly and says nothing. Here
+//! both skeletons are held against their bodies, and against each other. All lengths are in units in which the skeleton is
+//! 2 long, but for those of [`Misplaced::length`] and [`Misplaced::place`].
+
+mod flesh;
+mod outside;
+
+use glam::DVec3;
+
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::coordinate_system::CoordinateSystem;
+use crate::input::diagnostic::{Bone, Diagnostic, JointFault, Subject};
+use crate::input::skeleton::{BoneGraph, Skeleton};
+
+pub use flesh::Flesh;
+
+/// The longest side of a skeleton here.
+const SIDE: f64 = 2.0;
+
+/// A joint that lies wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misplaced {
+    /// The source or the target skeleton.
+    pub skeleton: Subject,
+    /// A bone that leads to it, its joints in the order from the other one to this one.
+    pub bone: Bone,
+    /// What is wrong with it.
+    pub fault: JointFault,
+    /// How far it is from the body, or from the better place.
+    pub distance: f64,
+    /// The same, in the skeleton's own unit.
+    pub length: f64,
+    /// The same, as a share of the bone's length.
+    pub share: f64,
+    /// The better place, in the skeleton's own coordinates; none where none is known.
+    pub place: Option<DVec3>,
+}
+
+impl Misplaced {
+    /// The joint.
+    pub fn joint(&self) -> u32 {
+        self.bone.joints[1]
+    }
+
+    /// The diagnostic about it, for a skeleton whose caller has it in `system`.
+    pub fn diagnostic(&self, system: &CoordinateSystem, mended: bool) -> Diagnostic {
+        let &Self { skeleton, bone, fault, distance, length, share, place } = self;
+        Diagnostic::JointMisplaced {
+            skeleton,
+            bone,
+            fault,
+            distance,
+            length: length / system.metres_per_unit,
+            share,
+            place: place.map(|place| system.position_from_internal(place).to_array()),
+            mended: mended && place.is_some(),
+        }
+    }
+}
+
+/// A skeleton and its body, where that is known.
+pub struct Figure {
+    subject: Subject,
+    /// The skeleton, 2 long.
+    skeleton: Skeleton,
+    flesh: Option<Flesh>,
+    graph: BoneGraph,
+    /// From the skeleton's own unit.
+    scale: f64,
+}
+
+impl Figure {
+    /// The figure of `skeleton` with its `body`; none for a skeleton without size.
+    pub fn new(subject: Subject, skeleton: &Skeleton, body: Option<&TriangleMesh>) -> Option<Self> {
+        let scale = SIDE / skeleton.longest_side("").ok()?;
+        let scaled = |points: &[DVec3]| points.iter().map(|&p| p * scale).collect();
+        let flesh = body.map(|mesh| {
+            Flesh::new(TriangleMesh { positions: scaled(&mesh.positions), triangles: mesh.triangles.clone() })
+        });
+        let graph = BoneGraph::new(skeleton);
+        let skeleton = Skeleton { joints: scaled(&skeleton.joints), bones: skeleton.bones.clone() };
+        Some(Self { subject, skeleton, flesh, graph, scale })
+    }
+
+    /// The joint at the other end of a bone.
+    fn other(&self, bone: u32, joint: u32) -> u32 {
+        let [a, b] = self.skeleton.bones[bone as usize];
+        if a == joint { b } else { a }
+    }
+
+    fn place(&self, joint: u32) -> DVec3 {
+        self.skeleton.joints[joint as usize]
+    }
+
+    /// A finding about `joint`, to which `bone` leads.
+    fn misplaced(&self, bone: u32, joint: u32, fault: JointFault, distance: f64, place: Option<DVec3>) -> Misplaced {
+        let from = self.other(bone, joint);
+        Misplaced {
+            skeleton: self.subject,
+            bone: Bone { index: bone, joints: [from, joint] },
+            fault,
+            distance,
+            length: distance / self.scale,
+            share: distance / self.place(from).distance(self.place(joint)),
+            place: place.map(|p| p / self.scale),
+        }
+    }
+}
+
+/// The joints of both skeletons that lie wrong: at most one finding for each joint.
+pub fn find(target: &Figure, source: &Figure) -> Vec<Misplaced> {
+    outside::find(target, source)
+}
+
+/// Takes the joints that were found in `skeleton` to their better places.
+pub fn mend(skeleton: &mut Skeleton, subject: Subject, found: &[Misplaced]) {
+    for misplaced in found.iter().filter(|misplaced| misplaced.skeleton == subject) {
+        if let Some(place) = misplaced.place {
+            skeleton.joints[misplaced.joint() as usize] = place;
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Joints that the bodies contradict: found, with a better place near the right one; right skeletons have none.
+
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{JointFault, Subject};
+use bespoke::input::skeleton::Skeleton;
+use bespoke::stage::start::joints::{Figure, Flesh, Misplaced, find, mend};
+use closet::{Kind, sample};
+use glam::DVec3;
+
+use crate::bodies;
+
+const KINDS: [Kind; 3] = [Kind::Mannequin, Kind::Heavy, Kind::Creature];
+
+/// A body in metres, z up, with its skeleton.
+fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
+    let sample = sample(kind);
+    (bodies::mesh(&sample), bodies::skeleton(&sample))
+}
+
+/// What is found in a target and a source, each with its body where that is given.
+fn found(target: (&Skeleton, &TriangleMesh), source: (&Skeleton, Option<&TriangleMesh>)) -> Vec<Misplaced> {
+    let target = Figure::new(Subject::TargetSkeleton, target.0, Some(target.1)).unwrap();
+    let source = Figure::new(Subject::SourceSkeleton, source.0, source.1).unwrap();
+    find(&target, &source)
+}
+
+fn mended(skeleton: &Skeleton, subject: Subject, found: &[Misplaced]) -> Skeleton {
+    let mut mended = skeleton.clone();
+    mend(&mut mended, subject, found);
+    mended
+}
+
+/// With a root on the floor, from which a bone leads to the first joint.
+fn with_root(mesh: &TriangleMesh, skeleton: &Skeleton) -> Skeleton {
+    let floor = mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min);
+    let mut skeleton = skeleton.clone();
+    skeleton.bones.insert(0, [skeleton.joints.len() as u32, 0]);
+    skeleton.joints.push(skeleton.joints[0].with_z(floor));
+    skeleton
+}
+
+#[test]
+fn right_skeletons_have_none() {
+    for (target, source) in KINDS.into_iter().zip(KINDS.into_iter().cycle().skip(1)) {
+        let ((mesh, skeleton), (worn_by, designed_on)) = (body(target), body(source));
+        assert_eq!(found((&skeleton, &mesh), (&designed_on, None)), [], "{target:?}");
+        assert_eq!(found((&skeleton, &mesh), (&designed_on, Some(&worn_by))), [], "{target:?}, {source:?}");
+    }
+}
+
+#[test]
+fn a_root_on_the_floor_goes_to_where_its_bone_begins_in_both_skeletons() {
+    let ((mesh, plain), (worn_by, designed_on)) = (body(Kind::Heavy), body(Kind::Mannequin));
+    let (target, source) = (with_root(&mesh, &plain), with_root(&worn_by, &designed_on));
+    for worn_by in [None, Some(&worn_by)] {
+        let found = found((&target, &mesh), (&source, worn_by));
+        let faults: Vec<_> = found.iter().map(|m| (m.skeleton, m.joint(), m.bone.index, m.fault)).collect();
+        let stray = |subject| (subject, 15, 0, JointFault::Stray);
+        assert_eq!(faults, [stray(Subject::TargetSkeleton), stray(Subject::SourceSkeleton)]);
+        // From the crotch to the floor.
+        let length = (target.joints[0] - target.joints[15]).z;
+        assert!((found[0].length - found[0].share * length).abs() < 1e-9);
+        assert!((0.7..0.95).contains(&found[0].share), "{found:?}");
+        for (skeleton, subject) in [(&target, Subject::TargetSkeleton), (&source, Subject::SourceSkeleton)] {
+            let mended = mended(skeleton, subject, &found);
+            assert!(mended.joints[15].distance(skeleton.joints[0]) < 1e-9);
+            assert_eq!(mended.joints[..15], skeleton.joints[..15]);
+        }
+    }
+}
+
+#[test]
+fn a_tail_that_the_source_has_stays() {
+    // The bone runs through a tail of the source, and the target goes without.
+    let ((mesh, plain), (mut worn_by, designed_on)) = (body(Kind::Heavy), body(Kind::Mannequin));
+    let (target, source) = (with_root(&mesh, &plain), with_root(&worn_by, &designed_on));
+    let ([foot, top], first) = ([source.joints[15], source.joints[0]], worn_by.positions.len() as u32);
+    for z in [foot.z - 0.02, top.z] {
+        worn_by
+            .positions
+            .extend([(0.03, 0.0), (-0.02, 0.03), (-0.02, -0.03)].map(|(x, y)| DVec3::new(x, y + foot.y, z)));
+    }
+    let sides = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [2, 0, 3], [2, 3, 5], [0, 2, 1], [3, 4, 5]];
+    worn_by.triangles.extend(sides.map(|t| t.map(|v: u32| first + v)));
+    assert_eq!(found((&target, &mesh), (&source, Some(&worn_by))), []);
+}
+
+#[test]
+fn a_hand_beyond_its_tip_goes_back_into_it() {
+    let (mesh, right) = body(Kind::Mannequin);
+    let mut skeleton = right.clone();
+    let (elbow, hand) = (right.joints[4], right.joints[5]);
+    let along = (hand - elbow).normalize();
+    let arm = |p: &&DVec3| (**p - elbow).reject_from(along).length() < 0.1 && (**p - elbow).dot(along) > 0.0;
+    let tip = mesh.positions.iter().filter(arm).map(|p| (*p - elbow).dot(along)).fold(0.0, f64::max);
+    skeleton.joints[5] = elbow + (tip + 0.15) * along;
+    let found = found((&skeleton, &mesh), (&right, None));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].joint(), found[0].fault), (5, JointFault::Outside));
+    let reached = (mended(&skeleton, Subject::TargetSkeleton, &found).joints[5] - elbow).dot(along);
+    assert!(reached < tip && reached > tip - 0.05, "{reached} of {tip}");
+}
+
+#[test]
+fn an_elbow_above_the_arm_goes_into_it() {
+    for (subject, source_is_wrong) in [(Subject::TargetSkeleton, false), (Subject::SourceSkeleton, true)] {
+        let (mesh, right) = body(Kind::Mannequin);
+        let mut skeleton = right.clone();
+        skeleton.joints[4] += DVec3::new(0.0, 0.0, 0.25);
+        let found = match source_is_wrong {
+            false => found((&skeleton, &mesh), (&right, Some(&mesh))),
+            true => found((&right, &mesh), (&skeleton, Some(&mesh))),
+        };
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!((found[0].skeleton, found[0].joint(), found[0].fault), (subject, 4, JointFault::Outside));
+        let mended = mended(&skeleton, subject, &found);
+        let flesh = Flesh::new(mesh);
+        let upper = right.joints[4] - right.joints[3];
+        let aside = (mended.joints[4] - right.joints[3]).reject_from(upper).length();
+        assert!(flesh.contains(mended.joints[4]) && aside < 0.03, "{aside}");
+    }
+}
+
+#[test]
+fn legs_that_the_body_goes_without_are_none_of_a_mistake() {
+    let (mut mesh, skeleton) = body(Kind::Mannequin);
+    let knee = skeleton.joints[10].z;
+    mesh.triangles.retain(|t| t.iter().any(|&v| mesh.positions[v as usize].z > knee));
+    assert_eq!(found((&skeleton, &mesh), (&skeleton, None)), []);
+}
+
+#[test]
+fn a_bone_that_cuts_a_corner_outside_of_the_body_is_found_and_stays() {
+    // Without its elbow, an arm that is bent at a right angle.
+    let (r, far) = (0.1, 1.0);
+    let boxed = |low: DVec3, high: DVec3| {
+        let corner =
+            |k: usize| DVec3::new([low.x, high.x][k & 1], [low.y, high.y][k >> 1 & 1], [low.z, high.z][k >> 2]);
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        TriangleMesh::from_corners(halves.map(move |t| t.map(corner)))
+    };
+    let mut mesh = boxed(DVec3::splat(-r), DVec3::new(far, r, r));
+    let other = boxed(DVec3::splat(-r), DVec3::new(r, far, r));
+    mesh.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + mesh.positions.len() as u32)));
+    mesh.positions.extend(other.positions);
+    let skeleton = Skeleton { joints: vec![DVec3::X * 0.9, DVec3::Y * 0.9], bones: vec![[0, 1]] };
+    let found = found((&skeleton, &mesh), (&skeleton, None));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].fault, found[0].place), (JointFault::BoneOutside, None));
+    assert!((found[0].length - 0.35).abs() < 0.01, "{found:?}");
+}
+
+#[test]
+fn points_are_inside_where_all_directions_meet_the_surface() {
+    // A brute-force twin of the winding number: the share of directions that leave through the surface.
+    let (mesh, skeleton) = body(Kind::Creature);
+    let flesh = Flesh::new(mesh.clone());
+    let tree = bespoke::geometry::closest_point::ClosestPoint::new(&mesh);
+    for &joint in &skeleton.joints {
+        for p in [joint, joint + DVec3::new(0.0, 1.5, 0.0)] {
+            let all = bespoke::stage::plausibility::cover(&tree, p) > 0.999;
+            assert_eq!(flesh.contains(p), all, "{p} {}", flesh.winding(p));
+            assert_eq!(flesh.excludes(p), !all);
+        }
+    }
+}
