@@ -494,7 +494,8 @@ typedef struct BespokeOptions {
   /// Weight of the fit term, higher is tighter. Default 2. BESPOKE_WEIGHT_OFF: no fit.
   double fit_weight;
   /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
-  /// the garment had on it [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF: tight, as without a source avatar.
+  /// the garment had on it, in proportion to the limb there [up to 2]. Default 1, as designed. BESPOKE_WEIGHT_OFF:
+  /// tight, as without a source avatar.
   double designed_clearance;
   /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
   /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.

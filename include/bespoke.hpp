@@ -728,7 +728,8 @@ struct Options {
     /// Weight of the fit term, higher is tighter. Default 2. weight_off: no fit.
     double fit_weight = 0.0;
     /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point of
-    /// the garment had on it [up to 2]. Default 1, as designed. weight_off: tight, as without a source avatar.
+    /// the garment had on it, in proportion to the limb there [up to 2]. Default 1, as designed. weight_off: tight, as
+    /// without a source avatar.
     double designed_clearance = 0.0;
     /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
     /// of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.

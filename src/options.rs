@@ -14,7 +14,7 @@ macro_rules! option_table {
             /// Weight of the fit term (Eq. 4): higher is tighter.
             fit_weight: f64 = 2.0, in NotNegative, off = 0.0;
             /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each
-            /// point had on it. 1 is as designed; 0 is tight, as without a source avatar.
+            /// point had on it, in proportion to the limb there. 1 is as designed; 0 is tight, as without a source avatar.
             designed_clearance: f64 = 1.0, in Between(0.0, 2.0), off = 0.0;
             /// Clearance to aim at everywhere, in addition to the designed one, in the target's unit.
             offset: f64 = 0.0, in NotNegative;

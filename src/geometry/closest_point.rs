@@ -20,6 +20,8 @@ pub struct Closest {
     pub triangle: u32,
     /// The point itself.
     pub point: DVec3,
+    /// The normal of the triangle, twice its area long.
+    pub normal: DVec3,
 }
 
 /// A box of the tree, stored in depth-first order: the first child of an inner box follows it.
@@ -83,8 +85,10 @@ impl ClosestPoint {
     /// The closest point to `p`; none without any triangle.
     pub fn closest(&self, p: DVec3) -> Option<Closest> {
         let (squared, slot) = self.search(p, None)?;
-        let point = closest_on_triangle(p, &self.corners[slot]);
-        Some(Closest { distance: squared.sqrt(), triangle: self.triangles[slot], point })
+        let [a, b, c] = self.corners[slot];
+        let point = closest_on_triangle(p, &[a, b, c]);
+        let normal = (b - a).cross(c - a);
+        Some(Closest { distance: squared.sqrt(), triangle: self.triangles[slot], point, normal })
     }
 
     /// The slot, in the tree's order, of a triangle closest to `p`: a hint for
@@ -102,6 +106,38 @@ impl ClosestPoint {
     /// Whether the half-line from `p` along `direction` meets a triangle. A triangle that it meets in an edge or a corner, or
     /// that it lies in, may count or not.
     pub fn meets_ray(&self, p: DVec3, direction: DVec3) -> bool {
+        let mut meets = false;
+        self.along_ray(p, direction, |_, _| {
+            meets = true;
+            false
+        });
+        meets
+    }
+
+    /// Where the half-line from `p` along `direction` first meets a triangle, in multiples of `direction`. Edges and corners as
+    /// for [`Self::meets_ray`].
+    pub fn first_hit(&self, p: DVec3, direction: DVec3) -> Option<f64> {
+        let mut first = None;
+        self.along_ray(p, direction, |along, _| {
+            first = Some(first.map_or(along, |first: f64| first.min(along)));
+            true
+        });
+        first
+    }
+
+    /// How often the half-line from `p` along `direction` leaves through the front of a triangle, less how often it enters. Edges
+    /// and corners as for [`Self::meets_ray`].
+    pub fn crossings(&self, p: DVec3, direction: DVec3) -> i32 {
+        let mut count = 0;
+        self.along_ray(p, direction, |_, [a, b, c]| {
+            count += if (*b - *a).cross(*c - *a).dot(direction) > 0.0 { 1 } else { -1 };
+            true
+        });
+        count
+    }
+
+    /// Calls `visit` with each triangle that the half-line meets and where, in no order, until it returns false.
+    fn along_ray(&self, p: DVec3, direction: DVec3, mut visit: impl FnMut(f64, &[DVec3; 3]) -> bool) {
         let inverse = direction.recip();
         let meets_box = |node: &Node| {
             let (to_low, to_high) = ((node.low - p) * inverse, (node.high - p) * inverse);
@@ -125,11 +161,14 @@ impl ClosestPoint {
                 continue;
             }
             let from = node.start as usize;
-            if self.corners[from..from + node.count as usize].iter().any(|c| ray_triangle(p, direction, c).is_some()) {
-                return true;
+            for corners in &self.corners[from..from + node.count as usize] {
+                if let Some(along) = ray_triangle(p, direction, corners)
+                    && !visit(along, corners)
+                {
+                    return;
+                }
             }
         }
-        false
     }
 
     /// Squared distance and slot of the closest triangle.

@@ -19,8 +19,7 @@ impl Problem {
     /// The objective of the fit: the avatar stands still, as the caller gave it, with `field` as its distance. The integral
     /// of Eq. 4 is over the current surface; its measure is taken from the garment at the beginning of the fit, `x`, and
     /// then kept, for a measure that follows the garment would pay for shrinking it. Where the source body is known, each
-    /// point aims at the clearance that it had there, without regard to the side; both bodies are measured in units of
-    /// their skeletons.
+    /// point aims at the clearance that it had there, in proportion to the limb around which it is.
     ///
     /// # Errors
     /// `InvalidArgument` for a clearance that is not finite.
@@ -45,7 +44,7 @@ impl Problem {
         };
         if let Some(body) = &self.source_body {
             let designed = fit.sample_points(&self.rest);
-            let designed = designed.par_iter().map(|&p| wanted(options.designed_clearance * body.distance(p)));
+            let designed = designed.par_iter().map(|&p| wanted(options.designed_clearance * body.clearance(p)));
             fit.set_clearances(&designed.collect::<Vec<_>>())?;
         } else if self.offset > 0.0 {
             fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;

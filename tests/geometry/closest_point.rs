@@ -1,6 +1,6 @@
 //! Closest points against brute force and known answers.
 
-use bespoke::geometry::closest_point::{ClosestPoint, barycentric, closest_on_triangle};
+use bespoke::geometry::closest_point::{ClosestPoint, barycentric, closest_on_triangle, ray_triangle};
 use bespoke::geometry::mesh::TriangleMesh;
 use glam::DVec3;
 
@@ -64,6 +64,37 @@ fn tree_agrees_with_brute_force() {
             assert_eq!(closest_on_triangle(p, &corners), closest.point);
         }
     }
+}
+
+/// First hits and signed crossings against all triangles, one by one.
+#[test]
+fn rays_agree_with_brute_force() {
+    let mut random = Random::new(5);
+    let mut mesh = TriangleMesh::default();
+    for _ in 0..300 {
+        let (centre, first) = (random.vector(), mesh.positions.len() as u32);
+        mesh.positions.extend([(); 3].map(|()| centre + 0.3 * random.vector()));
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    let tree = ClosestPoint::new(&mesh);
+    let mut met = 0;
+    for _ in 0..400 {
+        let (p, direction) = (1.2 * random.vector(), random.vector());
+        let corners = mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize]));
+        let hits: Vec<(f64, bool)> = corners
+            .filter_map(|c| {
+                let along = ray_triangle(p, direction, &c)?;
+                Some((along, (c[1] - c[0]).cross(c[2] - c[0]).dot(direction) > 0.0))
+            })
+            .collect();
+        let first = hits.iter().map(|hit| hit.0).reduce(f64::min);
+        let crossings: i32 = hits.iter().map(|hit| if hit.1 { 1 } else { -1 }).sum();
+        assert_eq!(tree.first_hit(p, direction), first);
+        assert_eq!(tree.crossings(p, direction), crossings);
+        assert_eq!(tree.meets_ray(p, direction), first.is_some());
+        met += usize::from(first.is_some());
+    }
+    assert!((50..350).contains(&met), "{met}");
 }
 
 #[test]

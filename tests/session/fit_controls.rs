@@ -94,17 +94,20 @@ fn what_was_designed_far_from_the_body_hangs() {
 }
 
 #[test]
-fn the_designed_clearance_comes_back_where_the_body_is_thicker() {
+fn the_designed_clearance_comes_back_in_proportion_where_the_body_is_thicker() {
     let run = |designed_clearance: f64| {
         let mut session = session(1.0, DVec3::ZERO);
         session.set_source_avatar(thin_arm()).unwrap();
         session.set_options(Options { designed_clearance, fit_weight: 100.0, ..Options::default() }).unwrap();
         mean(&clearances(&dressed(&mut session), &thick_arm()))
     };
-    let designed = mean(&clearances(&sleeve().positions, &thin_arm()));
+    // The thick arm is 0.36 + 0.1 z^2 thick where the thin one is 0.2, and so much looser the sleeve is to be.
+    let thicker = |p: &DVec3| (0.36 + 0.1 * p.z * p.z) / 0.2;
+    let ratios: Vec<f64> = sleeve().positions.iter().map(thicker).collect();
+    let designed = mean(&clearances(&sleeve().positions, &thin_arm())) * mean(&ratios);
     let [tight, half, full] = [0.0, 0.5, 1.0].map(run);
     assert!(tight < 0.3 * designed && tight < half && half < full, "{tight} {half} {full}, designed {designed}");
-    assert!((full - designed).abs() < 0.2 * designed, "{full} instead of {designed}");
+    assert!((full - designed).abs() < 0.1 * designed, "{full} instead of {designed}");
 }
 
 #[test]

@@ -18,5 +18,6 @@ mod pin_targets;
 mod plausibility;
 mod projection;
 mod repair;
+mod source_body;
 mod untangle;
 mod weight_check;

@@ -19,8 +19,8 @@ namespace Bespoke
 
         /// <summary>
         /// Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point
-        /// of the garment had on it [up to 2]. Default 1, as designed. <see cref="Options.WeightOff"/>: tight, as
-        /// without a source avatar.
+        /// of the garment had on it, in proportion to the limb there [up to 2]. Default 1, as designed.
+        /// <see cref="Options.WeightOff"/>: tight, as without a source avatar.
         /// </summary>
         public double DesignedClearance { get; set; }
 

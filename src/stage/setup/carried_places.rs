@@ -3,22 +3,22 @@
 //! Each vertex goes along with the bones around it ([`BoneMap`]). Then the piece is brought to its clearance,
 //!
 //! ```text
-//! D(p_v) = c_v = max(s k |source body - rest_v| + offset, 2 dhat),
+//! D(p_v) = c_v = max(s k max(0, D_s(rest_v)) + offset, 2 dhat),
 //! ```
 //!
-//! D the signed distance to the target body with what it wears, s the scale of the similarity nearest to the map of the piece,
-//! and k the option `designed_clearance`. Without a source body the piece touches the target body where it comes nearest to it,
-//! for it is worn, and is as much looser elsewhere as the map has it. A soft piece moves vertex by vertex, along normals of the
-//! body that are smoothed over the piece. A stiff one keeps the shape of that similarity, and moves and turns as a whole: what is
-//! near to the body decides.
+//! D the signed distance to the target body with what it wears, D_s that to the source body, s the scale of the similarity
+//! nearest to the map of the piece, and k the option `designed_clearance`. Without a source body the piece touches the target
+//! body where it comes nearest to it, for it is worn, and is as much looser elsewhere as the map has it. A soft piece moves vertex
+//! by vertex, along normals of the body that are smoothed over the piece. A stiff one keeps the shape of that similarity, and
+//! moves and turns as a whole: what is near to the body decides.
 
 use glam::{DQuat, DVec3};
 
 use super::bone_map::BoneMap;
 use super::carried_pieces::CarriedPiece;
+use super::source_body::SourceBody;
 use crate::energy::pin::{Pin, Pins};
 use crate::geometry::alignment::Similarity;
-use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::{TriangleMesh, triangle_area};
 use crate::sdf::Field;
 
@@ -82,7 +82,7 @@ impl CarriedPlaces {
         garment: &TriangleMesh,
         carried: &[CarriedPiece],
         map: &BoneMap,
-        source_body: Option<&ClosestPoint>,
+        source_body: Option<&SourceBody>,
         looseness: f64,
     ) -> Self {
         let mut local = vec![u32::MAX; garment.positions.len()];
@@ -99,7 +99,8 @@ impl CarriedPlaces {
             }
         }
         let designed = |rest: &[DVec3], scale: f64| {
-            let at = |body: &ClosestPoint| rest.iter().map(|&p| scale * looseness * body.distance(p)).collect();
+            let outside = |body: &SourceBody, p: DVec3| body.signed_distance(p).max(0.0);
+            let at = |body: &SourceBody| rest.iter().map(|&p| scale * looseness * outside(body, p)).collect();
             source_body.map(at)
         };
         let piece = |(carried, triangles): (&CarriedPiece, Vec<[u32; 3]>)| {

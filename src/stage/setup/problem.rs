@@ -16,10 +16,10 @@ use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
 use super::shape::{HeldPieces, Shape, rigid};
+use super::source_body::SourceBody;
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Bone, Diagnostic};
@@ -101,7 +101,7 @@ pub struct Problem {
     /// Fit weight of each garment vertex.
     pub fit_weights: Vec<f64>,
     /// The body that the garment was designed on.
-    pub source_body: Option<ClosestPoint>,
+    pub source_body: Option<SourceBody>,
     /// The clearance to aim at in addition to the designed one.
     pub offset: f64,
     /// The pieces that are around no bone, and where they go.
@@ -171,12 +171,13 @@ impl Problem {
             positions: source_normalization.normalise_all(&mesh.positions),
             triangles: mesh.triangles.clone(),
         });
-        let source_tree = source_body.as_ref().map(ClosestPoint::new);
+        let designed_on = source_body.as_ref().map(|body| SourceBody::new(body, source, target, &avatar.avatar()));
+        let source_surface = designed_on.as_ref().map(|body| &body.surface);
         let mut loose = LoosePieces::find(&garment.positions, &garment.triangles);
         let hanging = HangingPieces::find(&garment.positions, &garment.triangles, source, &loose);
         loose.holds.extend(hanging.holds);
         loose.hanging = hanging.pieces;
-        let pieces = carried_pieces::find(garment, &loose, &segments, source, source_tree.as_ref());
+        let pieces = carried_pieces::find(garment, &loose, &segments, source, source_surface);
         if !carried_pieces::is_whole(garment, &pieces) {
             enclosure::check(garment, &segments)?;
         }
@@ -186,7 +187,7 @@ impl Problem {
             CarriedPlaces::default()
         } else {
             let map = BoneMap::new(source, target, bodies);
-            CarriedPlaces::new(garment, &pieces, &map, source_tree.as_ref(), options.designed_clearance)
+            CarriedPlaces::new(garment, &pieces, &map, designed_on.as_ref(), options.designed_clearance)
         };
         // A strict caller asks to be refused, so nothing is pulled apart for him.
         let untangled =
@@ -204,10 +205,10 @@ impl Problem {
             triangle: weld.triangle_of[piece.triangle as usize],
             bone: Bone { index: piece.bone, joints: source.bones[piece.bone as usize] },
             distance: piece.distance,
-            from_body: source_tree.is_some(),
+            from_body: source_surface.is_some(),
             stiff: piece.stiff,
         });
-        let mut fit_weights = match (inputs.fit_weights, &source_tree) {
+        let mut fit_weights = match (inputs.fit_weights, source_surface) {
             (Some(weights), _) => weights.to_vec(),
             (None, Some(body)) => fit_region(&garment.positions, body, options.fit_distance),
             (None, None) => vec![1.0; garment.positions.len()],
@@ -241,7 +242,7 @@ impl Problem {
             skeletons: [source, target],
             shape: Arc::new(shape),
             fit_weights,
-            source_body: source_tree,
+            source_body: designed_on,
             offset,
             carried,
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
@@ -272,7 +273,7 @@ impl Problem {
             + bytes(&projected.bones)
             + bytes(&self.fit_weights)
             + self.untangled.as_ref().map_or(0, |untangled| bytes(&untangled.start))
-            + self.source_body.as_ref().map_or(0, ClosestPoint::memory)
+            + self.source_body.as_ref().map_or(0, SourceBody::memory)
     }
 
     /// Where the garment begins, and the pairs of its triangles that intersect there: pulled apart where that could be done and

@@ -1,5 +1,6 @@
 //! The figures of the paper's evaluation: what is dressed for each, what is measured, and the claims it has to keep.
 
+pub mod clearance;
 pub mod comparison;
 pub mod curve_term;
 pub mod dressed;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::figure::Outcome;
 use closet::Sample;
 use closet::mesh::Mesh;
-use closet::skeleton::{ARMS, WAIST};
+use closet::skeleton::{ARMS, NECK, ROOT, WAIST};
 use gallery::pair;
 
 /// A boundary loop whose mean is nearer than this to the middle of the body, in metres, is around it.
@@ -45,6 +45,27 @@ pub fn waist_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
     let at_waist = |p: &&DVec3| (p.z - waist).abs() < WAISTBAND && p.x.abs() < 0.8 * shoulder;
     let distances: Vec<f64> = garment.positions.iter().filter(at_waist).map(|&p| skin.distance(p)).collect();
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
+}
+
+/// The radius of a body's trunk around its waist, in metres: the mean of what is seen across the spine, without the farthest
+/// quarter, for a tail is no part of it.
+pub fn waist_radius(body: &Sample) -> f64 {
+    const RAYS: u32 = 64;
+    let joints = body.skeleton.joints;
+    let skin = ClosestPoint::new(&pair::mesh(&body.mesh));
+    let radius = |(from, to, along): (usize, usize, f64)| {
+        let (u, v) = (joints[to] - joints[from]).normalize().any_orthonormal_pair();
+        let seen = |k: u32| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(RAYS)).sin_cos();
+            skin.first_hit(joints[from].lerp(joints[to], along), cos * u + sin * v)
+        };
+        let mut lengths: Vec<f64> = (0..RAYS).filter_map(seen).collect();
+        lengths.sort_by(f64::total_cmp);
+        lengths.truncate(lengths.len() * 3 / 4);
+        lengths.iter().sum::<f64>() / lengths.len().max(1) as f64
+    };
+    let places = [(ROOT, WAIST, 0.7), (ROOT, WAIST, 1.0), (WAIST, NECK, 0.0), (WAIST, NECK, 0.1)];
+    places.map(radius).iter().sum::<f64>() / places.len() as f64
 }
 
 /// The two sides of a V, from its point upwards.
