@@ -101,6 +101,8 @@ pub enum JointFault {
     Outside,
     /// Its bone is no limb's: it runs between parts of the body, as one to a root on the floor does.
     Stray,
+    /// Limbs branch off there and leave the body above it, so that what goes on beyond, as a head does, begins among them.
+    Low,
     /// It is inside, but its bone leaves the body on the way to it.
     BoneOutside,
 }

@@ -192,6 +192,11 @@ impl Display for Diagnostic {
                         "{name}: the bone between joints {from} and {joint} runs outside of the body, between its parts, over \
                          {size}"
                     )?,
+                    JointFault::Low => write!(
+                        f,
+                        "{name}: joint {joint} lies too low, by {size}: limbs branch off there and leave the body above it, so \
+                         that the head beyond it begins below the collar"
+                    )?,
                     JointFault::BoneOutside => write!(
                         f,
                         "{name}: the bone between joints {from} and {joint} leaves the body, by {size}, although both are inside"
@@ -206,7 +211,7 @@ impl Display for Diagnostic {
                 }
                 match fault {
                     JointFault::Stray => f.write_str(", or leave it out of both skeletons"),
-                    JointFault::Outside | JointFault::BoneOutside => Ok(()),
+                    _ => Ok(()),
                 }
             }
             Self::WeightsContradict { count, weighted, first, example, mended } => {

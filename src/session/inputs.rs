@@ -324,7 +324,8 @@ impl Inputs {
         let body = Body::with_roles(avatar, &self.layers, &self.resolve_roles(avatar, &target, diagnostics)?)?;
         let posed_body = body.with_mesh(mesh_to_internal(&target_system, &body.mesh));
         let mut target = skeleton_to_internal(&target_system, &target);
-        let misplaced = misplaced_joints([&target, &source], [Some(&posed_body.avatar()), source_avatar.as_ref()]);
+        let bodies = [Some(&posed_body.avatar()), source_avatar.as_ref()];
+        let misplaced = misplaced_joints([&target, &source], bodies, &garment);
         cancel.check()?;
         let mends = !self.options.strict;
         diagnostics.extend(misplaced.iter().map(|joint| match joint.skeleton {
@@ -389,10 +390,14 @@ impl Inputs {
 }
 
 /// The joints of the target and of the source skeleton that do not lie where the bodies want them.
-fn misplaced_joints([target, source]: [&Skeleton; 2], [avatar, worn_by]: [Option<&TriangleMesh>; 2]) -> Vec<Misplaced> {
+fn misplaced_joints(
+    [target, source]: [&Skeleton; 2],
+    [avatar, worn_by]: [Option<&TriangleMesh>; 2],
+    garment: &TriangleMesh,
+) -> Vec<Misplaced> {
     let target = Figure::new(Subject::TargetSkeleton, target, avatar);
     let source = Figure::new(Subject::SourceSkeleton, source, worn_by);
-    target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(&target, &source))
+    target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(target, source, garment))
 }
 
 fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {

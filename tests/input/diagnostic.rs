@@ -196,6 +196,22 @@ fn every_sentence_is_made_of_its_data() {
             Diagnostic::JointMisplaced {
                 skeleton: Subject::TargetSkeleton,
                 bone: BONE,
+                fault: JointFault::Low,
+                distance: 0.5,
+                length: 0.125,
+                share: 0.5,
+                place: Some([0.0, 1.125, 0.01]),
+                mended: true,
+            },
+            "target skeleton: joint 7 lies too low, by 0.125 (0.50 of the bone from joint 5): limbs branch off there and leave \
+             the body above it, so that the head beyond it begins below the collar; joint 7 belongs at (0, 1.125, 0.01), where \
+             it is taken to lie; move it there"
+                .into(),
+        ),
+        (
+            Diagnostic::JointMisplaced {
+                skeleton: Subject::TargetSkeleton,
+                bone: BONE,
                 fault: JointFault::BoneOutside,
                 distance: 0.5,
                 length: 0.25,

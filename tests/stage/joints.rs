@@ -21,7 +21,12 @@ fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
 fn found(target: (&Skeleton, &TriangleMesh), source: (&Skeleton, Option<&TriangleMesh>)) -> Vec<Misplaced> {
     let target = Figure::new(Subject::TargetSkeleton, target.0, Some(target.1)).unwrap();
     let source = Figure::new(Subject::SourceSkeleton, source.0, source.1).unwrap();
-    find(&target, &source)
+    find(target, source, &jacket())
+}
+
+/// A jacket on the mannequin.
+fn jacket() -> TriangleMesh {
+    bodies::mesh(&sample(Kind::Jacket))
 }
 
 fn mended(skeleton: &Skeleton, subject: Subject, found: &[Misplaced]) -> Skeleton {
@@ -149,6 +154,45 @@ fn a_bone_that_cuts_a_corner_outside_of_the_body_is_found_and_stays() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!((found[0].fault, found[0].place), (JointFault::BoneOutside, None));
     assert!((found[0].length - 0.35).abs() < 0.01, "{found:?}");
+}
+
+/// A body whose arms branch off at the neck, as in many rigs of games.
+fn with_arms_at_the_neck(kind: Kind) -> (TriangleMesh, Skeleton) {
+    let (mesh, mut skeleton) = body(kind);
+    for bone in &mut skeleton.bones {
+        if [[1, 3], [1, 6]].contains(bone) {
+            bone[0] = 2;
+        }
+    }
+    (mesh, skeleton)
+}
+
+#[test]
+fn arms_that_branch_off_at_the_neck_are_no_mistake() {
+    for (target, source) in KINDS.into_iter().zip(KINDS.into_iter().cycle().skip(1)) {
+        let (target, source) = (with_arms_at_the_neck(target), with_arms_at_the_neck(source));
+        assert_eq!(found((&target.1, &target.0), (&source.1, None)), []);
+        assert_eq!(found((&target.1, &target.0), (&source.1, Some(&source.0))), []);
+    }
+}
+
+#[test]
+fn a_neck_between_the_arms_goes_above_them() {
+    let ((mesh, right), (worn_by, designed_on)) =
+        (with_arms_at_the_neck(Kind::Mannequin), with_arms_at_the_neck(Kind::Mannequin));
+    let mut low = right.clone();
+    low.joints[2] = right.joints[2].lerp(right.joints[1], 0.5);
+    let check = |found: Vec<Misplaced>, subject| {
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!((found[0].skeleton, found[0].joint(), found[0].fault), (subject, 2, JointFault::Low));
+        let (is, was) = (mended(&low, subject, &found).joints[2], right.joints[2]);
+        assert!(is.distance(was) < 0.4 * low.joints[2].distance(was), "{is} for {was} from {}", low.joints[2]);
+    };
+    check(found((&low, &mesh), (&designed_on, None)), Subject::TargetSkeleton);
+    check(found((&low, &mesh), (&designed_on, Some(&worn_by))), Subject::TargetSkeleton);
+    check(found((&right, &mesh), (&low, Some(&worn_by))), Subject::SourceSkeleton);
+    // The same on both sides says the same twice.
+    assert_eq!(found((&low, &mesh), (&low, Some(&worn_by))), []);
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! 2 long, but for those of [`Misplaced::length`] and [`Misplaced::place`].
 
 mod flesh;
+mod neck;
 mod outside;
 
 use glam::DVec3;
@@ -75,13 +76,26 @@ impl Figure {
     /// The figure of `skeleton` with its `body`; none for a skeleton without size.
     pub fn new(subject: Subject, skeleton: &Skeleton, body: Option<&TriangleMesh>) -> Option<Self> {
         let scale = SIDE / skeleton.longest_side("").ok()?;
-        let scaled = |points: &[DVec3]| points.iter().map(|&p| p * scale).collect();
-        let flesh = body.map(|mesh| {
-            Flesh::new(TriangleMesh { positions: scaled(&mesh.positions), triangles: mesh.triangles.clone() })
-        });
         let graph = BoneGraph::new(skeleton);
-        let skeleton = Skeleton { joints: scaled(&skeleton.joints), bones: skeleton.bones.clone() };
-        Some(Self { subject, skeleton, flesh, graph, scale })
+        let joints = skeleton.joints.iter().map(|&p| p * scale).collect();
+        let skeleton = Skeleton { joints, bones: skeleton.bones.clone() };
+        let figure = Self { subject, skeleton, flesh: None, graph, scale };
+        Some(Self { flesh: body.map(|mesh| Flesh::new(figure.scaled(mesh))), ..figure })
+    }
+
+    /// A mesh in the skeleton's own coordinates, as large as the skeleton is here.
+    fn scaled(&self, mesh: &TriangleMesh) -> TriangleMesh {
+        let positions = mesh.positions.iter().map(|&p| p * self.scale).collect();
+        TriangleMesh { positions, triangles: mesh.triangles.clone() }
+    }
+
+    /// Takes the joints that were found to their better places.
+    fn take(&mut self, found: &[Misplaced]) {
+        for misplaced in found.iter().filter(|misplaced| misplaced.skeleton == self.subject) {
+            if let Some(place) = misplaced.place {
+                self.skeleton.joints[misplaced.joint() as usize] = place * self.scale;
+            }
+        }
     }
 
     /// The joint at the other end of a bone.
@@ -109,9 +123,17 @@ impl Figure {
     }
 }
 
-/// The joints of both skeletons that lie wrong: at most one finding for each joint.
-pub fn find(target: &Figure, source: &Figure) -> Vec<Misplaced> {
-    outside::find(target, source)
+/// The joints of both skeletons that lie wrong; `garment` is in the coordinates of the source skeleton. Each check sees the
+/// joints where those before it have put them.
+pub fn find(mut target: Figure, mut source: Figure, garment: &TriangleMesh) -> Vec<Misplaced> {
+    let mut found = outside::find(&target, &source);
+    for figure in [&mut target, &mut source] {
+        figure.take(&found);
+    }
+    let garment = source.scaled(garment);
+    found.extend(neck::find(&target, &source, Some(&garment)));
+    found.extend(neck::find(&source, &target, None));
+    found
 }
 
 /// Takes the joints that were found in `skeleton` to their better places.
