@@ -6,6 +6,10 @@
 //! m. Along `a = grad d` (`a_i = w_i r / d`) the derivatives of a pair are `g = m db/dd` and `h = m max(0, d2b/dd2)`,
 //! and the mollifier adds `b grad m` to the gradient.
 //!
+//! Two parts of the garment that are nearer to each other at rest than its d-hat are to stay so: a lining, or the two faces of a
+//! cloth that has a thickness. The d-hat of such a pair is a share of its distance at rest, and its weight grows as that shrinks, so
+//! that it pushes as hard at the same fraction of its own d-hat. Both are constants of the pair, so the barrier is as smooth.
+//!
 //! The Hessian is `h a a^T`: it leaves out how the distance curves (`contact/curvature.rs`). On request it has the half of
 //! that which closes gaps, `-g q q^T / 2`. The other half would take its definiteness, and with one half alone the garment is
 //! too stiff to slide: it converges more slowly where contact does not make the steps short.
@@ -28,6 +32,9 @@ const CHUNK: usize = 2048;
 /// [`BarrierSettings::self_weight`].
 const INTERSECTING_SHARE: f64 = 1.0 / 16.0;
 
+/// d-hat of a pair in minimum separations, at least: the barrier needs a range above it.
+const LEAST_DHAT: f64 = 4.0;
+
 /// The shape of the barrier. Lengths are in the normalised space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarrierSettings {
@@ -41,6 +48,8 @@ pub struct BarrierSettings {
     pub min_separation_intersecting: f64,
     /// Factor on the pairs with the avatar.
     pub avatar_weight: f64,
+    /// d-hat of a pair of the garment with itself as a share of its distance at rest, at most; infinite for none.
+    pub rest_share: f64,
 }
 
 /// How the barrier changes along a continuation path in its parameter s: logarithmic rates per unit of s.
@@ -60,12 +69,13 @@ impl Default for BarrierSettings {
             min_separation: 1e-5,
             min_separation_intersecting: 1e-5,
             avatar_weight: 1.0,
+            rest_share: f64::INFINITY,
         }
     }
 }
 
 impl BarrierSettings {
-    /// Distance below which a group repels.
+    /// Distance below which a group repels, at most.
     #[inline]
     pub fn dhat(&self, group: CollisionGroup) -> f64 {
         match group {
@@ -102,7 +112,7 @@ impl BarrierSettings {
     }
 }
 
-/// Number of close pairs and the smallest distances at a configuration.
+/// Number of close pairs and the smallest distances at a configuration. Close are pairs below the d-hat of their group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Activity {
     /// Number of pairs closer than their d-hat.
@@ -126,12 +136,21 @@ pub struct Barrier {
     settings: BarrierSettings,
     path: Option<BarrierPathRates>,
     is_curved: bool,
+    /// Vertices whose distances at rest say nothing; empty for none.
+    intersects_at_rest: Vec<bool>,
 }
 
 impl Barrier {
     /// A barrier without candidates.
     pub fn new(bodies: Arc<Bodies>, settings: BarrierSettings) -> Self {
-        Self { bodies, candidates: CandidateSet::default(), settings, path: None, is_curved: false }
+        Self {
+            bodies,
+            candidates: CandidateSet::default(),
+            settings,
+            path: None,
+            is_curved: false,
+            intersects_at_rest: Vec::new(),
+        }
     }
 
     /// The bodies in contact.
@@ -163,6 +182,33 @@ impl Barrier {
     /// vertices and s, while t must be constant; with `None` it is t.
     pub fn set_barrier_path(&mut self, path: Option<BarrierPathRates>) {
         self.path = path;
+    }
+
+    /// Marks garment vertices where the rest shape passes through itself. Pairs of such vertices alone have the d-hat of their
+    /// group, whatever their distance at rest.
+    pub fn set_intersecting_at_rest(&mut self, intersects_at_rest: Vec<bool>) {
+        self.intersects_at_rest = intersects_at_rest;
+    }
+
+    /// d-hat of a pair.
+    #[inline]
+    fn dhat(&self, close: &ClosePair) -> f64 {
+        let dhat = self.settings.dhat(close.group);
+        let intersects_at_rest = |&v: &u32| self.intersects_at_rest.get(v as usize).is_some_and(|&is| is);
+        if close.group != CollisionGroup::Garment
+            || self.settings.rest_share.is_infinite()
+            || close.pair.iter().all(intersects_at_rest)
+        {
+            return dhat;
+        }
+        let at_rest = close.pair_type.separation(&close.pair.map(|i| self.bodies.rest(i))).squared.sqrt();
+        (self.settings.rest_share * at_rest).max(LEAST_DHAT * self.settings.min_separation).min(dhat)
+    }
+
+    /// The weight of a pair with this d-hat: see [`BarrierSettings::self_weight`].
+    #[inline]
+    fn weight(&self, group: CollisionGroup, dhat: f64) -> f64 {
+        self.settings.weight(group) * (self.settings.dhat(group) / dhat).powi(3)
     }
 
     /// Whether the Hessian is to have how the distances curve, where that closes gaps.
@@ -209,7 +255,7 @@ impl Barrier {
     pub fn nearer_than(&self, distance: f64, at: Configuration<'_>) -> Vec<(PairType, CollisionGroup, [u32; 4])> {
         let parts: Vec<Vec<_>> = self.map_chunks(|range| {
             let mut found = Vec::new();
-            self.each_close(at, range, |close| {
+            self.each_near(at, range, |close| {
                 if close.separation.squared < distance * distance {
                     found.push((close.pair_type, close.group, close.pair));
                 }
@@ -227,7 +273,7 @@ impl Barrier {
     fn activity_in(&self, at: Configuration<'_>, range: Range<usize>) -> Activity {
         let mut nearest = [f64::INFINITY; 3];
         let mut count = 0;
-        self.each_close(at, range, |close| {
+        self.each_near(at, range, |close| {
             count += 1;
             let nearest = &mut nearest[close.group as usize];
             *nearest = nearest.min(close.separation.squared);
@@ -236,9 +282,20 @@ impl Barrier {
         Activity { count, min_distance_self, min_distance_avatar, min_distance_intersecting }
     }
 
-    /// Calls `visit` with each candidate in `range` that is closer than its d-hat, in order.
+    /// Calls `visit` with each candidate in `range` that is closer than its own d-hat, in order, and with that.
     #[inline]
-    fn each_close(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair)) {
+    fn each_close(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair, f64)) {
+        self.each_near(at, range, |close| {
+            let dhat = self.dhat(&close);
+            if close.separation.squared < dhat * dhat {
+                visit(close, dhat);
+            }
+        });
+    }
+
+    /// Calls `visit` with each candidate in `range` that is closer than the d-hat of its group, in order.
+    #[inline]
+    fn each_near(&self, at: Configuration<'_>, range: Range<usize>, mut visit: impl FnMut(ClosePair)) {
         for run in self.candidates.ranges(range) {
             let dhat = self.settings.dhat(run.group);
             for &pair in run.pairs {
@@ -278,7 +335,7 @@ impl Barrier {
     }
 }
 
-/// A candidate closer than its d-hat.
+/// A candidate closer than the d-hat of its group.
 struct ClosePair {
     pair_type: PairType,
     group: CollisionGroup,
@@ -330,8 +387,7 @@ impl Energy for Barrier {
     /// Infinite if a candidate is at or below the minimum separation.
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let mut sum = 0.0;
-        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
-            let dhat = self.settings.dhat(group);
+        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation }, dhat| {
             let min_separation = self.settings.min_separation(group).powi(2);
             let big_d = separation.squared - min_separation;
             if big_d <= 0.0 {
@@ -344,21 +400,20 @@ impl Energy for Barrier {
                 PairType::PointTriangle => 1.0,
                 PairType::EdgeEdge => mollifier::value(&x, self.mollifier_threshold(pair)),
             };
-            sum += self.settings.weight(group) * m * b;
+            sum += self.weight(group, dhat) * m * b;
         });
         sum
     }
 
     /// Pairs at or below the minimum separation, where the value is infinite, have none.
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation, .. }| {
-            let dhat = self.settings.dhat(group);
+        self.each_close(at, range, |ClosePair { pair_type, group, pair, x, separation }, dhat| {
             let min_separation = self.settings.min_separation(group).powi(2);
             let big_d = separation.squared - min_separation;
             if big_d <= 0.0 {
                 return;
             }
-            let [b, db, ddb] = barrier(big_d, dhat * dhat - min_separation).map(|v| self.settings.weight(group) * v);
+            let [b, db, ddb] = barrier(big_d, dhat * dhat - min_separation).map(|v| self.weight(group, dhat) * v);
             let (m, slope) = match pair_type {
                 PairType::PointTriangle => (1.0, None),
                 PairType::EdgeEdge => mollifier::value_and_gradient(&x, self.mollifier_threshold(pair)),

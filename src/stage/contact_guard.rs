@@ -21,6 +21,9 @@ use crate::verify::intersecting;
 /// Where something is nearer than the minimum separation, that becomes this fraction of its distance.
 const SEPARATION_SHARE: f64 = 0.25;
 
+/// Parts of the garment that are near to each other at rest repel each other below this share of their distance there.
+const REST_SHARE: f64 = 0.95;
+
 /// The part of a step that is searched first, in multiples of the feasible fraction of the step before, and at least.
 const SEARCH_AHEAD: f64 = 2.5;
 const MIN_SEARCH: f64 = 0.05;
@@ -51,6 +54,7 @@ impl ContactGuard {
             dhat_self: distances.dhat_self,
             dhat_avatar: distances.inflation_dhat,
             min_separation: distances.min_separation,
+            rest_share: REST_SHARE,
             ..BarrierSettings::default()
         };
         let mut guard = Self {
@@ -106,6 +110,18 @@ impl ContactGuard {
     pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
         self.exempt_intersecting(at, initial_intersections.to_vec(), |_, _| true);
         self.update_min_separation(at, [0.0; 2]);
+    }
+
+    /// Says where the garment passes through itself as designed: there its distances at rest say nothing.
+    pub fn set_intersecting_at_rest(&mut self, designed_intersections: &[[u32; 2]]) {
+        let surface = &self.bodies.garment.surface;
+        let mut intersects_at_rest = Vec::new();
+        if !designed_intersections.is_empty() {
+            intersects_at_rest.resize(surface.vertex_count, false);
+            let triangles = designed_intersections.iter().flatten();
+            triangles.flat_map(|&t| surface.triangles[t as usize]).for_each(|v| intersects_at_rest[v as usize] = true);
+        }
+        self.barrier.set_intersecting_at_rest(intersects_at_rest);
     }
 
     /// Goes on from `previous`, the contact of the same garment: with its exempt pairs and its minimum separation.

@@ -50,6 +50,9 @@ impl Problem {
             fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;
         }
         let bodies = self.bodies(avatar);
-        Ok(Objective::new(self.shape.clone(), Some(fit), bodies, self.distances, options, cancel.clone()))
+        let mut objective =
+            Objective::new(self.shape.clone(), Some(fit), bodies, self.distances, options, cancel.clone());
+        objective.contact.set_intersecting_at_rest(&self.designed_intersections);
+        Ok(objective)
     }
 }

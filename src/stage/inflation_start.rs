@@ -75,7 +75,9 @@ impl Problem {
             motion,
         };
         let bodies = self.bodies(avatar);
-        Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone())
+        let mut objective = Objective::new(self.shape.clone(), None, bodies, self.distances, options, cancel.clone());
+        objective.contact.set_intersecting_at_rest(&self.designed_intersections);
+        objective
     }
 
     /// The objective of another attempt, with other settings of the contact.

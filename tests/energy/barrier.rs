@@ -18,6 +18,7 @@ const SETTINGS: BarrierSettings = BarrierSettings {
     min_separation: 1e-5,
     min_separation_intersecting: 1e-6,
     avatar_weight: 0.3,
+    rest_share: f64::INFINITY,
 };
 
 /// Which body each of the two primitives of a pair is on.
@@ -250,6 +251,66 @@ fn hessian_is_that_of_the_frozen_pair() {
             check_semidefinite(&case.barrier, &case.x, T, &mut || random.signed());
         });
     }
+}
+
+/// Pairs of the garment at these multiples of d-hat at rest, and at this fraction of their own d-hat now.
+fn near_at_rest(seed: u64, at_rest: f64, fraction: f64, mut each: impl FnMut(Case, f64)) {
+    let mut random = Random::new(seed);
+    let settings = BarrierSettings { rest_share: 0.9, ..SETTINGS };
+    for pair_type in [PairType::PointTriangle, PairType::EdgeEdge] {
+        for _ in 0..30 {
+            let shape: [DVec3; 4] = std::array::from_fn(|_| SIZE * random.vector());
+            let rest = placed(pair_type, shape, at_rest * SETTINGS.dhat_self);
+            let dhat = (0.9 * at_rest * SETTINGS.dhat_self).clamp(4.0 * SETTINGS.min_separation, SETTINGS.dhat_self);
+            let x = placed(pair_type, shape.map(|p| p + 0.1 * SIZE * random.vector()), fraction * dhat);
+            let mut case = Case::new(pair_type, Sides::Garment, x, rest);
+            case.barrier.set_settings(settings);
+            each(case, dhat);
+        }
+    }
+}
+
+#[test]
+fn a_pair_that_is_near_at_rest_repels_below_a_share_of_that() {
+    // The last is nearer than the minimum separation allows.
+    for (seed, at_rest) in [(13, 0.5), (14, 0.1), (15, 3.0), (16, 0.003)] {
+        near_at_rest(seed, at_rest, 1.001, |case, _| assert_eq!(case.barrier.value(case.at(), 0..1), 0.0));
+        near_at_rest(seed, at_rest, 0.7, |case, dhat| {
+            check_gradient(&case.barrier, &case.x, T, 1e-8, 1e-4);
+            let x = case.positions();
+            let d = case.pair_type.separation(&x).squared;
+            let (floor, top) = (SETTINGS.min_separation.powi(2), dhat * dhat);
+            let m = match case.pair_type {
+                PairType::PointTriangle => 1.0,
+                PairType::EdgeEdge => {
+                    mollifier::value(&x, mollifier::threshold(&case.pair.map(|i| case.barrier.bodies().rest(i))))
+                }
+            };
+            let weight = case.weight() * (SETTINGS.dhat_self / dhat).powi(3);
+            let expected = -weight * m * (d - top).powi(2) * ((d - floor) / (top - floor)).ln();
+            let value = case.barrier.value(case.at(), 0..1);
+            assert!((value - expected).abs() <= 1e-9 * expected && value > 0.0, "{value} instead of {expected}");
+        });
+    }
+}
+
+/// What is far apart at rest has all of its barrier, and so has what passes through itself there.
+#[test]
+fn other_pairs_have_the_d_hat_of_their_group() {
+    near_at_rest(17, 4.0, 0.9, |mut case, _| {
+        let capped = case.barrier.value(case.at(), 0..1);
+        case.barrier.set_settings(SETTINGS);
+        assert_eq!(case.barrier.value(case.at(), 0..1), capped);
+    });
+    near_at_rest(18, 0.2, 1.1, |mut case, _| {
+        assert_eq!(case.barrier.value(case.at(), 0..1), 0.0);
+        // Contact finds its minimum separation by what is near, repelled or not.
+        assert_eq!(case.barrier.activity(case.at()).count, 1);
+        case.barrier.set_intersecting_at_rest(vec![true, true, true, false]);
+        assert_eq!(case.barrier.value(case.at(), 0..1), 0.0);
+        case.barrier.set_intersecting_at_rest(vec![true; 4]);
+        assert!(case.barrier.value(case.at(), 0..1) > 0.0);
+    });
 }
 
 #[test]

@@ -18,6 +18,7 @@ mod plausibility;
 mod profile;
 mod shifted;
 mod small;
+mod thin_layers;
 mod threads;
 mod together;
 mod turned;
