@@ -12,3 +12,4 @@ pub mod closest_point;
 pub mod mesh;
 pub mod piece;
 pub mod sliver_caps;
+pub mod spread;

@@ -6,3 +6,4 @@ mod closest_point;
 mod mesh;
 mod piece;
 mod sliver_caps;
+mod spread;

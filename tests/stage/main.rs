@@ -8,6 +8,7 @@ mod contour;
 mod enclosure;
 mod fit_region;
 mod foreign_parts;
+mod hats;
 mod inside;
 mod joints;
 mod layer_skin;

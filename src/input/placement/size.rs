@@ -7,7 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::closest_on_segment;
-use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::spread::spread;
 use crate::input::coordinate_system::AxisTurn;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
@@ -234,31 +235,6 @@ impl Surroundings {
             .unwrap_or((cost, ratio));
         if (factor / ratio).ln().abs() < SAME_RATIO || cost - least < 0.1 { (cost, ratio) } else { (least, factor) }
     }
-}
-
-/// About `wanted` points spread over the surface by area, and a vertex beside each.
-fn spread(mesh: &TriangleMesh, wanted: usize) -> Vec<(DVec3, u32)> {
-    let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
-    let areas: Vec<f64> = mesh.triangles.iter().map(|t| triangle_area(corners(t))).collect();
-    let step = areas.iter().sum::<f64>() / wanted as f64;
-    let mut points = Vec::with_capacity(wanted);
-    let mut passed = 0.5 * step;
-    for (triangle, area) in mesh.triangles.iter().zip(areas) {
-        passed += area;
-        if passed < step || step == 0.0 {
-            continue;
-        }
-        // Of a large triangle several, along the line from a corner to the middle of the side opposite to it.
-        let [a, b, c] = corners(triangle);
-        let count = (passed / step).floor();
-        passed -= count * step;
-        let count = count.min(16.0) as usize;
-        for k in 0..count {
-            let along = ((k as f64 + 0.5) / count as f64).sqrt();
-            points.push((a.lerp(0.5 * (b + c), along), triangle[0]));
-        }
-    }
-    points
 }
 
 fn longest_side(points: impl Iterator<Item = DVec3>) -> f64 {

@@ -18,6 +18,7 @@ use super::winding::{Winding, windings};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::spread::spread;
 
 /// Between planes along a bone, in the normalised space.
 const SPACING: f64 = 0.02;
@@ -27,6 +28,10 @@ const MIN_LENGTH: f64 = 0.05;
 const FLAT: f64 = 0.35;
 /// Garment vertices whose nearest points on the skeleton are tested for [`enclosed_share`].
 const SAMPLES: usize = 64;
+/// A segment no longer than this has no plane across it.
+const NO_LENGTH: f64 = 1e-9;
+/// Points of the garment that are tested for [`enclosed_share_of_area`].
+const AREA_SAMPLES: usize = 128;
 
 /// What the connected pieces of a garment enclose.
 #[derive(Clone, Debug, Default)]
@@ -237,6 +242,12 @@ pub fn enclosed_share(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> f64 {
     enclosed_share_at(garment, segments, &samples, Gap::Half)
 }
 
+/// The same by area, whatever the triangles that the garment is cut into.
+pub fn enclosed_share_of_area(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> f64 {
+    let samples: Vec<DVec3> = spread(garment, AREA_SAMPLES).into_iter().map(|(p, _)| p).collect();
+    enclosed_share_at(garment, segments, &samples, Gap::Half)
+}
+
 /// The same for `samples` in place of the garment's own points, with the gap that may be left.
 pub fn enclosed_share_at(garment: &TriangleMesh, segments: &[[DVec3; 2]], samples: &[DVec3], widest: Gap) -> f64 {
     let enclosed: Vec<bool> = samples.par_iter().map(|&p| encloses_nearest(garment, segments, p, widest)).collect();
@@ -245,7 +256,9 @@ pub fn enclosed_share_at(garment: &TriangleMesh, segments: &[[DVec3; 2]], sample
 }
 
 fn encloses_nearest(garment: &TriangleMesh, segments: &[[DVec3; 2]], p: DVec3, widest: Gap) -> bool {
-    let candidates = segments.iter().map(|&[a, b]| {
+    // What is retracted to a point has no direction but that of rounding.
+    let long = segments.iter().filter(|[a, b]| a.distance(*b) > NO_LENGTH);
+    let candidates = long.map(|&[a, b]| {
         let point = closest_on_segment(p, a, b - a);
         (point.distance_squared(p), point, b - a)
     });

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::bent_skeleton::BentSkeleton;
-use super::enclosure::{Enclosure, Enclosures, surrounded};
+use super::enclosure::{Enclosure, Enclosures, enclosed_share_of_area, surrounded};
 use super::section::{Gap, Section};
 use crate::geometry::mesh::{NO_PIECE, TriangleMesh};
 
@@ -50,6 +50,11 @@ impl<'a> Design<'a> {
         }
         let pieces = own.into_iter().map(TriangleMesh::from_corners).collect();
         Self { garment, bones, enclosures, pieces, first }
+    }
+
+    /// The share of the garment's area that is around the nearest bone.
+    pub fn share(&self) -> f64 {
+        enclosed_share_of_area(self.garment, &self.bones)
     }
 
     /// The pairs of piece and bone of which `bent`, with the `extents` of the source's bones, has led the bone out of the piece.

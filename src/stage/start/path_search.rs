@@ -43,6 +43,8 @@ pub struct PathSearch<'a> {
     pub prefer_enclosed: Vec<bool>,
     /// What each bone must stay inside of, where it must.
     pub keep_inside: Vec<Option<Inside<'a>>>,
+    /// In how many of three planes the garment should enclose the root.
+    pub root_planes: u32,
 }
 
 /// A bent skeleton, and how it differs from the source.
@@ -75,7 +77,7 @@ const TOUCH: f64 = 1.0;
 const NEAR: f64 = 0.01;
 /// Cost of a length that the garment does not enclose.
 const NOT_ENCLOSED: f64 = 100.0;
-/// Cost of a root that the garment does not enclose, for each of three planes.
+/// Cost of a root that the garment does not enclose, for each of the planes in which it should.
 const ROOT_NOT_ENCLOSED: f64 = 1e4;
 /// Cost of retracting: at all, and a length of it; between joints, and beyond a leaf.
 const RETRACT_BONE: [f64; 2] = [1.0, 300.0];
@@ -149,7 +151,10 @@ impl PathSearch<'_> {
             if best.is_some_and(|(least, _)| values[r][k] >= least) {
                 break;
             }
-            let missing = 3 - enclosing_planes(self.garment, joints[r].point(k));
+            let missing = match self.root_planes {
+                0 => 0,
+                planes => planes.saturating_sub(enclosing_planes(self.garment, joints[r].point(k))),
+            };
             let value = values[r][k] + ROOT_NOT_ENCLOSED * f64::from(missing);
             if best.is_none_or(|(least, _)| value < least) {
                 best = Some((value, k));

@@ -32,6 +32,9 @@ const ROUNDS: [SearchSettings; 3] = [
 const MAX_RETRACTED: f64 = 0.2;
 /// The garment must enclose the bent skeleton for this share of it.
 const MIN_ENCLOSED_SHARE: f64 = 0.85;
+/// Where the design leaves more outside, the bent skeleton may leave so much more; and it encloses at least this share.
+const LOST_SHARE: f64 = 0.1;
+const MOST: f64 = 0.5;
 /// A bent skeleton with more joints than this is not tried: the table of paths between them grows with its square.
 const MAX_JOINTS: usize = 8192;
 /// A piece of this size, its bounding box's diagonal, has to stay around what it was around: a shoe, not a button.
@@ -117,6 +120,14 @@ fn find_penetrations(garment: &TriangleMesh, projected: &ProjectedAvatar, cancel
     Ok(found.pairs.iter().map(penetration).collect())
 }
 
+/// What the rounds of a search have found.
+#[derive(Default)]
+struct Found {
+    best: Option<Repair>,
+    /// What leaves more of the garment outside, and no more than the design does.
+    second: Option<Repair>,
+}
+
 /// A start that is clear of the garment.
 struct Repair {
     /// The length that is retracted between joints.
@@ -128,6 +139,10 @@ struct Repair {
 
 /// The first path that retracts no bone, or else the one that retracts least. Where that leads bones out of what is around
 /// them, they are kept inside by force, if that can be done.
+///
+/// Of what is not around bones in the design either, as the brim of a hat, more may be left outside: where no path has the
+/// garment around it as a rule, one will do that leads no bone out of its piece. And where no joint lies in the garment, such
+/// as that of a head beyond its hat, the joint that the search begins with lies before it.
 fn search_path(
     garment: &TriangleMesh,
     avatar: &TriangleMesh,
@@ -138,7 +153,6 @@ fn search_path(
     cancel: &Cancel,
 ) -> Result<Option<Repair>> {
     let root = choose_root(garment, source);
-    let cut = cycles(source, root);
     let mut search = PathSearch {
         garment,
         tree: ClosestPoint::new(garment),
@@ -146,43 +160,69 @@ fn search_path(
         extents: extents(projected, source),
         prefer_enclosed: near_penetrations(penetrations, source),
         keep_inside: source.bones.iter().map(|_| None).collect(),
+        root_planes: 3,
     };
     let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
-    let rounds = |search: &PathSearch| -> Result<Option<Repair>> {
-        let mut best: Option<Repair> = None;
+    let mut design_share = None;
+    let mut rounds = |search: &PathSearch, root: u32| -> Result<Found> {
+        let cut = cycles(source, root);
+        let mut found = Found::default();
         for settings in &ROUNDS {
             let Some(path) = search.find(root, &cut, settings, cancel)? else { continue };
             let retracted: f64 = path.retracted.iter().map(|p| p[0]).sum();
-            let better = best.as_ref().is_none_or(|best| retracted < best.retracted);
-            if !better || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS {
+            let better = |than: &Option<Repair>| than.as_ref().is_none_or(|than| retracted < than.retracted);
+            if !better(&found.best) || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS
+            {
                 continue;
             }
             let start = path.bent.reproject(avatar, projected);
-            if find_penetrations(garment, &start, cancel)?.is_empty()
-                && enclosure::enclosed_share(garment, &path.bent.segments(&search.extents)) >= MIN_ENCLOSED_SHARE
-            {
-                best = Some(Repair { retracted, path, start, lost: Vec::new() });
+            if !find_penetrations(garment, &start, cancel)?.is_empty() {
+                continue;
+            }
+            let segments = path.bent.segments(&search.extents);
+            if enclosure::enclosed_share(garment, &segments) >= MIN_ENCLOSED_SHARE {
+                found.best = Some(Repair { retracted, path, start, lost: Vec::new() });
                 if retracted == 0.0 {
                     break;
                 }
+            } else if better(&found.second) {
+                let designed = *design_share.get_or_insert_with(|| design.share());
+                let least = MIN_ENCLOSED_SHARE.min(designed - LOST_SHARE).max(MOST);
+                if enclosure::enclosed_share_of_area(garment, &segments) >= least
+                    && design.lost(&path.bent, &search.extents).is_empty()
+                {
+                    found.second = Some(Repair { retracted, path, start, lost: Vec::new() });
+                }
             }
         }
-        if let Some(best) = &mut best {
+        if let Some(best) = &mut found.best {
             best.lost = design.lost(&best.path.bent, &search.extents);
         }
-        Ok(best)
+        Ok(found)
     };
-    let free = rounds(&search)?;
-    let lost = match &free {
-        Some(free) => free.lost.clone(),
+    let free = rounds(&search, root)?;
+    let lost = match &free.best {
+        Some(best) => best.lost.clone(),
         None => design.around(&search.prefer_enclosed),
     };
-    if lost.is_empty() {
-        return Ok(free);
+    if lost.is_empty() && free.best.is_some() {
+        return Ok(free.best);
     }
-    search.keep_inside = design.keep(&lost);
-    let kept = rounds(&search)?.filter(|kept| free.is_none() || kept.lost.len() < lost.len());
-    Ok(kept.or(free))
+    let kept = if lost.is_empty() {
+        Found::default()
+    } else {
+        search.keep_inside = design.keep(&lost);
+        rounds(&search, root)?
+    };
+    let better = kept.best.filter(|kept| free.best.is_none() || kept.lost.len() < lost.len());
+    if let Some(found) = better.or(free.best).or(free.second).or(kept.second) {
+        return Ok(Some(found));
+    }
+    let Some(before) = root_before(garment, source, root) else { return Ok(None) };
+    search.keep_inside.fill_with(|| None);
+    search.root_planes = enclosing_planes(garment, source.joints[before as usize]);
+    let found = rounds(&search, before)?;
+    Ok(found.best.filter(|best| best.lost.is_empty()).or(found.second))
 }
 
 fn length(source: &Skeleton, ends: [u32; 2]) -> f64 {
@@ -203,6 +243,20 @@ fn choose_root(garment: &TriangleMesh, source: &Skeleton) -> u32 {
     let score = |&j: &u32| enclosing_planes(garment, source.joints[j as usize]);
     // The last of equals in the reversed order is the nearest.
     joints.into_iter().rev().max_by_key(score).unwrap_or(0)
+}
+
+/// A joint between bones that the garment encloses no less than `root`, the nearest one to `root`: where that is a leaf beyond
+/// the garment, what lies there can be pulled back from here.
+fn root_before(garment: &TriangleMesh, source: &Skeleton, root: u32) -> Option<u32> {
+    let inner = |&j: &u32| source.bones.iter().filter(|bone| bone.contains(&j)).count() > 1;
+    let at = source.joints[root as usize];
+    (enclosing_planes(garment, at) < 3).then(|| {
+        let joints = (0..source.joints.len() as u32).filter(inner);
+        joints.min_by(|&a, &b| {
+            let distance = |j: u32| source.joints[j as usize].distance_squared(at);
+            distance(a).total_cmp(&distance(b))
+        })
+    })?
 }
 
 /// The bones without which the skeleton is a tree.

@@ -33,6 +33,12 @@ impl Section {
         for triangle in &garment.triangles {
             let corners = triangle.map(|v| garment.positions[v as usize] - origin);
             let heights = corners.map(|c| c.dot(normal));
+            if heights == [0.0; 3] {
+                // It lies in the plane, as a flat brim may: its edges.
+                let [a, b, c] = corners.map(|p| DVec2::new(p.dot(u), p.dot(v)));
+                section.segments.extend([[a, b], [b, c], [c, a]]);
+                continue;
+            }
             let mut ends = [DVec2::ZERO; 2];
             let mut count = 0;
             for (i, j) in [(0, 1), (1, 2), (2, 0)] {
