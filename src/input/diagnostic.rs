@@ -103,6 +103,8 @@ pub enum JointFault {
     Stray,
     /// Limbs branch off there and leave the body above it, so that what goes on beyond, as a head does, begins among them.
     Low,
+    /// It is the last of its limb and at the tip, where that of the other skeleton is before it.
+    AtTip,
     /// It is inside, but its bone leaves the body on the way to it.
     BoneOutside,
 }

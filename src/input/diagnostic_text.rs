@@ -197,6 +197,11 @@ impl Display for Diagnostic {
                         "{name}: joint {joint} lies too low, by {size}: limbs branch off there and leave the body above it, so \
                          that the head beyond it begins below the collar"
                     )?,
+                    JointFault::AtTip => write!(
+                        f,
+                        "{name}: joint {joint} lies at the tip of its limb, beyond where the other skeleton has it, by {size}, so \
+                         that a cuff or a hem would end there"
+                    )?,
                     JointFault::BoneOutside => write!(
                         f,
                         "{name}: the bone between joints {from} and {joint} leaves the body, by {size}, although both are inside"

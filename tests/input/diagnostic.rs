@@ -212,6 +212,22 @@ fn every_sentence_is_made_of_its_data() {
             Diagnostic::JointMisplaced {
                 skeleton: Subject::TargetSkeleton,
                 bone: BONE,
+                fault: JointFault::AtTip,
+                distance: 0.5,
+                length: 0.07,
+                share: 0.14,
+                place: Some([0.17, 0.08, 0.01]),
+                mended: true,
+            },
+            "target skeleton: joint 7 lies at the tip of its limb, beyond where the other skeleton has it, by 0.07 (0.14 of the \
+             bone from joint 5), so that a cuff or a hem would end there; joint 7 belongs at (0.17, 0.08, 0.01), where it is \
+             taken to lie; move it there"
+                .into(),
+        ),
+        (
+            Diagnostic::JointMisplaced {
+                skeleton: Subject::TargetSkeleton,
+                bone: BONE,
                 fault: JointFault::BoneOutside,
                 distance: 0.5,
                 length: 0.25,

@@ -1,5 +1,7 @@
 //! Joints that the bodies contradict: found, with a better place near the right one; right skeletons have none.
 
+use std::sync::LazyLock;
+
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::{JointFault, Subject};
 use bespoke::input::skeleton::Skeleton;
@@ -13,8 +15,14 @@ const KINDS: [Kind; 3] = [Kind::Mannequin, Kind::Heavy, Kind::Creature];
 
 /// A body in metres, z up, with its skeleton.
 fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
-    let sample = sample(kind);
-    (bodies::mesh(&sample), bodies::skeleton(&sample))
+    static MADE: LazyLock<[(TriangleMesh, Skeleton); 3]> = LazyLock::new(|| {
+        KINDS.map(|kind| {
+            let sample = sample(kind);
+            (bodies::mesh(&sample), bodies::skeleton(&sample))
+        })
+    });
+    let index = KINDS.iter().position(|&k| k == kind).unwrap();
+    MADE[index].clone()
 }
 
 /// What is found in a target and a source, each with its body where that is given.
@@ -26,7 +34,8 @@ fn found(target: (&Skeleton, &TriangleMesh), source: (&Skeleton, Option<&Triangl
 
 /// A jacket on the mannequin.
 fn jacket() -> TriangleMesh {
-    bodies::mesh(&sample(Kind::Jacket))
+    static MADE: LazyLock<TriangleMesh> = LazyLock::new(|| bodies::mesh(&sample(Kind::Jacket)));
+    MADE.clone()
 }
 
 fn mended(skeleton: &Skeleton, subject: Subject, found: &[Misplaced]) -> Skeleton {
@@ -193,6 +202,53 @@ fn a_neck_between_the_arms_goes_above_them() {
     check(found((&right, &mesh), (&low, Some(&worn_by))), Subject::SourceSkeleton);
     // The same on both sides says the same twice.
     assert_eq!(found((&low, &mesh), (&low, Some(&worn_by))), []);
+}
+
+/// The skeleton with the last joint of a limb at its tip.
+fn at_the_tip(mesh: &TriangleMesh, right: &Skeleton, [from, joint]: [usize; 2]) -> Skeleton {
+    let (start, end) = (right.joints[from], right.joints[joint]);
+    let along = (end - start).normalize();
+    let limb = |p: &&DVec3| (**p - start).reject_from(along).length() < 0.1 && (**p - start).dot(along) > 0.0;
+    let tip = mesh.positions.iter().filter(limb).map(|p| (*p - start).dot(along)).fold(0.0, f64::max);
+    let mut skeleton = right.clone();
+    skeleton.joints[joint] = start + tip * along;
+    skeleton
+}
+
+#[test]
+fn a_last_joint_at_the_tip_of_its_limb_goes_where_the_other_skeleton_has_it() {
+    let ((mesh, right), (worn_by, designed_on)) = (body(Kind::Heavy), body(Kind::Mannequin));
+    for [from, joint] in [[4, 5], [10, 11]] {
+        let target = at_the_tip(&mesh, &right, [from, joint]);
+        let check = |found: Vec<Misplaced>, subject, right: &Skeleton, wrong: &Skeleton| {
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!((found[0].skeleton, found[0].fault), (subject, JointFault::AtTip));
+            let (is, was) = (mended(wrong, subject, &found).joints[joint], right.joints[joint]);
+            assert!(is.distance(was) < 0.35 * wrong.joints[joint].distance(was), "{joint}: {is} for {was}");
+        };
+        check(found((&target, &mesh), (&designed_on, Some(&worn_by))), Subject::TargetSkeleton, &right, &target);
+        // Without a source avatar, or where both are alike, nothing says which is right.
+        assert_eq!(found((&target, &mesh), (&designed_on, None)), []);
+        let source = at_the_tip(&worn_by, &designed_on, [from, joint]);
+        assert_eq!(found((&target, &mesh), (&source, Some(&worn_by))), []);
+        check(found((&right, &mesh), (&source, Some(&worn_by))), Subject::SourceSkeleton, &designed_on, &source);
+    }
+}
+
+#[test]
+fn a_wrist_where_the_body_ends_without_a_hand_stays() {
+    let ((mut mesh, skeleton), (worn_by, designed_on)) = (body(Kind::Mannequin), body(Kind::Mannequin));
+    let (elbow, wrist) = (skeleton.joints[4], skeleton.joints[5]);
+    let (along, length) = ((wrist - elbow).normalize(), wrist.distance(elbow));
+    let is_hand = |p: DVec3| {
+        let offset = p - elbow;
+        offset.dot(along) > length && offset.reject_from(along).length() < 0.15
+    };
+    mesh.triangles.retain(|t| !t.iter().all(|&v| is_hand(mesh.positions[v as usize])));
+    let found = found((&skeleton, &mesh), (&designed_on, Some(&worn_by)));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].joint(), found[0].fault, found[0].is_sure), (5, JointFault::AtTip, false));
+    assert_eq!(mended(&skeleton, Subject::TargetSkeleton, &found), skeleton);
 }
 
 #[test]

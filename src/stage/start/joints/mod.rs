@@ -7,6 +7,7 @@
 mod flesh;
 mod neck;
 mod outside;
+mod tip;
 
 use glam::DVec3;
 
@@ -37,6 +38,8 @@ pub struct Misplaced {
     pub share: f64,
     /// The better place, in the skeleton's own coordinates; none where none is known.
     pub place: Option<DVec3>,
+    /// It is better for sure.
+    pub is_sure: bool,
 }
 
 impl Misplaced {
@@ -45,9 +48,14 @@ impl Misplaced {
         self.bone.joints[1]
     }
 
+    /// The place to which it is taken, if it is.
+    fn taken(&self) -> Option<DVec3> {
+        self.place.filter(|_| self.is_sure)
+    }
+
     /// The diagnostic about it, for a skeleton whose caller has it in `system`.
     pub fn diagnostic(&self, system: &CoordinateSystem, mended: bool) -> Diagnostic {
-        let &Self { skeleton, bone, fault, distance, length, share, place } = self;
+        let &Self { skeleton, bone, fault, distance, length, share, place, .. } = self;
         Diagnostic::JointMisplaced {
             skeleton,
             bone,
@@ -56,7 +64,7 @@ impl Misplaced {
             length: length / system.metres_per_unit,
             share,
             place: place.map(|place| system.position_from_internal(place).to_array()),
-            mended: mended && place.is_some(),
+            mended: mended && self.taken().is_some(),
         }
     }
 }
@@ -92,7 +100,7 @@ impl Figure {
     /// Takes the joints that were found to their better places.
     fn take(&mut self, found: &[Misplaced]) {
         for misplaced in found.iter().filter(|misplaced| misplaced.skeleton == self.subject) {
-            if let Some(place) = misplaced.place {
+            if let Some(place) = misplaced.taken() {
                 self.skeleton.joints[misplaced.joint() as usize] = place * self.scale;
             }
         }
@@ -119,27 +127,33 @@ impl Figure {
             length: distance / self.scale,
             share: distance / self.place(from).distance(self.place(joint)),
             place: place.map(|p| p / self.scale),
+            is_sure: true,
         }
     }
 }
 
-/// The joints of both skeletons that lie wrong; `garment` is in the coordinates of the source skeleton. Each check sees the
-/// joints where those before it have put them.
+/// The joints of both skeletons that lie wrong; `garment` is in the coordinates of the source skeleton. A joint that is
+/// outside is looked at again where it was put.
 pub fn find(mut target: Figure, mut source: Figure, garment: &TriangleMesh) -> Vec<Misplaced> {
     let mut found = outside::find(&target, &source);
-    for figure in [&mut target, &mut source] {
-        figure.take(&found);
-    }
+    target.take(&found);
+    source.take(&found);
     let garment = source.scaled(garment);
-    found.extend(neck::find(&target, &source, Some(&garment)));
-    found.extend(neck::find(&source, &target, None));
+    let necks = neck::find(&target, &source, Some(&garment)).into_iter().chain(neck::find(&source, &target, None));
+    for more in necks.chain(tip::find(&target, &source)).chain(tip::find(&source, &target)) {
+        match found.iter_mut().find(|first| first.skeleton == more.skeleton && first.joint() == more.joint()) {
+            Some(first) if more.is_sure => first.place = more.place,
+            Some(_) => {}
+            None => found.push(more),
+        }
+    }
     found
 }
 
 /// Takes the joints that were found in `skeleton` to their better places.
 pub fn mend(skeleton: &mut Skeleton, subject: Subject, found: &[Misplaced]) {
     for misplaced in found.iter().filter(|misplaced| misplaced.skeleton == subject) {
-        if let Some(place) = misplaced.place {
+        if let Some(place) = misplaced.taken() {
             skeleton.joints[misplaced.joint() as usize] = place;
         }
     }
