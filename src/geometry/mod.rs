@@ -9,6 +9,7 @@
 pub mod alignment;
 pub mod bvh;
 pub mod closest_point;
+pub mod cover;
 pub mod mesh;
 pub mod piece;
 pub mod sliver_caps;

@@ -12,6 +12,7 @@ mod fit_controls;
 mod flaws;
 mod hanging;
 mod initial_self_intersections;
+mod joints;
 mod layers;
 mod memory;
 mod plausibility;

@@ -63,6 +63,19 @@ fn right_skeletons_have_none() {
 }
 
 #[test]
+fn a_body_with_two_sides_is_no_mistake() {
+    let (mut mesh, mut skeleton) = with_arms_at_the_neck(Kind::Heavy);
+    let back: Vec<[u32; 3]> = mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    mesh.triangles.extend(back);
+    // A head, whose bone is the only last one at a fork.
+    let neck = skeleton.joints[2];
+    let top = mesh.positions.iter().map(|p| p.z).fold(f64::MIN, f64::max);
+    skeleton.bones.push([2, skeleton.joints.len() as u32]);
+    skeleton.joints.push(neck.with_z(top - 0.05));
+    assert_eq!(found((&skeleton, &mesh), (&skeleton, None)), []);
+}
+
+#[test]
 fn a_root_on_the_floor_goes_to_where_its_bone_begins_in_both_skeletons() {
     let ((mesh, plain), (worn_by, designed_on)) = (body(Kind::Heavy), body(Kind::Mannequin));
     let (target, source) = (with_root(&mesh, &plain), with_root(&worn_by, &designed_on));

@@ -7,10 +7,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::cover::cover;
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::control::{Cancel, Cancelled};
 use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
+use crate::geometry::cover::cover;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::BoneGraph;
 

@@ -5,7 +5,6 @@
 //! in how many directions a point of the body sees the garment, and the area of a piece. Nothing here uses contact or
 //! solver, nor the skin weights: what the run believed is not asked.
 
-mod cover;
 mod limbs;
 mod opening;
 mod pieces;
@@ -14,7 +13,7 @@ use crate::control::{Cancel, Cancelled};
 use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::{BoneGraph, Skeleton};
 
-pub use cover::{DIRECTIONS, cover};
+pub use crate::geometry::cover::{DIRECTIONS, cover};
 pub use opening::{Disc, Section};
 
 /// A bone reaches beyond a leaf joint by this share of its length: hands, feet and the head go on beyond their joints.

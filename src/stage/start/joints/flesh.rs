@@ -6,11 +6,15 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
+use crate::geometry::cover::cover;
 use crate::geometry::mesh::TriangleMesh;
 
 /// The body winds around a point inside this often at least, and less than half of it around one that is surely outside;
 /// between the two the body is open nearby.
 const INSIDE: f64 = 0.5;
+/// A point that sees the body in more than this share of all directions is not surely outside: a body with two sides, whose
+/// triangles face both ways, winds around nothing.
+const COVERED: f64 = 0.95;
 
 /// The surface of a body.
 pub struct Flesh {
@@ -38,7 +42,7 @@ impl Flesh {
 
     /// Whether `p` is outside without a doubt.
     pub fn excludes(&self, p: DVec3) -> bool {
-        self.winding(p) < 0.5 * INSIDE
+        self.winding(p) < 0.5 * INSIDE && cover(&self.tree, p) <= COVERED
     }
 
     /// How often the surface winds around `p`, in either orientation: 1 inside, 0 outside, between them near holes.

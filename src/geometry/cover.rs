@@ -1,18 +1,18 @@
-//! How much a garment covers a point: the share of directions in which it is seen from there.
+//! How much a surface covers a point: the share of directions in which it is seen from there.
 //!
 //! In a sleeve that is nearly 1, at a cuff a half, beyond it a few hundredths. Holes in the cloth, the number of its pieces and
 //! their winding make no difference.
 
 use glam::DVec3;
 
-use crate::geometry::closest_point::ClosestPoint;
+use super::closest_point::ClosestPoint;
 
 /// Directions in which a point looks.
 pub const DIRECTIONS: usize = 64;
 
-/// The share of [`DIRECTIONS`], spread evenly, in which `garment` is seen from `p`.
-pub fn cover(garment: &ClosestPoint, p: DVec3) -> f64 {
-    (0..DIRECTIONS).filter(|&k| garment.meets_ray(p, direction(k))).count() as f64 / DIRECTIONS as f64
+/// The share of [`DIRECTIONS`], spread evenly, in which `surface` is seen from `p`.
+pub fn cover(surface: &ClosestPoint, p: DVec3) -> f64 {
+    (0..DIRECTIONS).filter(|&k| surface.meets_ray(p, direction(k))).count() as f64 / DIRECTIONS as f64
 }
 
 /// Points on a spiral around the sphere, in rings of equal area.
