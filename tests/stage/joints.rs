@@ -44,6 +44,14 @@ fn mended(skeleton: &Skeleton, subject: Subject, found: &[Misplaced]) -> Skeleto
     mended
 }
 
+/// A box.
+fn boxed(low: DVec3, high: DVec3) -> TriangleMesh {
+    let corner = |k: usize| DVec3::new([low.x, high.x][k & 1], [low.y, high.y][k >> 1 & 1], [low.z, high.z][k >> 2]);
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    TriangleMesh::from_corners(halves.map(|t| t.map(corner)))
+}
+
 /// With a root on the floor, from which a bone leads to the first joint.
 fn with_root(mesh: &TriangleMesh, skeleton: &Skeleton) -> Skeleton {
     let floor = mesh.positions.iter().map(|p| p.z).fold(f64::MAX, f64::min);
@@ -72,6 +80,19 @@ fn a_body_with_two_sides_is_no_mistake() {
     let top = mesh.positions.iter().map(|p| p.z).fold(f64::MIN, f64::max);
     skeleton.bones.push([2, skeleton.joints.len() as u32]);
     skeleton.joints.push(neck.with_z(top - 0.05));
+    assert_eq!(found((&skeleton, &mesh), (&skeleton, None)), []);
+}
+
+#[test]
+fn a_body_with_a_cap_turned_over_is_no_mistake() {
+    // A box around the middle of a bone that is much longer, one of its ends facing inwards.
+    let mut mesh = boxed(DVec3::new(-0.2, -0.2, -0.4), DVec3::new(0.2, 0.2, 0.4));
+    let is_end = |t: &[u32; 3]| t.iter().all(|&v| mesh.positions[v as usize].z < 0.0);
+    let turned = mesh.triangles.iter().map(|t| if is_end(t) { [t[0], t[2], t[1]] } else { *t }).collect();
+    mesh.triangles = turned;
+    let joints = vec![-0.95 * DVec3::Z, DVec3::ZERO, DVec3::Z];
+    let skeleton = Skeleton { joints, bones: vec![[0, 1], [1, 2]] };
+    assert!(Flesh::new(mesh.clone()).winding(-0.48 * DVec3::Z) > 0.5);
     assert_eq!(found((&skeleton, &mesh), (&skeleton, None)), []);
 }
 
@@ -160,13 +181,6 @@ fn legs_that_the_body_goes_without_are_none_of_a_mistake() {
 fn a_bone_that_cuts_a_corner_outside_of_the_body_is_found_and_stays() {
     // Without its elbow, an arm that is bent at a right angle.
     let (r, far) = (0.1, 1.0);
-    let boxed = |low: DVec3, high: DVec3| {
-        let corner =
-            |k: usize| DVec3::new([low.x, high.x][k & 1], [low.y, high.y][k >> 1 & 1], [low.z, high.z][k >> 2]);
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let halves = faces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
-        TriangleMesh::from_corners(halves.map(move |t| t.map(corner)))
-    };
     let mut mesh = boxed(DVec3::splat(-r), DVec3::new(far, r, r));
     let other = boxed(DVec3::splat(-r), DVec3::new(r, far, r));
     mesh.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + mesh.positions.len() as u32)));

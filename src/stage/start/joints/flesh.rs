@@ -12,6 +12,9 @@ use crate::geometry::mesh::TriangleMesh;
 /// The body winds around a point inside this often at least, and less than half of it around one that is surely outside;
 /// between the two the body is open nearby.
 const INSIDE: f64 = 0.5;
+/// And a point inside sees the body in this share of all directions at least: one before a cap that is turned over, which
+/// half of them meet, seems to be wound around.
+const SEEN: f64 = 0.6;
 /// A point that sees the body in more than this share of all directions is not surely outside: a body with two sides, whose
 /// triangles face both ways, winds around nothing.
 const COVERED: f64 = 0.95;
@@ -37,7 +40,7 @@ impl Flesh {
 
     /// Whether `p` is inside.
     pub fn contains(&self, p: DVec3) -> bool {
-        self.winding(p) >= INSIDE
+        self.winding(p) >= INSIDE && cover(&self.tree, p) >= SEEN
     }
 
     /// Whether `p` is outside without a doubt.
