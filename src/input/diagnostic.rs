@@ -471,8 +471,8 @@ pub enum Diagnostic {
         against: Subject,
         /// How many times too large it is; below 1 where it is too small.
         factor: f64,
-        /// Another ratio of units that suits as well, where two are near each other.
-        or: Option<f64>,
+        /// Other ratios of units that suit as well, such as of a garment around few bones.
+        or: Vec<f64>,
         /// The turn that it needs as well, in the caller's coordinates.
         turn: Option<AxisTurn>,
         /// It is refused.

@@ -303,9 +303,9 @@ impl Display for Diagnostic {
                     let times = if is_large { factor } else { 1.0 / factor };
                     format!("{} times{}", short(times), units(times))
                 };
-                let other = or.map_or(String::new(), |or| format!(", or {}", times(or)));
+                let other: String = or.iter().map(|&or| format!(", or {}", times(or))).collect();
                 write!(f, "{subject}: it is too {size} for the {against}: {}{other}", times(*factor))?;
-                let other = or.map_or(String::new(), |or| format!(" or {}", short(1.0 / or)));
+                let other: String = or.iter().map(|or| format!(" or {}", short(1.0 / or))).collect();
                 let also = turn.map_or(String::new(), |turn| format!(", and turn it by {}", turned(turn)));
                 write!(f, "; multiply its coordinates by {}{other}{also}", short(1.0 / factor))
             }

@@ -386,14 +386,14 @@ fn what_does_not_belong_together_is_said_with_what_mends_it() {
         turn: None,
         gross,
     };
-    let centimetres = unit(100.0, None, true);
+    let centimetres = unit(100.0, Vec::new(), true);
     assert_eq!(
         centimetres.to_string(),
         "garment: it is too large for the source skeleton: 100 times (as where a metre is in centimetres); multiply its \
          coordinates by 0.01"
     );
     assert_eq!((centimetres.kind(), centimetres.severity()), (DiagnosticKind::UnitMismatch, Severity::Error));
-    let unsure = unit(0.1, Some(1.0 / 12.0), false);
+    let unsure = unit(0.1, vec![1.0 / 12.0], false);
     assert_eq!(
         unsure.to_string(),
         "garment: it is too small for the source skeleton: 10 times (as where a decimetre is in centimetres), or 12 times (as \

@@ -72,7 +72,7 @@ fn units(scene: &Scene<'_>) -> Vec<Diagnostic> {
                     subject,
                     against,
                     factor: 1.0 / mend.factor,
-                    or: mend.or.map(|or| 1.0 / or),
+                    or: mend.or.iter().map(|or| 1.0 / or).collect(),
                     turn,
                     gross,
                 }

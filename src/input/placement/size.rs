@@ -17,6 +17,11 @@ use crate::input::skin::SkinWeights;
 pub const RATIOS: [f64; 9] = [2.54, 3.280_84, 10.0, 12.0, 25.4, 30.48, 39.370_1, 100.0, 1000.0];
 /// A measured factor within this of a ratio, in the logarithm, is that ratio.
 const SAME_RATIO: f64 = 0.2;
+/// By how much less another factor has to cost to be the cause in place of a ratio: what is small or in one place suits many,
+/// and where the ratio mends much, a unit it is.
+const OTHER_FACTOR: [f64; 2] = [0.1, 0.45];
+/// What a ratio has to mend, in the logarithm, for the latter.
+const MUCH: f64 = 3.5;
 /// Points of the mesh that are looked at, and how many times a bone where there are many.
 const MOST_POINTS: usize = 256;
 const MOST_PAIRS: usize = 8000;
@@ -27,20 +32,27 @@ const BODY_EXTENTS: [f64; 2] = [0.5, 8.0];
 const LOOSENESS: [f64; 2] = [2.0, 6.0];
 /// What a factor costs that leaves the first of these ranges for the second, for each e-fold.
 const LOOSE: f64 = 0.3;
-/// Ratios nearer to each other than this, in the logarithm, are told apart by their cost alone, if it differs by this much.
-const BESIDE: f64 = 0.3;
-const ALMOST: f64 = 0.35;
+/// Ratios that cost no more than this above the best suit as well: of what is small or around few bones, the right one is
+/// not always the best.
+const ALMOST: f64 = 0.45;
+/// The same for ratios farther from the best than this, in the logarithm.
+const FAR: f64 = 0.45;
+const ALMOST_FAR: f64 = 0.2;
+/// What is merely elsewhere costs no more than this above the best, once it is moved.
+const ELSEWHERE: f64 = 0.15;
+/// Ratios that are told beside the best, at most.
+const BESIDE: usize = 2;
 /// What another reading has to be better by, as a factor, to be told, and to be refused.
 const TOLD: f64 = 1.9;
 const REFUSED: f64 = 2.5;
 
 /// How a mesh has to be read to lie around its bones.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mend {
     /// What its coordinates are to be multiplied by.
     pub factor: f64,
-    /// Another ratio of units that suits as well.
-    pub or: Option<f64>,
+    /// Other ratios of units that suit as well, the best first.
+    pub or: Vec<f64>,
     /// What it is to be turned by.
     pub turn: AxisTurn,
     /// How many times nearer it then lies.
@@ -54,9 +66,10 @@ impl Mend {
         (is_other && self.gain > TOLD).then_some(self.gain > REFUSED)
     }
 
-    /// Whether it is the same for another mesh.
+    /// Whether it may be the same for another mesh.
     pub fn is_like(&self, other: &Self) -> bool {
-        other.is_gross().is_some() && self.factor == other.factor && self.turn == other.turn
+        let suits = |factor: &f64| other.factor == *factor || other.or.contains(factor);
+        other.is_gross().is_some() && self.turn == other.turn && (suits(&self.factor) || self.or.iter().any(suits))
     }
 
     /// The other way round: what the skeleton needs.
@@ -64,7 +77,7 @@ impl Mend {
         let back = AxisTurn::rotations().into_iter().find(|turn| turn.after(self.turn) == AxisTurn::IDENTITY);
         Self {
             factor: 1.0 / self.factor,
-            or: self.or.map(f64::recip),
+            or: self.or.into_iter().map(f64::recip).collect(),
             turn: back.unwrap_or(AxisTurn::IDENTITY),
             gain: self.gain,
         }
@@ -168,7 +181,7 @@ impl Surroundings {
 
     /// The reading that suits the bones best: as it is where no other is better.
     pub fn mend(&self) -> Mend {
-        let as_it_is = Mend { factor: 1.0, or: None, turn: AxisTurn::IDENTITY, gain: 1.0 };
+        let as_it_is = Mend { factor: 1.0, or: Vec::new(), turn: AxisTurn::IDENTITY, gain: 1.0 };
         let now = self.cost(1.0, AxisTurn::IDENTITY);
         if !now.is_finite() {
             return as_it_is;
@@ -189,17 +202,18 @@ impl Surroundings {
         if now - cost < TOLD.ln() {
             return as_it_is;
         }
-        let (cost, factor) = self.measured(ratio, turn, cost);
+        let much = now - cost >= MUCH;
+        let (cost, factor) = self.measured(ratio, turn, cost, OTHER_FACTOR[usize::from(much)]);
         // No unit is the cause of another factor, and what is small, such as an earring, suits many.
         if factor != ratio {
             return as_it_is;
         }
         // What merely lies elsewhere needs a move: then neither unit nor axes are to blame.
         let worse = self.moved_to_bones().cost(1.0, AxisTurn::IDENTITY) - cost;
-        if worse < if factor == 1.0 { 0.0 } else { ALMOST } {
+        if worse < if factor == 1.0 { 0.0 } else { ELSEWHERE } {
             return as_it_is;
         }
-        let or = self.neighbour(factor, turn, cost);
+        let or = if factor == 1.0 { Vec::new() } else { self.others(factor, turn, cost) };
         Mend { factor, or, turn, gain: (now - cost).exp() }
     }
 
@@ -214,17 +228,17 @@ impl Surroundings {
         Self { points: moved(&self.points), corners: moved(&self.corners), bones: self.bones.clone(), ..*self }
     }
 
-    /// The ratio beside `factor`, where it suits almost as well.
-    fn neighbour(&self, factor: f64, turn: AxisTurn, cost: f64) -> Option<f64> {
-        let beside = |other: &f64| *other != factor && (other / factor).ln().abs() < BESIDE;
-        let others = RATIOS.into_iter().flat_map(|r| [1.0 / r, r]).filter(beside);
-        let costs = others.map(|other| (self.cost(other, turn), other));
-        let best = costs.filter(|(its, _)| *its < cost + ALMOST);
-        best.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, other)| other)
+    /// The ratios that suit almost as well as `factor`.
+    fn others(&self, factor: f64, turn: AxisTurn, cost: f64) -> Vec<f64> {
+        let others = RATIOS.into_iter().flat_map(|r| [1.0 / r, r]).filter(|other| *other != factor);
+        let mut costs: Vec<(f64, f64)> = others.map(|other| (self.cost(other, turn), other)).collect();
+        costs.retain(|&(its, other)| its < cost + if (other / factor).ln().abs() > FAR { ALMOST_FAR } else { ALMOST });
+        costs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        costs.into_iter().take(BESIDE).map(|(_, other)| other).collect()
     }
 
-    /// The factor near `ratio` that suits best where it is none of the ratios.
-    fn measured(&self, ratio: f64, turn: AxisTurn, cost: f64) -> (f64, f64) {
+    /// The factor near `ratio` that suits best where it is none of the ratios and costs by `less` less.
+    fn measured(&self, ratio: f64, turn: AxisTurn, cost: f64, less: f64) -> (f64, f64) {
         if ratio == 1.0 {
             return (cost, ratio);
         }
@@ -233,7 +247,7 @@ impl Surroundings {
             .map(|factor| (self.cost(factor, turn), factor))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .unwrap_or((cost, ratio));
-        if (factor / ratio).ln().abs() < SAME_RATIO || cost - least < 0.1 { (cost, ratio) } else { (least, factor) }
+        if (factor / ratio).ln().abs() < SAME_RATIO || cost - least < less { (cost, ratio) } else { (least, factor) }
     }
 }
 
