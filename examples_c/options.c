@@ -114,6 +114,9 @@ static const Entry entries[] = {
      "iterations of each stage at most (500)"},
     {"--printed-surface", "", CHOICE, FIELD(library.surface_form), BESPOKE_SURFACE_FORM_PRINTED,
      "the surface term as printed in the paper, which makes scaling cost something"},
+    {"--surface-length", "D", WEIGHT, FIELD(library.surface_length), 0,
+     "distance across two triangles at which they weigh their area in the surface term (0.048); 0\n"
+     "weighs all by their area, so that fine garments are softer"},
     {"", "", TEXT, 0, 0,
      "\n"
      "A message may name an option of the library: inflation_dhat is set by --inflation-dhat, and so on, surface_form by\n"

@@ -547,6 +547,10 @@ typedef struct BespokeOptions {
   uint32_t max_iterations;
   /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
   uint32_t surface_form;
+  /// Expert. Distance across two triangles at which they weigh their area in the surface term [up to 1]. Smaller ones weigh
+  /// more, so that the fit is the same at every resolution of the garment. Default 0.048. BESPOKE_WEIGHT_OFF: all weigh
+  /// their area, as printed in the paper.
+  double surface_length;
 } BespokeOptions;
 
 /// Pairs of triangles that touch or cross each other.

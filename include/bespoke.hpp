@@ -780,6 +780,10 @@ struct Options {
     std::uint32_t max_iterations = 0;
     /// Expert. One of SurfaceForm. Default SurfaceForm::similarity.
     SurfaceForm surface_form = SurfaceForm::similarity;
+    /// Expert. Distance across two triangles at which they weigh their area in the surface term [up to 1]. Smaller ones
+    /// weigh more, so that the fit is the same at every resolution of the garment. Default 0.048. weight_off: all weigh
+    /// their area, as printed in the paper.
+    double surface_length = 0.0;
 
     /// As the C API takes them.
     BespokeOptions get() const noexcept {
@@ -808,6 +812,7 @@ struct Options {
         options.tolerance = tolerance;
         options.max_iterations = max_iterations;
         options.surface_form = static_cast<std::uint32_t>(surface_form);
+        options.surface_length = surface_length;
         return options;
     }
 
@@ -844,6 +849,7 @@ struct Options {
         options.tolerance = read.tolerance;
         options.max_iterations = read.max_iterations;
         options.surface_form = static_cast<SurfaceForm>(read.surface_form);
+        options.surface_length = read.surface_length;
         return options;
     }
 };

@@ -63,6 +63,9 @@ macro_rules! option_table {
             max_iterations: u32 = 500, in AtLeast(1);
             /// Which form of the surface term.
             surface_form: SurfaceForm = SurfaceForm::Similarity;
+            /// Distance across two triangles at which they weigh their area in the surface term. Smaller ones weigh more, so
+            /// that the fit is the same at every resolution; 0 weighs all by their area, as printed.
+            surface_length: f64 = 0.048, in Between(0.0, 1.0), off = 0.0;
         }
     };
 }

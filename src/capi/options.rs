@@ -89,6 +89,10 @@ pub struct BespokeOptions {
     pub max_iterations: u32,
     /// Expert. One of BespokeSurfaceForm. Default BESPOKE_SURFACE_FORM_SIMILARITY.
     pub surface_form: u32,
+    /// Expert. Distance across two triangles at which they weigh their area in the surface term [up to 1]. Smaller ones weigh
+    /// more, so that the fit is the same at every resolution of the garment. Default 0.048. BESPOKE_WEIGHT_OFF: all weigh
+    /// their area, as printed in the paper.
+    pub surface_length: f64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers without padding.

@@ -10,6 +10,17 @@
 //!
 //! with the coefficients that reproduce x at rest. As printed, N(n) = n, which grows with the square of a
 //! scale. N(n) = n / sqrt(|n|) grows like an edge, so that every similarity of the rest shape costs nothing.
+//!
+//! Across a hinge tau changes by an amount of order h, the distance of v3 and v4 along the surface, so that the sum as printed
+//! falls with h^2 where a mesh is refined, and a fine garment is softer than a coarse one. With a length h0 given
+//!
+//! ```text
+//! w = (area(t1) + area(t2)) f,   f = h0^2 / h^2,   1 <= f <= 2 h0^2 / (area(t1) + area(t2)),
+//! ```
+//!
+//! which is the integral of |grad tau|^2 times h0^2 at any resolution, and as printed where h is h0. The upper bound is for
+//! needles, the lower one for garments of so few triangles that they have no shape but that of their hinges.
+//!
 //! The residual has the scale of the garment: growing an imperfect fit by s multiplies its value by s^2.
 
 use std::ops::Range;
@@ -21,6 +32,12 @@ use super::triangle_frame::{Normal, coefficients, least_squares, outer, scaled_c
 use super::{Configuration, Energy, Sink};
 use crate::geometry::mesh::{Hinge, has_area};
 use crate::memory::bytes;
+
+/// The area of a hinge in squares of its length across, at most. It is 0.29 where the triangles are equilateral, and grows beyond
+/// all bounds where they are needles along their edge.
+const MAX_SHARE: f64 = 2.0;
+/// What a large hinge weighs beside its area, at least.
+const LEAST_FACTOR: f64 = 1.0;
 
 /// One hinge: its vertices and the coefficients of the rest shape.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +100,7 @@ impl Shape {
 }
 
 impl Surface {
-    /// The term for a garment with vertices `rest` and `hinges` between its triangles.
+    /// The term as printed for a garment with vertices `rest` and `hinges` between its triangles.
     ///
     /// A hinge with a rest triangle without area, or with both opposite corners at one point, gets no element. So hinges
     /// must come from triangles without caps (see [`crate::geometry::sliver_caps`]), else no energy connects the
@@ -91,6 +108,27 @@ impl Surface {
     pub fn new(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm) -> Self {
         Self { elements: hinges.iter().filter_map(|hinge| Element::new(rest, hinge, form)).collect(), form }
     }
+
+    /// The term that is the same at every resolution of the garment: a hinge whose opposite corners are `length` apart along the
+    /// surface at `rest` weighs its area, one of half the size as much as that.
+    pub fn at_any_resolution(rest: &[DVec3], hinges: &[Hinge], form: SurfaceForm, length: f64) -> Self {
+        let mut term = Self::new(rest, hinges, form);
+        for element in &mut term.elements {
+            let across = squared_length_across(element.vertices.map(|v| rest[v as usize]));
+            let area = element.weight;
+            element.weight = (length * length * (area / across).min(MAX_SHARE)).max(LEAST_FACTOR * area);
+        }
+        term
+    }
+}
+
+/// The squared distance of v3 and v4 once the hinge has been laid flat.
+fn squared_length_across([p1, p2, p3, p4]: [DVec3; 4]) -> f64 {
+    let edge = p2 - p1;
+    let length = edge.length();
+    let along = (p4 - p3).dot(edge) / length;
+    let heights = ((p3 - p1).cross(edge).length() + (p4 - p1).cross(edge).length()) / length;
+    along * along + heights * heights
 }
 
 impl Element {

@@ -4,7 +4,7 @@ use bespoke::energy::surface::{Surface, SurfaceForm};
 use bespoke::energy::{Configuration, Energy};
 use bespoke::geometry::mesh::{Hinge, Topology};
 use bespoke::geometry::sliver_caps::without_caps;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::harness::{check_gradient, check_hessian, check_semidefinite, dense};
 use crate::patch::{Patch, rotation, shaken, sheet, similar, triangles, tube};
@@ -73,6 +73,76 @@ fn gradient_is_exact() {
                 let x = shaken(&rest, 0.3 * scale, &mut random);
                 check_gradient(&energy, &x, 0.0, 1e-4 * scale, 1e-7);
             }
+        }
+    }
+}
+
+/// The same bent sheet in squares of 1/n: deformed smoothly, it costs as much at every resolution, and as printed ever less.
+#[test]
+fn the_cost_does_not_depend_on_the_resolution() {
+    let costs = |n: u32| {
+        let columns = n + 1;
+        let at = |k: u32| DVec2::new(f64::from(k % columns), f64::from(k / columns)) / f64::from(n);
+        let flat: Vec<DVec2> = (0..columns * columns).map(at).collect();
+        let rest: Vec<DVec3> = flat.iter().map(|p| DVec3::new(p.x, p.y, 0.2 * (2.0 * p.x).sin())).collect();
+        let x: Vec<DVec3> = rest
+            .iter()
+            .zip(&flat)
+            .map(|(r, p)| *r + 0.1 * DVec3::new((3.0 * p.y).sin(), p.x * p.y, (2.0 * p.x + 3.0 * p.y).cos()))
+            .collect();
+        let hinges = Topology::new(rest.len(), &triangles(columns, columns, false)).hinges;
+        let form = SurfaceForm::Similarity;
+        let printed = Surface::new(&rest, &hinges, form);
+        [value(&Surface::at_any_resolution(&rest, &hinges, form, 0.3), &x), value(&printed, &x)]
+    };
+    let [reference, coarse] = costs(10);
+    for n in [20, 40, 80] {
+        let [cost, printed] = costs(n);
+        assert!((cost / reference - 1.0).abs() < 0.1, "{n}: {cost} instead of {reference}");
+        let falls = coarse / printed * (10.0 / f64::from(n)).powi(2);
+        assert!((falls - 1.0).abs() < 0.2, "{n}: {printed} beside {coarse}");
+    }
+}
+
+/// The weight of one hinge against the formula, laid flat by its angles; folded over, and of a needle, it stays what it is.
+#[test]
+fn a_hinge_weighs_its_area_where_it_has_the_length() {
+    let ratio = |rest: [DVec3; 4], length: f64| {
+        let x = shaken(&rest, 0.3, &mut Random::new(21));
+        let form = SurfaceForm::Similarity;
+        let [any, printed] =
+            [Surface::at_any_resolution(&rest, &[hinge()], form, length), Surface::new(&rest, &[hinge()], form)];
+        value(&any, &x) / value(&printed, &x)
+    };
+    let mut random = Random::new(22);
+    for _ in 0..50 {
+        let fold = 3.0 * random.signed();
+        let (along, heights) = ([random.unit(), random.unit()], [0.3 + random.unit(), 0.3 + random.unit()]);
+        let rest = [
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::new(along[0], heights[0], 0.0),
+            DVec3::new(along[1], -heights[1] * fold.cos(), heights[1] * fold.sin()),
+        ];
+        let across = (heights[0] + heights[1]).powi(2) + (along[1] - along[0]).powi(2);
+        assert!((ratio(rest, across.sqrt()) - 1.0).abs() < 1e-9);
+        assert!((ratio(rest, 1.2 * across.sqrt()) / 1.44 - 1.0).abs() < 1e-9);
+        // Of very few triangles, the garment is not soft.
+        assert!((ratio(rest, 1e-3) - 1.0).abs() < 1e-9);
+    }
+    let needle = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1e-3, 0.0), DVec3::new(0.5, -1e-3, 0.0)];
+    assert!((ratio(needle, 0.1) - 2.0 * 0.01 / 1e-3).abs() < 1e-6);
+}
+
+#[test]
+fn gradient_is_exact_at_any_resolution() {
+    let mut random = Random::new(23);
+    for form in FORMS {
+        for patch in patches(&mut random) {
+            let energy = Surface::at_any_resolution(&patch.rest, &patch.hinges, form, 0.05);
+            let x = shaken(&patch.rest, 0.3, &mut random);
+            check_gradient(&energy, &x, 0.0, 1e-4, 1e-7);
+            check_semidefinite(&energy, &x, 0.0, &mut || random.signed());
         }
     }
 }

@@ -66,6 +66,7 @@ namespace Bespoke
         internal double tolerance;
         internal uint max_iterations;
         internal SurfaceForm surface_form;
+        internal double surface_length;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -122,6 +122,13 @@ namespace Bespoke
         /// </summary>
         public SurfaceForm SurfaceForm { get; set; }
 
+        /// <summary>
+        /// Expert. Distance across two triangles at which they weigh their area in the surface term [up to 1]. Smaller
+        /// ones weigh more, so that the fit is the same at every resolution of the garment. Default 0.048.
+        /// <see cref="Options.WeightOff"/>: all weigh their area, as printed in the paper.
+        /// </summary>
+        public double SurfaceLength { get; set; }
+
         private static Options FromNative(NativeOptions native)
         {
             return new Options
@@ -149,6 +156,7 @@ namespace Bespoke
                 Tolerance = native.tolerance,
                 MaxIterations = native.max_iterations,
                 SurfaceForm = native.surface_form,
+                SurfaceLength = native.surface_length,
             };
         }
 
@@ -180,6 +188,7 @@ namespace Bespoke
                 tolerance = Tolerance,
                 max_iterations = MaxIterations,
                 surface_form = SurfaceForm,
+                surface_length = SurfaceLength,
             };
         }
     }

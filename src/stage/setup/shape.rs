@@ -81,8 +81,14 @@ impl Shape {
         let near = NearBorders::find(rest, triangles, &topology, &is_held);
         let whole = without_caps(rest, triangles);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
+        let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
+        let surface = if options.surface_length > 0.0 {
+            Surface::at_any_resolution(rest, hinges, options.surface_form, options.surface_length)
+        } else {
+            Surface::new(rest, hinges, options.surface_form)
+        };
         let shape = Self {
-            surface: Surface::new(rest, hinges.as_ref().unwrap_or(&topology.hinges), options.surface_form),
+            surface,
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
             borders: Attachment::of_borders(rest, &near.holds),
             carry: held.carried.term(),

@@ -8,6 +8,7 @@ pub mod figure;
 pub mod fit_weight;
 pub mod layers;
 pub mod measure;
+pub mod resolution;
 pub mod skeleton_edits;
 pub mod stress;
 pub mod transfer;

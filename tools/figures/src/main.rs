@@ -12,24 +12,24 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use figures::figure::{Figure, Outcome};
-use figures::{clearance, comparison, curve_term, fit_weight, layers, skeleton_edits, stress};
+use figures::{clearance, comparison, curve_term, fit_weight, layers, resolution, skeleton_edits, stress};
 
 /// The name of a figure, and what makes it.
 type Maker = (&'static str, fn() -> Outcome<Figure>);
 
 /// All of them.
-const FIGURES: [Maker; 7] = [
+const FIGURES: [Maker; 8] = [
     ("layers", layers::figure),
     ("stress", stress::figure),
     ("fit-weight", fit_weight::figure),
     ("skeleton-edits", skeleton_edits::figure),
     ("curve-term", curve_term::figure),
+    ("resolution", resolution::figure),
     ("clearance", clearance::figure),
     ("comparison", comparison::figure),
 ];
 
-const USAGE: &str =
-    "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [clearance] [comparison]";
+const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [comparison]";
 
 fn main() -> ExitCode {
     let mut out = PathBuf::from("build/gallery/figures");

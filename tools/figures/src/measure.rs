@@ -47,6 +47,15 @@ pub fn waist_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 
+/// The mean distance from `body` of a garment's surface, in metres.
+pub fn mean_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
+    let skin = ClosestPoint::new(&pair::mesh(&body.mesh));
+    let areas = garment.areas();
+    let middle = |t: &[u32; 3]| t.iter().map(|&v| garment.positions[v as usize]).sum::<DVec3>() / 3.0;
+    let sum: f64 = garment.triangles.iter().zip(&areas).map(|(t, area)| area * skin.distance(middle(t))).sum();
+    sum / areas.iter().sum::<f64>()
+}
+
 /// The radius of a body's trunk around its waist, in metres: the mean of what is seen across the spine, without the farthest
 /// quarter, for a tail is no part of it.
 pub fn waist_radius(body: &Sample) -> f64 {

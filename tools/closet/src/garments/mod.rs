@@ -68,10 +68,6 @@ struct Piece {
 
 /// Models a garment around the mannequin. The result depends on `garment` alone.
 pub fn garment(garment: Garment) -> Sample {
-    let (proportions, build) = shape(Kind::Mannequin);
-    let skeleton = proportions.skeleton();
-    let body = body::body(&skeleton, &build);
-    let mannequin = Mannequin { skeleton, body };
     let design = match garment {
         Garment::Jumpsuit => jumpsuit::jumpsuit,
         Garment::Coat => coat::coat,
@@ -80,6 +76,19 @@ pub fn garment(garment: Garment) -> Sample {
         Garment::Vest => vest::vest,
         Garment::Trousers => trousers::trousers,
     };
+    designed(design)
+}
+
+/// The vest with its edge lengths times `coarseness`.
+pub fn vest(coarseness: f64) -> Sample {
+    designed(|mannequin| vest::with_edges(mannequin, coarseness))
+}
+
+fn designed(design: impl Fn(&Mannequin) -> Piece) -> Sample {
+    let (proportions, build) = shape(Kind::Mannequin);
+    let skeleton = proportions.skeleton();
+    let body = body::body(&skeleton, &build);
+    let mannequin = Mannequin { skeleton, body };
     let Piece { mesh, texture, no_fit } = design(&mannequin);
     Sample { mesh, skeleton: mannequin.skeleton, skin: Vec::new(), texture, no_fit }
 }

@@ -27,6 +27,11 @@ const TRIM: f64 = 0.024;
 
 /// Designs the vest.
 pub fn vest(mannequin: &Mannequin) -> Piece {
+    with_edges(mannequin, 1.0)
+}
+
+/// The same with its edge lengths times `coarseness`.
+pub fn with_edges(mannequin: &Mannequin, coarseness: f64) -> Piece {
     let (skeleton, body) = (&mannequin.skeleton, &mannequin.body);
     let j = &skeleton.joints;
     let (waist, shoulder, neck) = (j[WAIST].z, j[ARMS[0][0]].z, j[NECK]);
@@ -70,7 +75,7 @@ pub fn vest(mannequin: &Mannequin) -> Piece {
     let edge_length = |p: DVec3| {
         let band = |distance: f64, reach: f64| FINE + (1.0 - FINE) * step(distance - reach, 0.02);
         let trim = band(-neckline(p), 0.035).min(band(-armhole(p), 0.035)).min(band(p.z - hem, 0.055));
-        EDGE * trim.min(folds.fineness([trunk_angle(p) * TRUNK, p.z], 0.75))
+        coarseness * EDGE * trim.min(folds.fineness([trunk_angle(p) * TRUNK, p.z], 0.75))
     };
     let cuts: Vec<Function> = vec![
         Box::new(neckline),

@@ -326,6 +326,7 @@ impl Program {
             &mut options.inflation_barrier_weight,
             &mut options.min_separation,
             &mut options.tolerance,
+            &mut options.surface_length,
         ];
         for number in numbers {
             match source.byte() {
