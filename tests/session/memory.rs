@@ -68,7 +68,7 @@ fn pairs_beyond_the_limit_end_the_session() {
     session.set_options(options).unwrap();
     let error = session.run().unwrap_err();
     assert_eq!(error.kind, ErrorKind::MemoryLimit, "{error}");
-    let real = ["more pairs than there is room for", "the factorisation of the garment's linear system"];
+    let real = ["more pairs than there is budget for", "the factorisation of the garment's linear system"];
     assert!(real.iter().any(|what| error.message.contains(what)), "not from sizes: {error}");
 }
 

@@ -42,6 +42,9 @@ const ALMOST_FAR: f64 = 0.2;
 const ELSEWHERE: f64 = 0.15;
 /// Ratios that are told beside the best, at most.
 const BESIDE: usize = 2;
+/// A body of which this share is no farther from the bones than that, in sizes of the skeleton, is not so many times too large:
+/// what lies far away is something else, such as a second body.
+const AROUND: (f64, f64, f64) = (0.25, 0.3, 10.0);
 /// What another reading has to be better by, as a factor, to be told, and to be refused.
 const TOLD: f64 = 1.9;
 const REFUSED: f64 = 2.5;
@@ -158,10 +161,19 @@ impl Surroundings {
     pub fn thickness(&self, mend: &Mend) -> f64 {
         let median = |points: &[Point]| {
             let mut all: Vec<f64> = points.iter().map(|p| self.distance_of(p, mend.factor, mend.turn)).collect();
-            let middle = all.len() / 2;
+            // Of two in the middle the lower: what lies far away, such as a second body, makes none thicker.
+            let middle = all.len().saturating_sub(1) / 2;
             if all.is_empty() { f64::INFINITY } else { *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
         };
         median(&self.points).min(median(&self.corners)) / self.extents[1].max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether much of a body lies around its bones as it is.
+    fn is_around_bones(&self) -> bool {
+        let (share, distance, _) = AROUND;
+        let is_near = |point: &&Point| self.distance_of(point, 1.0, AxisTurn::IDENTITY) <= distance * self.extents[1];
+        let near = self.corners.iter().filter(is_near).count();
+        matches!(self.expected, Expected::Body) && near as f64 >= share * self.corners.len() as f64
     }
 
     /// The logarithm of what is bad about a reading.
@@ -200,6 +212,9 @@ impl Surroundings {
         }
         let (cost, ratio, turn) = best;
         if now - cost < TOLD.ln() {
+            return as_it_is;
+        }
+        if ratio <= 1.0 / AROUND.2 && self.is_around_bones() {
             return as_it_is;
         }
         let much = now - cost >= MUCH;

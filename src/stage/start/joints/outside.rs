@@ -36,7 +36,9 @@ pub(super) fn find(target: &Figure, source: &Figure) -> Vec<Misplaced> {
             let bone = in_target.bone.index;
             found.push(in_source.unwrap_or_else(|| source.collapsed(bone, joint, 1.0)));
         } else {
-            found.extend([target, source].into_iter().filter_map(|figure| figure.outside(joint)));
+            found.extend(
+                [(target, source), (source, target)].into_iter().filter_map(|(it, other)| it.outside(joint, other)),
+            );
         }
     }
     found.extend([target, source].into_iter().flat_map(Figure::bones_outside));
@@ -87,9 +89,14 @@ impl Figure {
     }
 
     /// A joint outside of the body, whose neighbours are inside. The better place of a last one is the last on its bone that
-    /// is inside, that of another is in the middle of the limb beside it.
-    fn outside(&self, joint: u32) -> Option<Misplaced> {
+    /// is inside, that of another is in the middle of the limb beside it. Many rigs end beyond the tips of their limbs, and
+    /// lengthened on one side alone a bone no longer means the same on both: so a last joint has to be inside in the `other`
+    /// figure.
+    fn outside(&self, joint: u32, other: &Self) -> Option<Misplaced> {
         let flesh = self.flesh.as_ref()?;
+        if self.graph.is_leaf(joint) && !other.flesh.as_ref().is_some_and(|flesh| flesh.contains(other.place(joint))) {
+            return None;
+        }
         let (p, bones) = (self.place(joint), self.graph.bones_at(joint));
         let distance = self.outside_by(p);
         let neighbours = || bones.iter().map(|&bone| self.place(self.other(bone, joint)));
