@@ -94,7 +94,7 @@ static const Entry entries[] = {
     {"", "", TEXT, 0, 0, "\nFor experts; the skeleton is 2 long in all lengths:\n"},
     {"--surface-weight", "W", WEIGHT, FIELD(library.surface_weight), 0, "how strongly the design keeps its shape (1)"},
     {"--curve-weight", "W", WEIGHT, FIELD(curve_weight), 0,
-     "the same for its boundary curves: curvature and torsion (1)"},
+     "the same for its boundary curves: curvature and torsion (2.5)"},
     {"--curvature-weight", "W", WEIGHT, FIELD(library.curvature_weight), 0, ","},
     {"--torsion-weight", "W", WEIGHT, FIELD(library.torsion_weight), 0, "one of the two alone"},
     {"--position-weight", "W", WEIGHT, FIELD(library.position_weight), 0,
@@ -117,6 +117,9 @@ static const Entry entries[] = {
     {"--surface-length", "D", WEIGHT, FIELD(library.surface_length), 0,
      "distance across two triangles at which they weigh their area in the surface term (0.048); 0\n"
      "weighs all by their area, so that fine garments are softer"},
+    {"--curve-chord", "D", WEIGHT, FIELD(library.curve_chord), 0,
+     "distance along a boundary curve at which its bends are read (0.08); 0 reads them at its\n"
+     "vertices, so that fine curves are softer"},
     {"", "", TEXT, 0, 0,
      "\n"
      "A message may name an option of the library: inflation_dhat is set by --inflation-dhat, and so on, surface_form by\n"

@@ -521,9 +521,9 @@ typedef struct BespokeOptions {
   uint32_t keep_caps;
   /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
   double surface_weight;
-  /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+  /// Expert. Weight of the curvature of boundary curves. Default 2.5. BESPOKE_WEIGHT_OFF possible.
   double curvature_weight;
-  /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+  /// Expert. Weight of the torsion of boundary curves. Default 2.5. BESPOKE_WEIGHT_OFF possible.
   double torsion_weight;
   /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
   /// possible.
@@ -551,6 +551,10 @@ typedef struct BespokeOptions {
   /// more, so that the fit is the same at every resolution of the garment. Default 0.048. BESPOKE_WEIGHT_OFF: all weigh
   /// their area, as printed in the paper.
   double surface_length;
+  /// Expert. Distance along a boundary curve between the points from which the curvature and torsion terms read its bends
+  /// [up to 1], a share of its length at most. So a V stays a V at every resolution of the garment. Default 0.08.
+  /// BESPOKE_WEIGHT_OFF: from its vertices, as printed in the paper.
+  double curve_chord;
 } BespokeOptions;
 
 /// Pairs of triangles that touch or cross each other.

@@ -755,9 +755,9 @@ struct Options {
     bool keep_caps = false;
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     double surface_weight = 0.0;
-    /// Expert. Weight of the curvature of boundary curves. Default 1. weight_off possible.
+    /// Expert. Weight of the curvature of boundary curves. Default 2.5. weight_off possible.
     double curvature_weight = 0.0;
-    /// Expert. Weight of the torsion of boundary curves. Default 1. weight_off possible.
+    /// Expert. Weight of the torsion of boundary curves. Default 2.5. weight_off possible.
     double torsion_weight = 0.0;
     /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. weight_off possible.
     double position_weight = 0.0;
@@ -784,6 +784,10 @@ struct Options {
     /// weigh more, so that the fit is the same at every resolution of the garment. Default 0.048. weight_off: all weigh
     /// their area, as printed in the paper.
     double surface_length = 0.0;
+    /// Expert. Distance along a boundary curve between the points from which the curvature and torsion terms read its
+    /// bends [up to 1], a share of its length at most. So a V stays a V at every resolution of the garment. Default
+    /// 0.08. weight_off: from its vertices, as printed in the paper.
+    double curve_chord = 0.0;
 
     /// As the C API takes them.
     BespokeOptions get() const noexcept {
@@ -813,6 +817,7 @@ struct Options {
         options.max_iterations = max_iterations;
         options.surface_form = static_cast<std::uint32_t>(surface_form);
         options.surface_length = surface_length;
+        options.curve_chord = curve_chord;
         return options;
     }
 
@@ -850,6 +855,7 @@ struct Options {
         options.max_iterations = read.max_iterations;
         options.surface_form = static_cast<SurfaceForm>(read.surface_form);
         options.surface_length = read.surface_length;
+        options.curve_chord = read.curve_chord;
         return options;
     }
 };

@@ -38,9 +38,12 @@ macro_rules! option_table {
             /// Weight of the surface term (Eq. 2).
             surface_weight: f64 = 1.0, in NotNegative, off = 0.0;
             /// Weight of the curvature of boundary curves (Eq. 5).
-            curvature_weight: f64 = 1.0, in NotNegative, off = 0.0;
+            curvature_weight: f64 = 2.5, in NotNegative, off = 0.0;
             /// Weight of the torsion of boundary curves (section 3.4.5).
-            torsion_weight: f64 = 1.0, in NotNegative, off = 0.0;
+            torsion_weight: f64 = 2.5, in NotNegative, off = 0.0;
+            /// Distance along a boundary curve at which its bends are seen, so that the curve terms are the same at every
+            /// resolution; 0 sees them at its vertices, as printed in the paper.
+            curve_chord: f64 = 0.08, in Between(0.0, 1.0), off = 0.0;
             /// Weight of the positions of boundaries along their bones (Eq. 3).
             position_weight: f64 = 10.0, in NotNegative, off = 0.0;
             /// Weight of the contact barrier (Eq. 1, on squared distances).

@@ -63,9 +63,9 @@ pub struct BespokeOptions {
     pub keep_caps: u32,
     /// Expert. Weight of the surface term, which keeps the design's shape. Default 1.
     pub surface_weight: f64,
-    /// Expert. Weight of the curvature of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the curvature of boundary curves. Default 2.5. BESPOKE_WEIGHT_OFF possible.
     pub curvature_weight: f64,
-    /// Expert. Weight of the torsion of boundary curves. Default 1. BESPOKE_WEIGHT_OFF possible.
+    /// Expert. Weight of the torsion of boundary curves. Default 2.5. BESPOKE_WEIGHT_OFF possible.
     pub torsion_weight: f64,
     /// Expert. Weight of the positions of cuffs, hems and collars along their bones. Default 10. BESPOKE_WEIGHT_OFF
     /// possible.
@@ -93,6 +93,10 @@ pub struct BespokeOptions {
     /// more, so that the fit is the same at every resolution of the garment. Default 0.048. BESPOKE_WEIGHT_OFF: all weigh
     /// their area, as printed in the paper.
     pub surface_length: f64,
+    /// Expert. Distance along a boundary curve between the points from which the curvature and torsion terms read its bends
+    /// [up to 1], a share of its length at most. So a V stays a V at every resolution of the garment. Default 0.08.
+    /// BESPOKE_WEIGHT_OFF: from its vertices, as printed in the paper.
+    pub curve_chord: f64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers without padding.

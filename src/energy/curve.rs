@@ -1,6 +1,6 @@
 //! Curve shape: curvature (Eq. 5 of the paper) and torsion (its section 3.4.5) of boundary curves and seams.
 //!
-//! With the unit directions a, b, c of three edges in a row, at the vertex v where b starts,
+//! With the unit directions a, b, c from each to the next of points in a row on the curve ([`super::curve_window`]),
 //!
 //! ```text
 //! alpha = -a . b
@@ -10,49 +10,20 @@
 //! L_torsion   = sum w ((beta - beta_rest)^2 + (gamma - gamma_rest)^2)
 //! ```
 //!
-//! where w is the mean rest length of the two edges at v. Unit directions do not depend on scale: both terms
-//! are exactly zero for every similarity of the rest curve.
+//! where w is the length of the curve at rest that such points stand for: as printed, where they are the vertices, the mean of
+//! the two edges at the second. Unit directions do not depend on scale: both terms are exactly zero for every similarity of
+//! the rest curve.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
+pub use super::curve_window::Polyline;
+use super::curve_window::Window;
 use super::{Configuration, Direction, Energy, Sink};
-use crate::geometry::mesh::BoundaryLoop;
 use crate::memory::bytes;
 
-/// A chain of garment edges.
-#[derive(Clone, Copy, Debug)]
-pub struct Polyline<'a> {
-    /// Vertex indices along the chain, each once.
-    pub vertices: &'a [u32],
-    /// True where the last vertex is joined to the first.
-    pub closed: bool,
-}
-
-impl<'a> From<&'a BoundaryLoop> for Polyline<'a> {
-    fn from(boundary: &'a BoundaryLoop) -> Self {
-        Self { vertices: &boundary.vertices, closed: true }
-    }
-}
-
-impl<'a> Polyline<'a> {
-    /// Calls `visit` with every `N` vertices in a row, `N >= 3`. A closed chain shorter than three vertices has
-    /// none, and one of exactly three meets its first vertex again as the fourth.
-    fn windows<const N: usize>(self, mut visit: impl FnMut([u32; N])) {
-        let n = self.vertices.len();
-        let starts = match self.closed {
-            true if n >= 3 => n,
-            true => 0,
-            false => (n + 1).saturating_sub(N),
-        };
-        for i in 0..starts {
-            visit(std::array::from_fn(|k| self.vertices[(i + k) % n]));
-        }
-    }
-}
-
-/// The unit direction of an edge, and one over its length; both zero where the edge has no length.
+/// The unit direction from a point to the next, and one over their distance; both zero where they coincide.
 #[derive(Clone, Copy)]
 struct Edge {
     unit: DVec3,
@@ -61,8 +32,8 @@ struct Edge {
 
 impl Edge {
     #[inline]
-    fn new(x: &[DVec3], from: u32, to: u32) -> Self {
-        let edge = x[to as usize] - x[from as usize];
+    fn new(from: DVec3, to: DVec3) -> Self {
+        let edge = to - from;
         let inverse = 1.0 / edge.length();
         if inverse.is_finite() {
             Self { unit: edge * inverse, inverse }
@@ -78,46 +49,48 @@ impl Edge {
     }
 }
 
-/// Mean rest length of the edges into and out of `middle`, or none where one has no length.
-fn length_weight(rest: &[DVec3], from: u32, middle: u32, to: u32) -> Option<f64> {
-    let length = |a: u32, b: u32| rest[a as usize].distance(rest[b as usize]);
-    let (before, after) = (length(from, middle), length(middle, to));
-    (Edge::new(rest, from, middle).inverse > 0.0 && Edge::new(rest, middle, to).inverse > 0.0)
-        .then_some(0.5 * (before + after))
+/// The directions between points in a row: one fewer than points.
+#[inline]
+fn edges<const N: usize, const M: usize>(window: &Window<N>, x: &[DVec3]) -> [Edge; M] {
+    let points = window.points(x);
+    std::array::from_fn(|k| Edge::new(points[k], points[k + 1]))
+}
+
+/// Hands the square of a residual, times a weight, to the sink; `by` are the residual's derivatives by the points.
+#[inline]
+fn emit<const N: usize>(sink: &mut dyn Sink, window: &Window<N>, by: [DVec3; N], weight: f64, residual: f64) {
+    let (vertices, components) = (window.vertices(), window.by_vertices(by));
+    let direction = Direction { vertices, components: &components[..vertices.len()], t: 0.0 };
+    sink.rank_one(direction, 2.0 * weight * residual, 2.0 * weight);
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Corner {
-    vertices: [u32; 3],
+    window: Window<3>,
     alpha: f64,
     weight: f64,
 }
 
-/// Curvature term; an element is a corner of a curve.
+/// Curvature term; an element is three points in a row.
 #[derive(Clone, Debug)]
 pub struct Curvature {
     corners: Vec<Corner>,
 }
 
 impl Curvature {
-    /// The term for `curves` (boundary loops or polylines) of a garment with vertices `rest`.
+    /// The term for `curves` (boundary loops or polylines) of a garment with vertices `rest`, on points `chord` apart, or as
+    /// printed on its vertices where that is 0.
     ///
-    /// A closed curve of fewer than three vertices is left out. A corner at an edge without rest length, or whose two
-    /// neighbours are one vertex, gets no element.
-    pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>) -> Self {
+    /// A closed curve of fewer than three vertices is left out. Points of which two coincide at rest, or whose first is the
+    /// third again, get no element.
+    pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>, chord: f64) -> Self {
         let mut corners = Vec::new();
         for curve in curves {
-            curve.into().windows(|vertices: [u32; 3]| {
-                let [u, v, w] = vertices;
-                if u == w {
-                    return;
-                }
-                if let Some(weight) = length_weight(rest, u, v, w) {
-                    corners.push(Corner {
-                        vertices,
-                        alpha: alpha(&[Edge::new(rest, u, v), Edge::new(rest, v, w)]),
-                        weight,
-                    });
+            curve.into().windows(rest, chord, |points, weight| {
+                let window = Window::new(points);
+                let edges = edges(&window, rest);
+                if edges.iter().all(|edge| edge.inverse > 0.0) {
+                    corners.push(Corner { window, alpha: alpha(&edges), weight });
                 }
             });
         }
@@ -128,14 +101,6 @@ impl Curvature {
 #[inline]
 fn alpha([a, b]: &[Edge; 2]) -> f64 {
     -a.unit.dot(b.unit)
-}
-
-impl Corner {
-    #[inline]
-    fn edges(&self, x: &[DVec3]) -> [Edge; 2] {
-        let [u, v, w] = self.vertices;
-        [Edge::new(x, u, v), Edge::new(x, v, w)]
-    }
 }
 
 impl Energy for Curvature {
@@ -152,37 +117,33 @@ impl Energy for Curvature {
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        self.corners[range].iter().map(|k| k.weight * (alpha(&k.edges(at.x)) - k.alpha).powi(2)).sum()
+        self.corners[range].iter().map(|k| k.weight * (alpha(&edges(&k.window, at.x)) - k.alpha).powi(2)).sum()
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for k in &self.corners[range] {
-            let edges = k.edges(at.x);
+            let edges: [Edge; 2] = edges(&k.window, at.x);
             let residual = alpha(&edges) - k.alpha;
             let [a, b] = edges;
             let (by_a, by_b) = (a.pull_back(-b.unit), b.pull_back(-a.unit));
-            let components = [-by_a, by_a - by_b, by_b];
-            let direction = Direction { vertices: &k.vertices, components: &components, t: 0.0 };
-            sink.rank_one(direction, 2.0 * k.weight * residual, 2.0 * k.weight);
+            emit(sink, &k.window, [-by_a, by_a - by_b, by_b], k.weight, residual);
         }
     }
 
     fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.corners.iter().for_each(|k| visit(&k.vertices));
+        self.corners.iter().for_each(|k| visit(k.window.vertices()));
     }
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Twist {
-    vertices: [u32; 4],
-    /// How many of the vertices are distinct: 3 on a triangle, whose fourth is its first again.
-    distinct: usize,
+    window: Window<4>,
     beta: f64,
     gamma: f64,
     weight: f64,
 }
 
-/// Torsion term; an element is three edges in a row.
+/// Torsion term; an element is four points in a row.
 #[derive(Clone, Debug)]
 pub struct Torsion {
     twists: Vec<Twist>,
@@ -191,19 +152,15 @@ pub struct Torsion {
 impl Torsion {
     /// The term for `curves` (boundary loops or polylines) of a garment with vertices `rest`.
     ///
-    /// The same curves and edges are left out as in [`Curvature::new`].
-    pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>) -> Self {
+    /// Points as in [`Curvature::new`]; the same are left out.
+    pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>, chord: f64) -> Self {
         let mut twists = Vec::new();
         for curve in curves {
-            curve.into().windows(|vertices: [u32; 4]| {
-                let [u, v, w, z] = vertices;
-                if u == w || v == z || length_weight(rest, v, w, z).is_none() {
-                    return;
-                }
-                if let Some(weight) = length_weight(rest, u, v, w) {
-                    let edges = [Edge::new(rest, u, v), Edge::new(rest, v, w), Edge::new(rest, w, z)];
-                    let distinct = if u == z { 3 } else { 4 };
-                    twists.push(Twist { vertices, distinct, beta: beta(&edges), gamma: gamma(&edges), weight });
+            curve.into().windows(rest, chord, |points, weight| {
+                let window = Window::new(points);
+                let edges = edges(&window, rest);
+                if edges.iter().all(|edge| edge.inverse > 0.0) {
+                    twists.push(Twist { window, beta: beta(&edges), gamma: gamma(&edges), weight });
                 }
             });
         }
@@ -222,23 +179,11 @@ fn gamma([a, b, c]: &[Edge; 3]) -> f64 {
 }
 
 impl Twist {
-    #[inline]
-    fn edges(&self, x: &[DVec3]) -> [Edge; 3] {
-        let [u, v, w, z] = self.vertices;
-        [Edge::new(x, u, v), Edge::new(x, v, w), Edge::new(x, w, z)]
-    }
-
     /// Hands one scalar residual to the sink, whose derivatives by the unit directions of `edges` are `by`.
     #[inline]
     fn emit(&self, edges: &[Edge; 3], by: [DVec3; 3], residual: f64, sink: &mut dyn Sink) {
         let [a, b, c] = [edges[0].pull_back(by[0]), edges[1].pull_back(by[1]), edges[2].pull_back(by[2])];
-        let mut components = [-a, a - b, b - c, c];
-        if self.distinct == 3 {
-            components[0] += c;
-        }
-        let n = self.distinct;
-        let direction = Direction { vertices: &self.vertices[..n], components: &components[..n], t: 0.0 };
-        sink.rank_one(direction, 2.0 * self.weight * residual, 2.0 * self.weight);
+        emit(sink, &self.window, [-a, a - b, b - c, c], self.weight, residual);
     }
 }
 
@@ -257,7 +202,7 @@ impl Energy for Torsion {
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
         let cost = |k: &Twist| {
-            let edges = k.edges(at.x);
+            let edges = edges(&k.window, at.x);
             k.weight * ((beta(&edges) - k.beta).powi(2) + (gamma(&edges) - k.gamma).powi(2))
         };
         self.twists[range].iter().map(cost).sum()
@@ -265,7 +210,7 @@ impl Energy for Torsion {
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
         for k in &self.twists[range] {
-            let edges = k.edges(at.x);
+            let edges: [Edge; 3] = edges(&k.window, at.x);
             let [a, b, c] = edges.map(|e| e.unit);
             let (ab, cb) = (a.dot(b), c.dot(b));
             k.emit(&edges, [b * cb - c, c * ab + a * cb, b * ab - a], beta(&edges) - k.beta, sink);
@@ -274,6 +219,6 @@ impl Energy for Torsion {
     }
 
     fn stencils(&self, visit: &mut dyn FnMut(&[u32])) {
-        self.twists.iter().for_each(|k| visit(&k.vertices[..k.distinct]));
+        self.twists.iter().for_each(|k| visit(k.window.vertices()));
     }
 }

@@ -8,6 +8,7 @@
 pub mod attachment;
 pub mod barrier;
 pub mod curve;
+mod curve_window;
 pub mod distortion;
 pub mod fit;
 pub mod inflation;
@@ -23,7 +24,7 @@ use glam::DVec3;
 
 pub use crate::contact::Configuration;
 
-/// A direction in the space of the unknowns with at most four garment vertices: `a = (a_i, a_t)`.
+/// A direction in the space of the unknowns with at most eight garment vertices: `a = (a_i, a_t)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction<'a> {
     /// The garment vertices that take part (each once).

@@ -13,8 +13,12 @@ use crate::energy::{Direction, Row, Sink};
 use crate::memory::bytes;
 use crate::simd::f64x4::{F64x4, Kernel, dispatch};
 
-/// Vertices of an element, at most.
+/// Vertices of most elements, at most: those of two edges, or of a point and a triangle.
 const CORNERS: usize = 4;
+
+/// Vertices of any element, at most: those of four points on edges. Such are few; each of their rank-one updates is stored in two
+/// parts.
+const MOST_CORNERS: usize = 2 * CORNERS;
 
 /// Rank-one updates of one stored element; an element with more is stored as several.
 const ROWS: usize = 6;
@@ -22,25 +26,40 @@ const ROWS: usize = 6;
 /// The derivatives of one element: rank-one updates over the same vertices.
 #[derive(Clone, Copy, Debug)]
 struct ElementDerivatives {
-    vertices: [u32; CORNERS],
-    /// Index of its first rank-one update.
+    vertices: [u32; MOST_CORNERS],
+    /// Index of the first part of its first rank-one update.
     first: u32,
     corners: u8,
+    /// Number of its rank-one updates.
     rows: u8,
     /// Whether any of its updates adds to the Hessian.
     curved: bool,
 }
 
 impl ElementDerivatives {
+    fn new(vertices: &[u32], first: usize, rows: usize, curved: bool) -> Self {
+        let mut element = Self {
+            vertices: [0; MOST_CORNERS],
+            first: first as u32,
+            corners: vertices.len().min(MOST_CORNERS) as u8,
+            rows: rows as u8,
+            curved,
+        };
+        for (to, &v) in element.vertices.iter_mut().zip(vertices) {
+            *to = v;
+        }
+        element
+    }
+
     #[inline]
     fn corners(&self) -> &[u32] {
         &self.vertices[..self.corners as usize]
     }
 }
 
-/// A rank-one update: adds `g a` to the gradient and `h a a^T` to the Hessian, with the term's weight in g and h. A row
-/// for each vertex holds its component of the direction a; the fourth entries of the rows pack g, h and the component
-/// of a along t. 128 bytes, two cache lines.
+/// A rank-one update, or a part of one: adds `g a` to the gradient and `h a a^T` to the Hessian, with the term's weight in g
+/// and h. A row for each vertex holds its component of the direction a; the fourth entries of the rows pack g, h and the
+/// component of a along t, which are those of the first part. 128 bytes, two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 struct RankOneUpdate([[f64; 4]; CORNERS]);
@@ -103,18 +122,31 @@ impl ElementBuffer {
 
 impl Sink for ElementBuffer {
     fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64) {
-        let mut row = Row { g, h, t: a.t, ..Row::default() };
-        for (component, &c) in row.components.iter_mut().zip(a.components) {
-            *component = c;
+        debug_assert!(a.vertices.len() <= MOST_CORNERS);
+        let part = |components: &[DVec3]| {
+            let mut row = Row { g, h, t: a.t, ..Row::default() };
+            for (component, &c) in row.components.iter_mut().zip(components) {
+                *component = c;
+            }
+            row
+        };
+        let row = part(a.components);
+        if a.vertices.len() <= CORNERS {
+            return self.low_rank(a.vertices, &[row]);
         }
-        self.low_rank(a.vertices, &[row]);
+        let first = self.rows.len();
+        let update = RankOneUpdate::new(&row, self.weight);
+        self.t_gradient += update.g() * row.t;
+        self.t_hessian += update.h() * row.t * row.t;
+        self.rows.push(update);
+        self.rows.push(RankOneUpdate::new(&part(&a.components[CORNERS..]), self.weight));
+        self.elements.push(ElementDerivatives::new(a.vertices, first, 1, update.h() != 0.0));
     }
 
     fn low_rank(&mut self, vertices: &[u32], rows: &[Row]) {
         debug_assert!(vertices.len() <= CORNERS);
-        let corners = vertices.len().min(CORNERS) as u8;
         for rows in rows.chunks(ROWS) {
-            let first = self.rows.len() as u32;
+            let first = self.rows.len();
             let mut curved = false;
             for row in rows {
                 let update = RankOneUpdate::new(row, self.weight);
@@ -123,12 +155,7 @@ impl Sink for ElementBuffer {
                 curved |= update.h() != 0.0;
                 self.rows.push(update);
             }
-            let mut element =
-                ElementDerivatives { vertices: [0; CORNERS], first, corners, rows: rows.len() as u8, curved };
-            for (to, &v) in element.vertices.iter_mut().zip(vertices) {
-                *to = v;
-            }
-            self.elements.push(element);
+            self.elements.push(ElementDerivatives::new(vertices, first, rows.len(), curved));
         }
     }
 }
@@ -145,7 +172,7 @@ pub(super) struct VertexElements {
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     buffer: u32,
-    /// Index of the element times [`CORNERS`], and the corner.
+    /// Index of the element times [`MOST_CORNERS`], and the corner.
     corner: u32,
 }
 
@@ -171,7 +198,7 @@ impl VertexElements {
                 for (c, &v) in element.corners().iter().enumerate() {
                     let at = &mut self.start[v as usize];
                     *at -= 1;
-                    self.entries[*at as usize] = Entry { buffer: buffer as u32, corner: (r * CORNERS + c) as u32 };
+                    self.entries[*at as usize] = Entry { buffer: buffer as u32, corner: (r * MOST_CORNERS + c) as u32 };
                 }
             }
         }
@@ -291,51 +318,82 @@ impl Kernel for Sum<'_, '_> {
             }
             blocks.clear();
             blocks.resize(1 + below.len(), [[0.0; 4]; 3]);
-            let (mut gradient, mut border) = (V::splat(0.0), V::splat(0.0));
+            let (gradient, border) = (V::splat(0.0), V::splat(0.0));
+            let mut column = Column { v, below, mark, blocks, missing: &mut block.missing, gradient, border };
             for entry in entries {
                 let buffer = &buffers[entry.buffer as usize];
-                let corner = entry.corner as usize % CORNERS;
-                let element = &buffer.elements[entry.corner as usize / CORNERS];
-                let rows = &buffer.rows[element.first as usize..][..element.rows as usize];
-                for row in rows {
-                    let component = V::load(&row.0[corner]);
-                    gradient = gradient.add_scaled(row.g(), component);
-                    border = border.add_scaled(row.h() * row.t(), component);
-                }
-                if !element.curved {
-                    continue;
-                }
-                for (other, &w) in element.corners().iter().enumerate() {
-                    let place = match (w as usize).cmp(&v) {
-                        Ordering::Less => continue,
-                        Ordering::Equal => 0,
-                        Ordering::Greater => {
-                            let k = mark[w as usize] as usize;
-                            if below.get(k) != Some(&w) {
-                                block.missing.add(v as u32, w);
-                                continue;
-                            }
-                            1 + k
-                        }
-                    };
-                    let sum = &mut blocks[place];
-                    let [mut x, mut y, mut z] = [V::load(&sum[0]), V::load(&sum[1]), V::load(&sum[2])];
-                    for row in rows {
-                        let [a, b, c, _] = row.0[corner];
-                        let component = V::load(&row.0[other]);
-                        x = x.add_scaled(row.h() * a, component);
-                        y = y.add_scaled(row.h() * b, component);
-                        z = z.add_scaled(row.h() * c, component);
-                    }
-                    x.store(&mut sum[0]);
-                    y.store(&mut sum[1]);
-                    z.store(&mut sum[2]);
+                let corner = entry.corner as usize % MOST_CORNERS;
+                let element = &buffer.elements[entry.corner as usize / MOST_CORNERS];
+                if element.corners as usize <= CORNERS {
+                    column.add::<1>(buffer, element, corner);
+                } else {
+                    column.add::<2>(buffer, element, corner);
                 }
             }
+            let Column { gradient, border, .. } = column;
             let [mut g, mut b] = [[0.0; 4]; 2];
             gradient.store(&mut g);
             border.store(&mut b);
             block.store(pattern, local, g, b, blocks);
+        }
+    }
+}
+
+/// The block column of a vertex while it is summed.
+struct Column<'a, V> {
+    v: usize,
+    /// The vertices of the blocks below the diagonal, and for each vertex its index among them, if it is one of them.
+    below: &'a [u32],
+    mark: &'a [u32],
+    blocks: &'a mut [[[f64; 4]; 3]],
+    missing: &'a mut PairCollector,
+    gradient: V,
+    border: V,
+}
+
+impl<V: F64x4> Column<'_, V> {
+    /// Adds an element whose corner `corner` is the vertex, and whose updates have `PARTS` parts.
+    #[inline(always)]
+    fn add<const PARTS: usize>(&mut self, buffer: &ElementBuffer, element: &ElementDerivatives, corner: usize) {
+        let rows = &buffer.rows[element.first as usize..][..element.rows as usize * PARTS];
+        let rows: &[[RankOneUpdate; PARTS]] = rows.as_chunks().0;
+        // With one part it is the first, as the compiler then knows.
+        let of = |row: &[RankOneUpdate; PARTS], corner: usize| -> [f64; 4] {
+            row[(corner / CORNERS).min(PARTS - 1)].0[corner % CORNERS]
+        };
+        for row in rows {
+            let component = V::load(&of(row, corner));
+            self.gradient = self.gradient.add_scaled(row[0].g(), component);
+            self.border = self.border.add_scaled(row[0].h() * row[0].t(), component);
+        }
+        if !element.curved {
+            return;
+        }
+        for (other, &w) in element.corners().iter().enumerate() {
+            let place = match (w as usize).cmp(&self.v) {
+                Ordering::Less => continue,
+                Ordering::Equal => 0,
+                Ordering::Greater => {
+                    let k = self.mark[w as usize] as usize;
+                    if self.below.get(k) != Some(&w) {
+                        self.missing.add(self.v as u32, w);
+                        continue;
+                    }
+                    1 + k
+                }
+            };
+            let sum = &mut self.blocks[place];
+            let [mut x, mut y, mut z] = [V::load(&sum[0]), V::load(&sum[1]), V::load(&sum[2])];
+            for row in rows {
+                let [a, b, c, _] = of(row, corner);
+                let component = V::load(&of(row, other));
+                x = x.add_scaled(row[0].h() * a, component);
+                y = y.add_scaled(row[0].h() * b, component);
+                z = z.add_scaled(row[0].h() * c, component);
+            }
+            x.store(&mut sum[0]);
+            y.store(&mut sum[1]);
+            z.store(&mut sum[2]);
         }
     }
 }

@@ -185,7 +185,7 @@ void fields_of_options() {
                           &options.barrier_weight, &options.dhat, &options.inflation_dhat,
                           &options.inflation_barrier_weight, &options.voxel_size, &options.min_separation,
                           &options.tolerance, &options.offset, &options.fit_distance, &options.pin_weight,
-                          &options.weld_distance, &options.surface_length}) {
+                          &options.weld_distance, &options.surface_length, &options.curve_chord}) {
         *field = ++value;
     }
     options.threads = 21;
@@ -199,7 +199,7 @@ void fields_of_options() {
     for (const double field :
          {c.fit_weight, c.designed_clearance, c.surface_weight, c.curvature_weight, c.torsion_weight, c.position_weight,
           c.barrier_weight, c.dhat, c.inflation_dhat, c.inflation_barrier_weight, c.voxel_size, c.min_separation,
-          c.tolerance, c.offset, c.fit_distance, c.pin_weight, c.weld_distance, c.surface_length}) {
+          c.tolerance, c.offset, c.fit_distance, c.pin_weight, c.weld_distance, c.surface_length, c.curve_chord}) {
         CHECK(field == ++value);
     }
     CHECK(c.threads == 21 && c.max_iterations == 22 && c.memory_limit == 23 && c.strict == 1);

@@ -52,7 +52,7 @@ fn agree_with_the_definition() {
     for n in [3, 4, 5, 12] {
         let rest = ring(n, &mut random);
         let loops = [boundary(n)];
-        let (curvature, torsion) = (Curvature::new(&rest, &loops), Torsion::new(&rest, &loops));
+        let (curvature, torsion) = (Curvature::new(&rest, &loops, 0.0), Torsion::new(&rest, &loops, 0.0));
         assert_eq!((curvature.len(), torsion.len()), (n as usize, n as usize));
         for _ in 0..20 {
             let x = shaken(&rest, 0.5, &mut random);
@@ -71,7 +71,7 @@ fn gradients_are_exact_and_hessians_semidefinite() {
             let rest: Vec<DVec3> = ring(n, &mut random).iter().map(|&p| p * scale).collect();
             let loops = [boundary(n)];
             let x = shaken(&rest, 0.3 * scale, &mut random);
-            for energy in [&Curvature::new(&rest, &loops) as &dyn Energy, &Torsion::new(&rest, &loops)] {
+            for energy in [&Curvature::new(&rest, &loops, 0.0) as &dyn Energy, &Torsion::new(&rest, &loops, 0.0)] {
                 check_gradient(energy, &x, 0.0, 1e-4 * scale, 1e-7);
                 check_semidefinite(energy, &x, 0.0, &mut || random.signed());
             }
@@ -87,8 +87,8 @@ fn hessians_are_exact_without_residual() {
         let loops = [boundary(n)];
         for scale in [0.5, 1.0, 4.0] {
             let x = similar(&rest, scale, &mut random);
-            check_hessian(&Curvature::new(&rest, &loops), &x, 0.0, 1e-4, 1e-7);
-            check_hessian(&Torsion::new(&rest, &loops), &x, 0.0, 1e-4, 1e-7);
+            check_hessian(&Curvature::new(&rest, &loops, 0.0), &x, 0.0, 1e-4, 1e-7);
+            check_hessian(&Torsion::new(&rest, &loops, 0.0), &x, 0.0, 1e-4, 1e-7);
         }
     }
 }
@@ -98,7 +98,7 @@ fn similarities_cost_nothing_and_a_mirror_image_does() {
     let mut random = Random::new(14);
     let rest = ring(10, &mut random);
     let loops = [boundary(10)];
-    let (curvature, torsion) = (Curvature::new(&rest, &loops), Torsion::new(&rest, &loops));
+    let (curvature, torsion) = (Curvature::new(&rest, &loops, 0.0), Torsion::new(&rest, &loops, 0.0));
     for _ in 0..20 {
         let scale = 0.2 + 3.0 * random.unit();
         let x = similar(&rest, scale, &mut random);
@@ -120,11 +120,14 @@ fn open_curves_have_no_corner_at_their_ends() {
     let vertices: Vec<u32> = (0..6).collect();
     let open = |n: usize| [Polyline { vertices: &vertices[..n], closed: false }];
     for (n, corners, twists) in [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 1, 0), (4, 2, 1), (6, 4, 3)] {
-        assert_eq!((Curvature::new(&rest, open(n)).len(), Torsion::new(&rest, open(n)).len()), (corners, twists));
+        assert_eq!(
+            (Curvature::new(&rest, open(n), 0.0).len(), Torsion::new(&rest, open(n), 0.0).len()),
+            (corners, twists)
+        );
     }
     let x = shaken(&rest, 0.3, &mut random);
-    check_gradient(&Curvature::new(&rest, open(6)), &x, 0.0, 1e-4, 1e-7);
-    check_gradient(&Torsion::new(&rest, open(6)), &x, 0.0, 1e-4, 1e-7);
+    check_gradient(&Curvature::new(&rest, open(6), 0.0), &x, 0.0, 1e-4, 1e-7);
+    check_gradient(&Torsion::new(&rest, open(6), 0.0), &x, 0.0, 1e-4, 1e-7);
 }
 
 #[test]
@@ -132,11 +135,14 @@ fn short_and_degenerate_curves_are_left_out() {
     let mut random = Random::new(16);
     let mut rest = ring(6, &mut random);
     for n in 0..3 {
-        assert_eq!((Curvature::new(&rest, &[boundary(n)]).len(), Torsion::new(&rest, &[boundary(n)]).len()), (0, 0));
+        assert_eq!(
+            (Curvature::new(&rest, &[boundary(n)], 0.0).len(), Torsion::new(&rest, &[boundary(n)], 0.0).len()),
+            (0, 0)
+        );
     }
     // There and back again, and a triangle: whatever is left has distinct vertices.
     let loops = [BoundaryLoop { vertices: vec![0, 1, 0, 2] }, boundary(3)];
-    let (curvature, torsion) = (Curvature::new(&rest, &loops), Torsion::new(&rest, &loops));
+    let (curvature, torsion) = (Curvature::new(&rest, &loops, 0.0), Torsion::new(&rest, &loops, 0.0));
     assert_eq!((curvature.len(), torsion.len()), (5, 3));
     for energy in [&curvature as &dyn Energy, &torsion] {
         energy.stencils(&mut |v| {
@@ -149,7 +155,7 @@ fn short_and_degenerate_curves_are_left_out() {
     // One rest edge without length removes the two corners at its ends, and the three torsion elements around it.
     rest[3] = rest[2];
     let loops = [boundary(6)];
-    assert_eq!((Curvature::new(&rest, &loops).len(), Torsion::new(&rest, &loops).len()), (4, 3));
+    assert_eq!((Curvature::new(&rest, &loops, 0.0).len(), Torsion::new(&rest, &loops, 0.0).len()), (4, 3));
 }
 
 #[test]
@@ -157,13 +163,163 @@ fn a_collapsed_edge_gives_finite_derivatives() {
     let mut random = Random::new(17);
     let rest = ring(5, &mut random);
     let loops = [boundary(5)];
-    for energy in [&Curvature::new(&rest, &loops) as &dyn Energy, &Torsion::new(&rest, &loops)] {
+    for energy in [&Curvature::new(&rest, &loops, 0.0) as &dyn Energy, &Torsion::new(&rest, &loops, 0.0)] {
         for offset in [0.0, 1e-320, 1e-200, 1e-40] {
             let mut x = rest.clone();
             x[2] = x[1] + DVec3::X * offset;
             let d = dense(energy, &x, 0.0);
             assert!(value(energy, &x).is_finite());
             assert!(d.gradient.iter().chain(d.hessian.iter().flatten()).all(|v| v.is_finite()));
+        }
+    }
+}
+
+/// The point at `s` along a rest curve, as the vertices and their shares: by walking from edge to edge.
+fn walked(rest: &[DVec3], closed: bool, s: f64) -> Vec<(usize, f64)> {
+    let n = rest.len();
+    let mut left = s;
+    for k in 0.. {
+        let (a, b) = (k % n, (k + 1) % n);
+        let length = rest[a].distance(rest[b]);
+        let is_last = !closed && k + 2 == n;
+        if left <= length || is_last {
+            return vec![(a, 1.0 - left / length), (b, left / length)];
+        }
+        left -= length;
+    }
+    unreachable!()
+}
+
+/// Both terms on points `chord` apart, as an integral over densely spread starts.
+fn by_integration(rest: &[DVec3], x: &[DVec3], closed: bool, chord: f64) -> [f64; 2] {
+    let n = rest.len();
+    let length: f64 = (0..if closed { n } else { n - 1 }).map(|k| rest[k].distance(rest[(k + 1) % n])).sum();
+    let project = |v: DVec3, w: DVec3| v - w.dot(v) * w;
+    let quantities = |p: &[DVec3], s: f64, count: usize| {
+        let points: Vec<DVec3> = (0..count)
+            .map(|k| walked(rest, closed, s + k as f64 * chord).into_iter().map(|(v, share)| share * p[v]).sum())
+            .collect();
+        let e: Vec<DVec3> = points.windows(2).map(|w| (w[1] - w[0]).normalize()).collect();
+        if count == 3 {
+            return [-e[0].dot(e[1]), 0.0];
+        }
+        let (forth, back) = (project(e[2], e[1]), project(-e[0], e[1]));
+        [forth.dot(back), forth.cross(back).dot(e[1])]
+    };
+    [3, 4].map(|count| {
+        let last = if closed { length } else { length - (count - 1) as f64 * chord };
+        let steps = 20_000;
+        let step = last / f64::from(steps);
+        (0..steps)
+            .map(|k| {
+                let s = (f64::from(k) + 0.5) * step;
+                let [a, b] = [quantities(rest, s, count), quantities(x, s, count)];
+                step * ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2))
+            })
+            .sum()
+    })
+}
+
+/// A V with a round back in a plane, n uneven edges; and the same opened, its sides and back bent out of the plane.
+fn neckline(n: u32, open: f64) -> Vec<DVec3> {
+    let at = |k: u32| {
+        // Uneven: edges differ by up to a factor of two.
+        let u = f64::from(k) / f64::from(n);
+        let u = u + 0.05 * (std::f64::consts::TAU * 3.0 * u).sin();
+        let flat = match u {
+            _ if u < 0.3 => DVec3::new(u / 0.3 * 0.15, u / 0.3 * 0.34, 0.0),
+            _ if u > 0.7 => DVec3::new((u - 1.0) / 0.3 * 0.15, (1.0 - u) / 0.3 * 0.34, 0.0),
+            _ => {
+                let angle = std::f64::consts::PI * (u - 0.3) / 0.4;
+                DVec3::new(0.15 * angle.cos(), 0.34 + 0.1 * angle.sin(), 0.0)
+            }
+        };
+        let bent = open * (flat.y / 0.34).powi(2);
+        DVec3::new(flat.x * (1.0 + bent), flat.y, 0.2 * bent * (6.0 * flat.y).sin())
+    };
+    (0..n).map(at).collect()
+}
+
+#[test]
+fn chords_agree_with_the_integral() {
+    for closed in [true, false] {
+        let (rest, x) = (neckline(160, 0.0), neckline(160, 0.6));
+        let vertices: Vec<u32> = (0..160).collect();
+        let curve = [Polyline { vertices: &vertices, closed }];
+        let [c, t] = by_integration(&rest, &x, closed, 0.06);
+        let (curvature, torsion) = (Curvature::new(&rest, curve, 0.06), Torsion::new(&rest, curve, 0.06));
+        assert!((value(&curvature, &x) / c - 1.0).abs() < 0.02, "{} {c}", value(&curvature, &x));
+        assert!((value(&torsion, &x) / t - 1.0).abs() < 0.02, "{} {t}", value(&torsion, &x));
+    }
+}
+
+#[test]
+fn chords_cost_the_same_at_every_resolution() {
+    let cost = |n: u32, chord: f64| {
+        let (rest, x) = (neckline(n, 0.0), neckline(n, 0.6));
+        let loops = [boundary(n)];
+        [value(&Curvature::new(&rest, &loops, chord), &x), value(&Torsion::new(&rest, &loops, chord), &x)]
+    };
+    // From edges of a third of a chord to a sixteenth of that. Of longer ones the curve itself is another.
+    let costs = [48, 96, 192, 768].map(|n| cost(n, 0.08));
+    for term in 0..2 {
+        let [least, most] = [f64::min, f64::max].map(|of| costs.iter().map(|c| c[term]).reduce(of).unwrap());
+        assert!(most < 1.1 * least, "{term}: {costs:?}");
+    }
+    // As printed the cost of such a bend vanishes.
+    assert!(cost(768, 0.0)[0] < 0.02 * cost(48, 0.0)[0]);
+}
+
+#[test]
+fn chords_have_exact_derivatives_and_cost_similarities_nothing() {
+    let mut random = Random::new(18);
+    for (n, closed) in [(3, true), (5, true), (14, true), (40, true), (14, false)] {
+        for scale in [1e-2, 1.0, 1e2] {
+            let rest: Vec<DVec3> = ring(n, &mut random).iter().map(|&p| p * scale).collect();
+            let vertices: Vec<u32> = (0..n).collect();
+            let curve = [Polyline { vertices: &vertices, closed }];
+            let x = shaken(&rest, 0.1 * scale, &mut random);
+            let alike = similar(&rest, 3.0, &mut random);
+            for chord in [0.2 * scale, 0.7 * scale] {
+                let terms = [&Curvature::new(&rest, curve, chord) as &dyn Energy, &Torsion::new(&rest, curve, chord)];
+                for energy in terms {
+                    assert!(!energy.is_empty());
+                    check_gradient(energy, &x, 0.0, 1e-5 * scale, 1e-6);
+                    check_semidefinite(energy, &x, 0.0, &mut || random.signed());
+                    assert!(value(energy, &alike) < 1e-18 * scale);
+                    energy.stencils(&mut |v| {
+                        let distinct: std::collections::BTreeSet<_> = v.iter().collect();
+                        assert_eq!(distinct.len(), v.len());
+                    });
+                }
+            }
+        }
+    }
+    let rest = ring(14, &mut random);
+    let loops = [boundary(14)];
+    let x = similar(&rest, 2.0, &mut random);
+    check_hessian(&Curvature::new(&rest, &loops, 0.7), &x, 0.0, 1e-4, 1e-6);
+    check_hessian(&Torsion::new(&rest, &loops, 0.7), &x, 0.0, 1e-4, 1e-6);
+}
+
+#[test]
+fn chords_on_degenerate_curves_are_finite() {
+    let mut random = Random::new(19);
+    let mut rest = ring(12, &mut random);
+    // Edges without length, a curve of one point, and one that goes there and back.
+    rest[3] = rest[2];
+    rest[11] = rest[0];
+    let points = vec![DVec3::ONE; 12];
+    for (rest, vertices) in
+        [(&rest, (0..12).collect::<Vec<u32>>()), (&points, (0..12).collect()), (&rest, vec![0, 5, 7, 5])]
+    {
+        for closed in [true, false] {
+            let curve = [Polyline { vertices: &vertices, closed }];
+            for energy in [&Curvature::new(rest, curve, 0.3) as &dyn Energy, &Torsion::new(rest, curve, 0.3)] {
+                let d = dense(energy, rest, 0.0);
+                assert!(value(energy, rest) < 1e-20);
+                assert!(d.gradient.iter().chain(d.hessian.iter().flatten()).all(|v| v.is_finite()));
+            }
         }
     }
 }

@@ -23,9 +23,11 @@ pub struct RankOneUpdates {
 impl RankOneUpdates {
     pub fn random(vertex_count: u32, count: usize, random: &mut Random) -> Self {
         let elements = (0..count)
-            .map(|_| {
+            .map(|k| {
                 let mut vertices: Vec<u32> = Vec::new();
-                while vertices.len() < 1 + (random.unit() * 4.0) as usize {
+                // Those that come alone have up to eight vertices.
+                let most = if k % 2 == 0 { 8.0 } else { 4.0 };
+                while vertices.len() < 1 + (random.unit() * most) as usize {
                     let v = (random.unit() * f64::from(vertex_count)) as u32;
                     if !vertices.contains(&v) {
                         vertices.push(v);

@@ -67,6 +67,7 @@ namespace Bespoke
         internal uint max_iterations;
         internal SurfaceForm surface_form;
         internal double surface_length;
+        internal double curve_chord;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -71,12 +71,12 @@ namespace Bespoke
         public double SurfaceWeight { get; set; }
 
         /// <summary>
-        /// Expert. Weight of the curvature of boundary curves. Default 1. <see cref="Options.WeightOff"/> possible.
+        /// Expert. Weight of the curvature of boundary curves. Default 2.5. <see cref="Options.WeightOff"/> possible.
         /// </summary>
         public double CurvatureWeight { get; set; }
 
         /// <summary>
-        /// Expert. Weight of the torsion of boundary curves. Default 1. <see cref="Options.WeightOff"/> possible.
+        /// Expert. Weight of the torsion of boundary curves. Default 2.5. <see cref="Options.WeightOff"/> possible.
         /// </summary>
         public double TorsionWeight { get; set; }
 
@@ -129,6 +129,13 @@ namespace Bespoke
         /// </summary>
         public double SurfaceLength { get; set; }
 
+        /// <summary>
+        /// Expert. Distance along a boundary curve between the points from which the curvature and torsion terms read
+        /// its bends [up to 1], a share of its length at most. So a V stays a V at every resolution of the garment.
+        /// Default 0.08. <see cref="Options.WeightOff"/>: from its vertices, as printed in the paper.
+        /// </summary>
+        public double CurveChord { get; set; }
+
         private static Options FromNative(NativeOptions native)
         {
             return new Options
@@ -157,6 +164,7 @@ namespace Bespoke
                 MaxIterations = native.max_iterations,
                 SurfaceForm = native.surface_form,
                 SurfaceLength = native.surface_length,
+                CurveChord = native.curve_chord,
             };
         }
 
@@ -189,6 +197,7 @@ namespace Bespoke
                 max_iterations = MaxIterations,
                 surface_form = SurfaceForm,
                 surface_length = SurfaceLength,
+                curve_chord = CurveChord,
             };
         }
     }

@@ -327,6 +327,7 @@ impl Program {
             &mut options.min_separation,
             &mut options.tolerance,
             &mut options.surface_length,
+            &mut options.curve_chord,
         ];
         for number in numbers {
             match source.byte() {
