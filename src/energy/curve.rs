@@ -1,6 +1,6 @@
 //! Curve shape: curvature (Eq. 5 of the paper) and torsion (its section 3.4.5) of boundary curves and seams.
 //!
-//! With the unit directions a, b, c from each to the next of points in a row on the curve ([`super::curve_window`]),
+//! With the unit directions a, b, c from each to the next of points in a row on the curve (`curve_window.rs`),
 //!
 //! ```text
 //! alpha = -a . b
