@@ -19,6 +19,8 @@ use crate::geometry::mesh::BoundaryLoop;
 const CHORDS_OF_A_CURVE: f64 = 8.0;
 /// Windows start no farther apart than this share of a chord.
 const SPACING: f64 = 0.5;
+/// Windows that start on one edge, at most: of chords far shorter than the edges nearly all would see none of the bends.
+const MOST_ON_AN_EDGE: f64 = 32.0;
 /// A share of an edge, within which a point on it is at its end.
 const AT_END: f64 = 1e-9;
 
@@ -142,7 +144,7 @@ impl<'a> Arc<'a> {
         let mut starts = Vec::with_capacity(self.until.len());
         for ends in self.until.windows(2) {
             let length = ends[1] - ends[0];
-            let count = (length / spacing).ceil();
+            let count = (length / spacing).ceil().min(MOST_ON_AN_EDGE);
             starts.extend((0..count as usize).map(|k| ends[0] + length * k as f64 / count));
         }
         if !self.curve.closed {

@@ -303,6 +303,19 @@ fn chords_have_exact_derivatives_and_cost_similarities_nothing() {
 }
 
 #[test]
+fn chords_far_shorter_than_the_edges_cost_no_memory() {
+    let mut random = Random::new(20);
+    let rest = ring(12, &mut random);
+    let loops = [boundary(12)];
+    for chord in [1e-3, 1e-12, f64::MIN_POSITIVE] {
+        let (curvature, torsion) = (Curvature::new(&rest, &loops, chord), Torsion::new(&rest, &loops, chord));
+        assert!(curvature.len() <= 12 * 32 && torsion.len() <= 12 * 32);
+        let x = shaken(&rest, 0.1, &mut random);
+        assert!(value(&curvature, &x).is_finite() && value(&torsion, &x).is_finite());
+    }
+}
+
+#[test]
 fn chords_on_degenerate_curves_are_finite() {
     let mut random = Random::new(19);
     let mut rest = ring(12, &mut random);
