@@ -56,6 +56,27 @@ fn edges<const N: usize, const M: usize>(window: &Window<N>, x: &[DVec3]) -> [Ed
     std::array::from_fn(|k| Edge::new(points[k], points[k + 1]))
 }
 
+/// An element for each window on `curves`, made of it, its edges at rest and its weight; none where two points in a row
+/// coincide at rest.
+fn elements<'a, T, const N: usize, const M: usize>(
+    rest: &[DVec3],
+    curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>,
+    chord: f64,
+    element: impl Fn(Window<N>, [Edge; M], f64) -> T,
+) -> Vec<T> {
+    let mut elements = Vec::new();
+    for curve in curves {
+        curve.into().windows(rest, chord, |points, weight| {
+            let window = Window::new(points);
+            let edges = edges(&window, rest);
+            if edges.iter().all(|edge: &Edge| edge.inverse > 0.0) {
+                elements.push(element(window, edges, weight));
+            }
+        });
+    }
+    elements
+}
+
 /// Hands the square of a residual, times a weight, to the sink; `by` are the residual's derivatives by the points.
 #[inline]
 fn emit<const N: usize>(sink: &mut dyn Sink, window: &Window<N>, by: [DVec3; N], weight: f64, residual: f64) {
@@ -84,17 +105,8 @@ impl Curvature {
     /// A closed curve of fewer than three vertices is left out. Points of which two coincide at rest, or whose first is the
     /// third again, get no element.
     pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>, chord: f64) -> Self {
-        let mut corners = Vec::new();
-        for curve in curves {
-            curve.into().windows(rest, chord, |points, weight| {
-                let window = Window::new(points);
-                let edges = edges(&window, rest);
-                if edges.iter().all(|edge| edge.inverse > 0.0) {
-                    corners.push(Corner { window, alpha: alpha(&edges), weight });
-                }
-            });
-        }
-        Self { corners }
+        let corner = |window, edges, weight| Corner { window, alpha: alpha(&edges), weight };
+        Self { corners: elements(rest, curves, chord, corner) }
     }
 }
 
@@ -154,17 +166,8 @@ impl Torsion {
     ///
     /// Points as in [`Curvature::new`]; the same are left out.
     pub fn new<'a>(rest: &[DVec3], curves: impl IntoIterator<Item = impl Into<Polyline<'a>>>, chord: f64) -> Self {
-        let mut twists = Vec::new();
-        for curve in curves {
-            curve.into().windows(rest, chord, |points, weight| {
-                let window = Window::new(points);
-                let edges = edges(&window, rest);
-                if edges.iter().all(|edge| edge.inverse > 0.0) {
-                    twists.push(Twist { window, beta: beta(&edges), gamma: gamma(&edges), weight });
-                }
-            });
-        }
-        Self { twists }
+        let twist = |window, edges, weight| Twist { window, beta: beta(&edges), gamma: gamma(&edges), weight };
+        Self { twists: elements(rest, curves, chord, twist) }
     }
 }
 

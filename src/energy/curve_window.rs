@@ -69,7 +69,7 @@ impl Polyline<'_> {
     /// where that is 0 the vertices. N is at least 3.
     ///
     /// A closed curve of fewer than three vertices has none, and one of exactly three meets its first vertex again as the
-    /// fourth. Left out are edges without rest length, and windows in which a point comes back after one other.
+    /// fourth. Left out are windows in which a point comes back after one other.
     pub(super) fn windows<const N: usize>(
         self,
         rest: &[DVec3],
@@ -96,9 +96,7 @@ impl Polyline<'_> {
         for i in 0..starts {
             let vertices: [u32; N] = std::array::from_fn(|k| self.vertices[(i + k) % n]);
             let length = |k: usize| rest[vertices[k] as usize].distance(rest[vertices[k + 1] as usize]);
-            if (0..N - 1).all(|k| (1.0 / length(k)).is_finite()) {
-                visit(vertices.map(CurvePoint::at), 0.5 * (length(0) + length(1)));
-            }
+            visit(vertices.map(CurvePoint::at), 0.5 * (length(0) + length(1)));
         }
     }
 }

@@ -30,6 +30,13 @@ impl TriangleMesh {
         self.corners(triangle).iter().sum::<DVec3>() / 3.0
     }
 
+    /// Whether each vertex is a corner of a triangle.
+    pub fn used_vertices(&self) -> Vec<bool> {
+        let mut used = vec![false; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+        used
+    }
+
     /// Area of each triangle.
     pub fn areas(&self) -> Vec<f64> {
         self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()

@@ -140,8 +140,7 @@ impl Weld {
     }
 
     fn report_unused(&self, diagnostics: &mut Vec<Diagnostic>) {
-        let mut used = vec![false; self.vertex_of.len()];
-        self.mesh.triangles.iter().flatten().for_each(|&w| used[w as usize] = true);
+        let used = self.mesh.used_vertices();
         let unused: Vec<u32> =
             (0..self.to_welded.len() as u32).filter(|&v| !used[self.to_welded[v as usize] as usize]).collect();
         Diagnostic::list(diagnostics, &unused, |&vertex| Diagnostic::UnusedVertex { vertex });

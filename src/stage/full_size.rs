@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::setup::problem::Problem;
 use crate::contact::distance::{edge_edge, point_triangle};
 use crate::geometry::mesh::{TriangleMesh, label_pieces};
+use crate::geometry::solid_angle::solid_angle;
 use crate::input::body::Body;
 use crate::input::weld::weld_vertices;
 use crate::verify::intersections;
@@ -164,16 +165,9 @@ impl<'a> FullSize<'a> {
         })
     }
 
-    /// The winding number of `triangles` around `p`: the solid angle under which it sees them, over 4 pi (Van Oosterom and
-    /// Strackee 1983).
+    /// The winding number of `triangles` around `p`: the solid angle under which it sees them, over 4 pi.
     fn winding(&self, p: DVec3, triangles: &[u32]) -> f64 {
-        let angle = |&t: &u32| {
-            let [a, b, c] = self.corners(t).map(|corner| corner - p);
-            let [la, lb, lc] = [a, b, c].map(DVec3::length);
-            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-            2.0 * a.dot(b.cross(c)).atan2(below)
-        };
-        triangles.iter().map(angle).sum::<f64>() / (4.0 * PI)
+        triangles.iter().map(|&t| solid_angle(p, self.corners(t))).sum::<f64>() / (4.0 * PI)
     }
 }
 

@@ -3,7 +3,9 @@
 mod alignment;
 mod bvh;
 mod closest_point;
+mod median;
 mod mesh;
 mod piece;
 mod sliver_caps;
+mod solid_angle;
 mod spread;

@@ -20,6 +20,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::geometry::closest_point::segment_parameter;
+use crate::geometry::median::median;
 use crate::input::skeleton::Skeleton;
 
 /// e: bones nearer than this are equally near.
@@ -146,9 +147,4 @@ fn medians(skeleton: &Skeleton, points: &[DVec3]) -> Vec<Option<f64>> {
         }
     }
     distances.into_iter().map(|d| if d.len() < ENOUGH { None } else { median(d) }).collect()
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

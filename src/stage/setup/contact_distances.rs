@@ -6,6 +6,7 @@
 //! the result free of intersections.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::median::median;
 use crate::geometry::mesh::TriangleMesh;
 use crate::options::Options;
 
@@ -86,10 +87,5 @@ impl ContactDistances {
 
 fn median_edge(mesh: &TriangleMesh) -> f64 {
     let side = |t: &[u32; 3], k: usize| mesh.positions[t[k] as usize].distance(mesh.positions[t[(k + 1) % 3] as usize]);
-    let mut lengths: Vec<f64> = mesh.triangles.iter().flat_map(|t| (0..3).map(move |k| side(t, k))).collect();
-    let middle = lengths.len() / 2;
-    if lengths.is_empty() {
-        return 0.0;
-    }
-    *lengths.select_nth_unstable_by(middle, f64::total_cmp).1
+    median(mesh.triangles.iter().flat_map(|t| (0..3).map(move |k| side(t, k))).collect()).unwrap_or(0.0)
 }

@@ -14,6 +14,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::{ClosestPoint, segment_parameter};
+use crate::geometry::median::median;
 use crate::input::skeleton::Skeleton;
 
 /// e: bones nearer than this are equally near.
@@ -109,9 +110,4 @@ fn sizes([a, b]: [DVec3; 2], body: &ClosestPoint) -> [Option<f64>; STATIONS] {
         let size = lengths.get(..SHORTEST)?.iter().sum::<f64>() / SHORTEST as f64;
         (size > 0.0).then_some(size)
     })
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

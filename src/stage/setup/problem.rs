@@ -381,8 +381,7 @@ fn with_reason(mut error: Error, caps: &Caps) -> Error {
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.
 fn collapse_unused(mesh: &mut TriangleMesh) {
-    let mut used = vec![false; mesh.positions.len()];
-    mesh.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let used = mesh.used_vertices();
     let Some(&first) = mesh.triangles.iter().flatten().next() else { return };
     let target = mesh.positions[first as usize];
     for (p, _) in mesh.positions.iter_mut().zip(used).filter(|(_, used)| !used) {

@@ -66,8 +66,7 @@ pub fn find(avatar: &TriangleMesh, target: &Skeleton, skin: Option<&SkinWeights>
     if candidates.is_empty() {
         return candidates;
     }
-    let mut used = vec![false; avatar.positions.len()];
-    avatar.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let used = avatar.used_vertices();
     let mut reached = vec![Vec::new(); candidates.len()];
     for (v, &p) in avatar.positions.iter().enumerate().filter(|(v, _)| used[*v]) {
         let joint = skin.and_then(|s| s.dominant_joint(v));

@@ -67,6 +67,11 @@ impl Section {
         Self { origin, u, v, segments: garment.triangles.iter().flat_map(sides).collect() }
     }
 
+    /// The pieces of the curve, seen from the origin along [`Self::axes`].
+    pub fn segments(&self) -> &[[DVec2; 2]] {
+        &self.segments
+    }
+
     /// The two directions that span the plane.
     pub fn axes(&self) -> [DVec3; 2] {
         [self.u, self.v]

@@ -62,8 +62,7 @@ pub struct Contradictions {
 /// The vertices of `avatar` (normalised, as is its skeleton `target`) whose weights in `skin` contradict their positions.
 pub fn contradictions(avatar: &TriangleMesh, target: &Skeleton, skin: &SkinWeights) -> Contradictions {
     let graph = BoneGraph::new(target);
-    let mut used = vec![false; avatar.positions.len()];
-    avatar.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let used = avatar.used_vertices();
     let frames: Vec<[DVec3; 2]> = target.bones.iter().map(|&bone| axes_across(target, bone)).collect();
     let places: Vec<Place> = (0..avatar.positions.len())
         .into_par_iter()

@@ -51,8 +51,7 @@ pub fn waist_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
 pub fn mean_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
     let skin = ClosestPoint::new(&pair::mesh(&body.mesh));
     let areas = garment.areas();
-    let middle = |t: &[u32; 3]| t.iter().map(|&v| garment.positions[v as usize]).sum::<DVec3>() / 3.0;
-    let sum: f64 = garment.triangles.iter().zip(&areas).map(|(t, area)| area * skin.distance(middle(t))).sum();
+    let sum: f64 = (0..).zip(&areas).map(|(t, area)| area * skin.distance(garment.centre(t))).sum();
     sum / areas.iter().sum::<f64>()
 }
 

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
+use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::cover::cover;
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::solid_angle::solid_angle;
 
 /// The body winds around a point inside this often at least, and less than half of it around one that is surely outside;
 /// between the two the body is open nearby.
@@ -50,12 +51,7 @@ impl Flesh {
 
     /// How often the surface winds around `p`, in either orientation: 1 inside, 0 outside, between them near holes.
     pub fn winding(&self, p: DVec3) -> f64 {
-        let angle = |t: u32| {
-            let [a, b, c] = self.mesh.corners(t).map(|corner| corner - p);
-            let [la, lb, lc] = [a, b, c].map(DVec3::length);
-            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-            2.0 * a.dot(b.cross(c)).atan2(below)
-        };
+        let angle = |t: u32| solid_angle(p, self.mesh.corners(t));
         // In pieces of fixed size, so that the sum does not depend on the number of threads.
         let triangles: Vec<u32> = (0..self.mesh.triangles.len() as u32).collect();
         let sums: Vec<f64> = triangles.par_chunks(4096).map(|part| part.iter().map(|&t| angle(t)).sum()).collect();
@@ -67,11 +63,8 @@ impl Flesh {
     pub fn middle_near(&self, p: DVec3) -> Option<DVec3> {
         let entry = self.tree.closest(p)?;
         let along = (entry.point - p).try_normalize()?;
-        let behind = (0..self.mesh.triangles.len() as u32)
-            .filter_map(|t| ray_triangle(p, along, &self.mesh.corners(t)))
-            .filter(|&s| s > entry.distance * (1.0 + 1e-9))
-            .min_by(f64::total_cmp)?;
-        let middle = p + 0.5 * (entry.distance + behind) * along;
+        let inside = p + entry.distance * (1.0 + 1e-9) * along;
+        let middle = inside + 0.5 * self.tree.first_hit(inside, along)? * along;
         self.contains(middle).then_some(middle)
     }
 }

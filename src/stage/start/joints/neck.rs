@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::{Figure, Misplaced};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::JointFault;
+use crate::stage::start::section::Section;
 
 /// A bone goes on where another leaves its end within 60 degrees of its direction.
 const GOES_ON: f64 = 0.5;
@@ -120,20 +121,12 @@ impl Figure {
 /// How far the section of the plane through `centre` across `along` reaches: in the middle of all directions, and at the
 /// farthest.
 fn reach(mesh: &TriangleMesh, centre: DVec3, along: DVec3) -> [f64; 2] {
-    let (u, v) = along.any_orthonormal_pair();
     let mut reach = [0.0_f64; SECTORS];
-    for corners in mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize] - centre)) {
-        let heights = corners.map(|c| c.dot(along));
-        let mut cuts = [(0, 1), (1, 2), (2, 0)]
-            .into_iter()
-            .filter(|&(i, j)| (heights[i] >= 0.0) != (heights[j] >= 0.0))
-            .map(|(i, j)| corners[i].lerp(corners[j], heights[i] / (heights[i] - heights[j])));
-        if let (Some(a), Some(b)) = (cuts.next(), cuts.next()) {
-            for p in (0..=8).map(|k| a.lerp(b, f64::from(k) / 8.0)) {
-                let turn = p.dot(v).atan2(p.dot(u)).rem_euclid(TAU) / TAU;
-                let sector = &mut reach[((turn * SECTORS as f64) as usize).min(SECTORS - 1)];
-                *sector = sector.max(p.length());
-            }
+    for [a, b] in Section::cut(mesh, centre, along).segments() {
+        for p in (0..=8).map(|k| a.lerp(*b, f64::from(k) / 8.0)) {
+            let turn = p.y.atan2(p.x).rem_euclid(TAU) / TAU;
+            let sector = &mut reach[((turn * SECTORS as f64) as usize).min(SECTORS - 1)];
+            *sector = sector.max(p.length());
         }
     }
     reach.sort_by(f64::total_cmp);

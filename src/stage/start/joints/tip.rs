@@ -3,8 +3,6 @@
 //!
 //! Only that the two differ is wrong. Many rigs have their last joints at the tips, in the top of the head or the toes.
 
-use glam::DVec3;
-
 use super::{Figure, Flesh, Misplaced};
 use crate::input::diagnostic::JointFault;
 use crate::stage::start::projection::attach;
@@ -64,10 +62,7 @@ impl Figure {
     /// How far the body goes on beyond each of these bones' ends.
     fn reach_beyond(&self, leaves: &[[u32; 2]], flesh: &Flesh) -> Vec<f64> {
         let mut reach = vec![0.0_f64; self.skeleton.joints.len()];
-        let mut used = vec![false; flesh.mesh.positions.len()];
-        flesh.mesh.triangles.iter().flatten().for_each(|&v| used[v as usize] = true);
-        let on_body = flesh.mesh.positions.iter().zip(&used).filter(|(_, used)| **used);
-        for p in on_body.map(|(p, _): (&DVec3, _)| *p) {
+        for (&p, _) in flesh.mesh.positions.iter().zip(flesh.mesh.used_vertices()).filter(|(_, used)| *used) {
             let (bone, parameter) = attach(&self.graph, &self.skeleton, p, None, &[]);
             let [a, b] = self.skeleton.bones[bone as usize];
             let (joint, beyond) = if parameter > 1.0 { (b, parameter - 1.0) } else { (a, -parameter) };
