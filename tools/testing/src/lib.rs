@@ -1,8 +1,9 @@
-//! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files, callers
-//! of the C API, programs to run, the library as others link it.
+//! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files and rigged
+//! characters, callers of the C API, programs to run, the library as others link it.
 
 pub mod caller;
 pub mod fuzz;
+pub mod gltf;
 pub mod library;
 pub mod obj;
 pub mod obj_text;
