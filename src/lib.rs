@@ -23,6 +23,7 @@ pub mod memory;
 pub mod options;
 mod panics;
 pub mod report;
+pub mod rig;
 pub mod sdf;
 pub mod session;
 mod simd;

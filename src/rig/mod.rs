@@ -1,0 +1,4 @@
+//! Rigs of real characters: what their joints are.
+
+pub mod body_part;
+pub mod names;

@@ -1,0 +1,3 @@
+//! Rigs of real characters.
+
+mod names;
