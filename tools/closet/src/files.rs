@@ -1,11 +1,14 @@
-//! The samples as files: OBJ meshes and skeletons, and text matrices.
+//! The samples as files: OBJ meshes and skeletons, text matrices, rigs and influences.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::Path;
 
+use glam::DMat4;
+
 use crate::mesh::Mesh;
+use crate::rigs::Joint;
 use crate::skeleton::{BONES, Skeleton};
 use crate::texture::Texture;
 
@@ -76,4 +79,31 @@ pub fn write_matrix(path: &Path, rows: &[Vec<f64>]) -> io::Result<()> {
 /// Writes one index a line, counted from 0.
 pub fn write_indices(path: &Path, indices: &[u32]) -> io::Result<()> {
     fs::write(path, indices.iter().map(|index| format!("{index}\n")).collect::<String>())
+}
+
+/// Writes a rig, one joint a line: `joint NAME PARENT` and the 16 numbers of the bind transform, column by column. The
+/// parent is an index counted from 0, or -1. A joint without a name is called by its index; spaces become `_`.
+pub fn write_rig(path: &Path, joints: &[Joint]) -> io::Result<()> {
+    let mut text = String::new();
+    for (index, joint) in joints.iter().enumerate() {
+        let name = if joint.name.is_empty() { format!("joint_{index}") } else { joint.name.replace(' ', "_") };
+        let parent = joint.parent.map_or("-1".to_owned(), |parent| parent.to_string());
+        let _ = write!(text, "joint {name} {parent}");
+        for number in DMat4::from(joint.bind).to_cols_array() {
+            let _ = write!(text, " {number}");
+        }
+        text.push('\n');
+    }
+    fs::write(path, text)
+}
+
+/// Writes influences, one vertex a line: joints (counted from 0) and weights in turn.
+pub fn write_influences(path: &Path, influences: &[Vec<(usize, f64)>]) -> io::Result<()> {
+    let mut text = String::new();
+    for vertex in influences {
+        let words: Vec<String> = vertex.iter().map(|(joint, weight)| format!("{joint} {weight}")).collect();
+        text += &words.join(" ");
+        text.push('\n');
+    }
+    fs::write(path, text)
 }

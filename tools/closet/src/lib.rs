@@ -3,6 +3,7 @@
 //! ```text
 //! skeleton -> body (implicit: loft) -> surface (polygonize -> clip -> remesh) -> skin
 //!                 \-> jacket --------> surface -> texture
+//! body -> rigs: full rigs by the names of different tools, poses
 //! ```
 //!
 //! `files` writes them. The program of this package leaves the whole closet as files.
@@ -21,6 +22,7 @@ pub mod polygonize;
 pub mod polyhedron;
 pub mod random;
 pub mod remesh;
+pub mod rigs;
 pub mod skeleton;
 pub mod skin;
 pub mod surface;

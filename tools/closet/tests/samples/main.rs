@@ -3,6 +3,7 @@
 mod avatars;
 mod distance;
 mod garments;
+mod rigs;
 mod strange;
 
 use std::collections::{BTreeMap, HashSet};
