@@ -5,10 +5,9 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use glam::DMat4;
+use glam::{DAffine3, DMat4};
 
 use crate::mesh::Mesh;
-use crate::rigs::Joint;
 use crate::skeleton::{BONES, Skeleton};
 use crate::texture::Texture;
 
@@ -81,15 +80,18 @@ pub fn write_indices(path: &Path, indices: &[u32]) -> io::Result<()> {
     fs::write(path, indices.iter().map(|index| format!("{index}\n")).collect::<String>())
 }
 
+/// A joint as the file of a rig has it: name, parent (an index counted from 0), bind transform.
+pub type RigLine<'a> = (&'a str, Option<usize>, DAffine3);
+
 /// Writes a rig, one joint a line: `joint NAME PARENT` and the 16 numbers of the bind transform, column by column. The
-/// parent is an index counted from 0, or -1. A joint without a name is called by its index; spaces become `_`.
-pub fn write_rig(path: &Path, joints: &[Joint]) -> io::Result<()> {
+/// parent of a root is -1. A joint without a name is called by its index; spaces become `_`.
+pub fn write_rig<'a>(path: &Path, joints: impl IntoIterator<Item = RigLine<'a>>) -> io::Result<()> {
     let mut text = String::new();
-    for (index, joint) in joints.iter().enumerate() {
-        let name = if joint.name.is_empty() { format!("joint_{index}") } else { joint.name.replace(' ', "_") };
-        let parent = joint.parent.map_or("-1".to_owned(), |parent| parent.to_string());
+    for (index, (name, parent, bind)) in joints.into_iter().enumerate() {
+        let name = if name.is_empty() { format!("joint_{index}") } else { name.replace(char::is_whitespace, "_") };
+        let parent = parent.map_or("-1".to_owned(), |parent| parent.to_string());
         let _ = write!(text, "joint {name} {parent}");
-        for number in DMat4::from(joint.bind).to_cols_array() {
+        for number in DMat4::from(bind).to_cols_array() {
             let _ = write!(text, " {number}");
         }
         text.push('\n');

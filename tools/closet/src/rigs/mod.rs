@@ -22,6 +22,7 @@ pub use role::{FINGERS, Role, SIDES, Side};
 pub use weights::INFLUENCES;
 
 use super::Sample;
+use super::files::RigLine;
 use super::mesh::Mesh;
 use weights::largest;
 
@@ -112,6 +113,11 @@ fn axes(naming: Naming, role: Role, places: &BTreeMap<Role, DVec3>) -> DMat3 {
 }
 
 impl Character {
+    /// The joints as [`files::write_rig`](super::files::write_rig) takes them.
+    pub fn rig(&self) -> impl Iterator<Item = RigLine<'_>> {
+        self.joints.iter().map(|joint| (joint.name.as_str(), joint.parent, joint.bind))
+    }
+
     /// A garment around this body on the same rig, each vertex weighted like the flesh nearest to it.
     pub fn wears(&self, garment: &Mesh) -> Self {
         const NEAREST: usize = 6;

@@ -245,7 +245,7 @@ fn files_hold_what_is_written() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let character = character(&CHILD, Naming::Unreal).posed(&Pose::T).with_joint_scale(100.0);
     let [rig, skin] = ["child.rig", "child.skin"].map(|name| folder.join(name));
-    files::write_rig(&rig, &character.joints).expect("a file");
+    files::write_rig(&rig, character.rig()).expect("a file");
     files::write_influences(&skin, &character.influences).expect("a file");
     let text = std::fs::read_to_string(rig).expect("a file");
     assert_eq!(text.lines().count(), character.joints.len());
