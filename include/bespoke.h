@@ -321,6 +321,10 @@ enum BespokeDiagnosticKind
   /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
   /// vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR = 29,
+  /// A piece of the garment is a closed surface around a bone, as where both sides of the cloth are modelled, and no cuff,
+  /// hem or collar of it was found: nothing keeps its openings in their places along the bones. A triangle of it is named,
+  /// and a bone that it is around.
+  BESPOKE_DIAGNOSTIC_KIND_RIMS_NOT_FOUND = 32,
   /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
   /// fewer such pairs of triangles than the design. The first pair is named.
   BESPOKE_DIAGNOSTIC_KIND_UNTANGLED = 27,

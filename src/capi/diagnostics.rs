@@ -82,6 +82,10 @@ pub enum BespokeDiagnosticKind {
     /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
     /// vertices are named.
     WeldedNear = 29,
+    /// A piece of the garment is a closed surface around a bone, as where both sides of the cloth are modelled, and no cuff,
+    /// hem or collar of it was found: nothing keeps its openings in their places along the bones. A triangle of it is named,
+    /// and a bone that it is around.
+    RimsNotFound = 32,
     /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result has
     /// fewer such pairs of triangles than the design. The first pair is named.
     Untangled = 27,
@@ -217,6 +221,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,
             DiagnosticKind::KeptTogether => BespokeDiagnosticKind::KeptTogether,
+            DiagnosticKind::RimsNotFound => BespokeDiagnosticKind::RimsNotFound,
             DiagnosticKind::WeldedNear => BespokeDiagnosticKind::WeldedNear,
             DiagnosticKind::CarriedPiece => BespokeDiagnosticKind::CarriedPiece,
             DiagnosticKind::Untangled => BespokeDiagnosticKind::Untangled,

@@ -125,6 +125,19 @@ impl ClosestPoint {
         first
     }
 
+    /// The first triangle that the half-line from `p` along `direction` meets farther away than `beyond`: where, in multiples
+    /// of `direction`, and its normal, twice its area long. Edges and corners as for [`Self::meets_ray`].
+    pub fn next_hit(&self, p: DVec3, direction: DVec3, beyond: f64) -> Option<(f64, DVec3)> {
+        let mut next: Option<(f64, DVec3)> = None;
+        self.along_ray(p, direction, |along, [a, b, c]| {
+            if along > beyond && next.is_none_or(|(nearest, _)| along < nearest) {
+                next = Some((along, (*b - *a).cross(*c - *a)));
+            }
+            true
+        });
+        next
+    }
+
     /// How often the half-line from `p` along `direction` leaves through the front of a triangle, less how often it enters. Edges
     /// and corners as for [`Self::meets_ray`].
     pub fn crossings(&self, p: DVec3, direction: DVec3) -> i32 {

@@ -48,6 +48,8 @@ pub enum DiagnosticKind {
     SettingsAdjusted,
     /// Borders of the garment that lie on or beside another part of it, such as the fronts of a placket, and keep to it.
     KeptTogether,
+    /// A closed piece of the garment around a bone of which no rim was found.
+    RimsNotFound,
     /// Open seams whose sides are a hair apart, which are closed.
     WeldedNear,
     /// The garment passed through itself in the design, and begins pulled apart there.
@@ -229,6 +231,16 @@ pub enum Diagnostic {
         triangle: u32,
         /// The largest distance over which one is held.
         distance: f64,
+    },
+    /// A piece of the garment is closed and around a bone, as where both sides of the cloth are modelled, and no rim of it was
+    /// found.
+    RimsNotFound {
+        /// How many triangles it has.
+        triangles: usize,
+        /// The first of them.
+        triangle: u32,
+        /// A bone that it is around.
+        bone: Bone,
     },
     /// Open seams of the garment whose sides are a hair apart are closed.
     WeldedNear {

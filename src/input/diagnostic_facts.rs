@@ -14,6 +14,7 @@ impl Diagnostic {
             Self::UnusedVertex { .. } => DiagnosticKind::UnusedVertex,
             Self::LoosePiece { .. } => DiagnosticKind::LoosePiece,
             Self::KeptTogether { .. } => DiagnosticKind::KeptTogether,
+            Self::RimsNotFound { .. } => DiagnosticKind::RimsNotFound,
             Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
             Self::CarriedPiece { .. } => DiagnosticKind::CarriedPiece,
             Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
@@ -62,6 +63,7 @@ impl Diagnostic {
             | Self::SelfIntersection { strict: false, .. }
             | Self::BoneMoved { .. }
             | Self::CycleCut { .. }
+            | Self::RimsNotFound { .. }
             | Self::CoarseCoordinates { .. }
             | Self::PinNotReached { .. }
             | Self::RigidGroupBent { .. }
@@ -105,7 +107,9 @@ impl Diagnostic {
             | Self::PinNotReached { vertex: v, .. }
             | Self::RigidGroupBent { vertex: v, .. } => vec![vertex(v)],
             Self::KeptTogether { vertex: v, triangle: t, .. } => vec![vertex(v), triangle(t)],
-            Self::CarriedPiece { triangle: t, bone, .. } => vec![triangle(t), bone.element()],
+            Self::CarriedPiece { triangle: t, bone, .. } | Self::RimsNotFound { triangle: t, bone, .. } => {
+                vec![triangle(t), bone.element()]
+            }
             Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
             Self::SelfIntersection { triangles, .. }
             | Self::ResultSelfIntersection { triangles }

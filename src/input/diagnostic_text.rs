@@ -51,6 +51,15 @@ impl Display for Diagnostic {
                 "garment: {vertices} vertices on its borders lie on or beside another part of it and keep their place there, such \
                  as vertex {vertex} at triangle {triangle}"
             ),
+            Self::RimsNotFound { triangles, triangle, bone } => {
+                let [a, b] = bone.joints;
+                write!(
+                    f,
+                    "garment: the piece of {triangles} triangles with triangle {triangle} is closed, around the bone between joints \
+                     {a} and {b}, and no cuff, hem or collar of it was found; nothing keeps its openings in their places along \
+                     the bones; model it without its inner side, or leave its openings open"
+                )
+            }
             Self::WeldedNear { places, first, gap } => {
                 let first: Vec<String> = first.iter().map(u32::to_string).collect();
                 write!(

@@ -92,6 +92,15 @@ fn rays_agree_with_brute_force() {
         assert_eq!(tree.first_hit(p, direction), first);
         assert_eq!(tree.crossings(p, direction), crossings);
         assert_eq!(tree.meets_ray(p, direction), first.is_some());
+        // What comes after the first.
+        let beyond = first.unwrap_or(0.0);
+        let next = tree.next_hit(p, direction, beyond);
+        assert_eq!(
+            next.map(|hit| hit.0),
+            hits.iter().map(|hit| hit.0).filter(|&along| along > beyond).reduce(f64::min)
+        );
+        let outwards = |along: f64| hits.iter().find(|hit| hit.0 == along).map(|hit| hit.1);
+        assert_eq!(next.map(|hit| hit.1.dot(direction) > 0.0), next.and_then(|hit| outwards(hit.0)));
         met += usize::from(first.is_some());
     }
     assert!((50..350).contains(&met), "{met}");

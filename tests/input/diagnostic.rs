@@ -67,6 +67,13 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::RimsNotFound { triangles: 240, triangle: 12, bone: Bone { index: 3, joints: [4, 5] } },
+            "garment: the piece of 240 triangles with triangle 12 is closed, around the bone between joints 4 and 5, and no cuff, \
+             hem or collar of it was found; nothing keeps its openings in their places along the bones; model it without its \
+             inner side, or leave its openings open"
+                .into(),
+        ),
+        (
             Diagnostic::WeldedNear { places: 3, first: vec![4, 9], gap: 2e-5 },
             "garment: open seams with gaps of up to 2.0e-5 are closed in 3 places (the first: vertices 4, 9); weld_distance \
              says how near is one place"

@@ -17,6 +17,7 @@ mod layers;
 mod memory;
 mod plausibility;
 mod profile;
+mod shell_rims;
 mod shifted;
 mod small;
 mod thin_layers;

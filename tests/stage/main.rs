@@ -19,6 +19,7 @@ mod pin_targets;
 mod plausibility;
 mod projection;
 mod repair;
+mod shell_rims;
 mod source_body;
 mod untangle;
 mod weight_check;

@@ -296,6 +296,13 @@ namespace Bespoke
         WeldedNear = 29,
 
         /// <summary>
+        /// A piece of the garment is a closed surface around a bone, as where both sides of the cloth are modelled, and
+        /// no cuff, hem or collar of it was found: nothing keeps its openings in their places along the bones. A
+        /// triangle of it is named, and a bone that it is around.
+        /// </summary>
+        RimsNotFound = 32,
+
+        /// <summary>
         /// The garment passed through itself in the design, and begins pulled apart there, wholly or partly: the result
         /// has fewer such pairs of triangles than the design. The first pair is named.
         /// </summary>

@@ -1,7 +1,7 @@
 //! What goes through the openings of a garment.
 //!
 //! An opening is a boundary loop, and what goes through it is what passes through a surface that the loop spans: the fan
-//! from the loop's middle. Bones go through where the loop is linked with the skeleton ([`windings`]), the body where its
+//! from the loop's middle. Bones go through where the loop is linked with the skeleton ([`windings_of_loops`]), the body where its
 //! surface cuts the fan.
 
 use glam::DVec3;
@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{Topology, TriangleMesh};
-use crate::stage::start::winding::{Winding, windings};
+use crate::stage::start::winding::{Winding, windings_of_loops};
 
 /// Nothing goes through an opening where what the body's surface cuts out of it is below this share of its area, and the
 /// curve in which it cuts is below this share of its length.
@@ -118,7 +118,7 @@ pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology) -> Vec<Openin
         };
         Opening { vertices: vertices.to_vec(), bone }
     };
-    let wound = windings_of(outcome.design, &loops, &segments);
+    let wound = windings_of_loops(outcome.design, &loops, &segments);
     loops.into_iter().zip(wound).map(opening).collect()
 }
 
@@ -126,7 +126,7 @@ pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology) -> Vec<Openin
 pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec<Misplacement> {
     let around: Vec<(&Opening, u32)> = openings.iter().filter_map(|opening| Some((opening, opening.bone?))).collect();
     let loops: Vec<&[u32]> = around.iter().map(|(opening, _)| opening.vertices.as_slice()).collect();
-    let now = windings_of(outcome.result, &loops, &outcome.target.lengthened(LEAF_REACH));
+    let now = windings_of_loops(outcome.result, &loops, &outcome.target.lengthened(LEAF_REACH));
     let is_empty = |opening: &Opening, winding: Winding| {
         if winding.linked {
             return false;
@@ -142,21 +142,6 @@ pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec
             is_empty(opening, winding).then(|| Misplacement::OutOfOpening { bone, vertex: opening.vertices[0] })
         })
         .collect()
-}
-
-/// What each of `loops` winds around.
-fn windings_of(mesh: &TriangleMesh, loops: &[&[u32]], segments: &[[DVec3; 2]]) -> Vec<Winding> {
-    // Each loop has vertices of its own: two that touch in one are two curves all the same.
-    let (mut curves, mut edges, mut pieces) = (TriangleMesh::default(), Vec::new(), Vec::new());
-    for (piece, vertices) in (0u32..).zip(loops) {
-        let (first, count) = (curves.positions.len() as u32, vertices.len() as u32);
-        curves.positions.extend(points(mesh, vertices));
-        pieces.extend(vertices.iter().map(|_| piece));
-        edges.extend((1..count).map(|k| [first + k - 1, first + k]));
-        edges.push([first, first + count - 1]);
-    }
-    edges.sort_unstable();
-    windings(&curves, &edges, &pieces, loops.len(), segments)
 }
 
 fn points(mesh: &TriangleMesh, vertices: &[u32]) -> Vec<DVec3> {

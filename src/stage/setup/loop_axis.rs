@@ -24,7 +24,7 @@ const STUB: f64 = 0.1;
 /// A loop that no bone crosses is a hole in the cloth where it is narrower than this, and than its distance from all bones;
 /// on a person seven centimetres. Holes go with the cloth around them: hundreds of them, each held along its bone, would
 /// hold the cloth as a whole.
-const HOLE: f64 = 0.1;
+pub(super) const HOLE: f64 = 0.1;
 
 /// A loop whose area is below this share of its squared length is a slit, without a normal.
 const SLIT: f64 = 1e-6;

@@ -16,4 +16,5 @@ pub mod normalization;
 pub mod pin_targets;
 pub mod problem;
 pub mod shape;
+pub mod shell_rims;
 pub mod source_body;

@@ -196,10 +196,11 @@ impl Problem {
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
         let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
-        let (shape, borders) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
+        let (shape, curves) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
-        diagnostics.extend(borders.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
+        diagnostics.extend(curves.near.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
+        diagnostics.extend(curves.rims.diagnostics(source, |t| triangles[t as usize]));
         Diagnostic::list(diagnostics, &pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
             vertices: piece.vertices.len(),
             triangle: weld.triangle_of[piece.triangle as usize],

@@ -9,13 +9,14 @@ use super::loop_axis::choose_loop_axes;
 use super::loose_pieces::LoosePieces;
 use super::near_borders::NearBorders;
 use super::pin_targets::{self, PinRequest};
+use super::shell_rims::ShellRims;
 use crate::energy::attachment::{Attachment, SizeHold};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
 use crate::energy::position::{MovingAxis, Position};
 use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
-use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::mesh::{BoundaryLoop, Topology, TriangleMesh};
 use crate::geometry::sliver_caps::without_caps;
 use crate::input::skeleton::Skeleton;
 use crate::options::Options;
@@ -30,16 +31,24 @@ pub struct Shape {
     pub borders: Attachment,
     /// Carried pieces.
     pub carry: Pins,
-    /// Curvature of the boundary curves (Eq. 5).
+    /// Curvature of the boundary curves (Eq. 5) and of the rims of shells.
     pub curvature: Curvature,
-    /// Torsion of the boundary curves.
+    /// Torsion of the same curves.
     pub torsion: Torsion,
-    /// Position of the boundary curves along their bones (Eq. 3).
+    /// Position of the same curves along their bones (Eq. 3).
     pub position: Position,
     /// Pinned vertices.
     pub pins: Pins,
     /// Rigid groups: the caller's, and after them the carried pieces that are stiff.
     pub rigid: Rigid,
+}
+
+/// The curves of a garment that were found beside its boundary loops.
+pub struct Curves {
+    /// The borders that are held to others.
+    pub near: NearBorders,
+    /// The rims of its shells.
+    pub rims: ShellRims,
 }
 
 /// Pieces of a garment that have their place from something else than the bones inside of them.
@@ -62,7 +71,7 @@ impl HeldPieces<'_> {
 
 impl Shape {
     /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that something
-    /// else holds; the borders that are held to others are found. `pins` has at most one entry a vertex, `rigid_groups` each
+    /// else holds; the borders that are held to others, and the rims of shells, are found. `pins` has at most one entry a vertex, `rigid_groups` each
     /// vertex in one group at most.
     pub fn new(
         garment: &TriangleMesh,
@@ -72,13 +81,15 @@ impl Shape {
         rigid_groups: &[Vec<u32>],
         held: &HeldPieces<'_>,
         options: &Options,
-    ) -> (Self, NearBorders) {
+    ) -> (Self, Curves) {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
         let topology = Topology::new(rest.len(), triangles);
         let mut is_held = vec![false; rest.len()];
         held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         let near = NearBorders::find(rest, triangles, &topology, &is_held);
+        let rims = ShellRims::find(garment, &topology, &is_held, source);
+        let curves = || topology.loops.iter().chain(&rims.loops);
         let whole = without_caps(rest, triangles);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
@@ -92,13 +103,13 @@ impl Shape {
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
             borders: Attachment::of_borders(rest, &near.holds),
             carry: held.carried.term(),
-            curvature: Curvature::new(rest, &topology.loops, options.curve_chord),
-            torsion: Torsion::new(rest, &topology.loops, options.curve_chord),
-            position: position(garment, &topology, &is_held, source, target),
+            curvature: Curvature::new(rest, curves(), options.curve_chord),
+            torsion: Torsion::new(rest, curves(), options.curve_chord),
+            position: position(garment, &topology, &curves().cloned().collect::<Vec<_>>(), &is_held, source, target),
             pins: Pins::new(pin_targets::resolve(rest, triangles, pins, source, target)),
             rigid: rigid(rest, rigid_groups, held.carried),
         };
-        (shape, near)
+        (shape, Curves { near, rims })
     }
 }
 
@@ -118,10 +129,11 @@ pub(super) fn rigid(rest: &[DVec3], groups: &[Vec<u32>], carried: &CarriedPlaces
     Rigid::new(&rest, &groups)
 }
 
-/// The position term of the boundary loops that follow bones.
+/// The position term of those of `curves` that follow bones.
 fn position(
     garment: &TriangleMesh,
     topology: &Topology,
+    curves: &[BoundaryLoop],
     is_held: &[bool],
     source: &Skeleton,
     target: &Skeleton,
@@ -129,7 +141,7 @@ fn position(
     let rest = &garment.positions;
     let mut axes: Vec<MovingAxis> = Vec::new();
     let mut constraints = Vec::new();
-    for (curve, axis) in topology.loops.iter().zip(choose_loop_axes(rest, &topology.loops, source, target)) {
+    for (curve, axis) in curves.iter().zip(choose_loop_axes(rest, curves, source, target)) {
         // A piece that is held to another one, such as a button, or carried, has no place of its own along a bone.
         if let Some(axis) = axis
             && !is_held[curve.vertices[0] as usize]

@@ -113,6 +113,21 @@ pub fn windings(
         .collect()
 }
 
+/// What each of `loops`, closed curves of vertices of `mesh` in order, winds around.
+pub fn windings_of_loops(mesh: &TriangleMesh, loops: &[&[u32]], segments: &[[DVec3; 2]]) -> Vec<Winding> {
+    // Each loop has vertices of its own: two that touch in one are two curves all the same.
+    let (mut curves, mut edges, mut pieces) = (TriangleMesh::default(), Vec::new(), Vec::new());
+    for (piece, vertices) in (0u32..).zip(loops) {
+        let (first, count) = (curves.positions.len() as u32, vertices.len() as u32);
+        curves.positions.extend(vertices.iter().map(|&v| mesh.positions[v as usize]));
+        pieces.extend(vertices.iter().map(|_| piece));
+        edges.extend((1..count).map(|k| [first + k - 1, first + k]));
+        edges.push([first, first + count - 1]);
+    }
+    edges.sort_unstable();
+    windings(&curves, &edges, &pieces, loops.len(), segments)
+}
+
 /// For each edge the strands whose curtains it crosses, with signs, from its lower vertex to the other.
 fn crossings(edges: &[[u32; 2]], vertices: &[(DVec2, f64)], strands: &[Strand]) -> Vec<Vec<(usize, f64)>> {
     let of_edge = |&[u, v]: &[u32; 2]| {

@@ -27,6 +27,7 @@ pub mod skeleton;
 pub mod skin;
 pub mod surface;
 pub mod texture;
+pub mod thickness;
 pub mod tube;
 
 use body::Build;

@@ -9,6 +9,7 @@ pub mod fit_weight;
 pub mod layers;
 pub mod measure;
 pub mod resolution;
+pub mod shells;
 pub mod skeleton_edits;
 pub mod stress;
 pub mod transfer;

@@ -22,7 +22,7 @@ static GARMENTS: LazyLock<Vec<(Garment, Sample)>> = LazyLock::new(|| {
     })
 });
 
-fn made(kind: Garment) -> &'static Sample {
+pub fn made(kind: Garment) -> &'static Sample {
     &GARMENTS.iter().find(|(other, _)| *other == kind).expect("a garment of the catalogue").1
 }
 

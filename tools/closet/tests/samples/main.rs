@@ -4,6 +4,7 @@ mod avatars;
 mod distance;
 mod garments;
 mod rigs;
+mod shells;
 mod strange;
 
 use std::collections::{BTreeMap, HashSet};
