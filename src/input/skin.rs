@@ -117,6 +117,14 @@ impl SkinWeights {
         Ok(skin)
     }
 
+    /// From the joints with weights of each vertex, in any order; a joint may be listed several times, and counts with the
+    /// sum. The weights are finite and above 0, the joints below `joint_count`.
+    pub fn from_rows(joint_count: usize, rows: impl IntoIterator<Item = Vec<(u32, f64)>>) -> Self {
+        let mut skin = Self { joint_count, ends: Vec::new(), influences: Vec::new() };
+        rows.into_iter().for_each(|mut row| skin.push(&mut row));
+        skin
+    }
+
     /// Adds a vertex. A joint may be listed several times.
     fn push(&mut self, own: &mut [(u32, f64)]) {
         own.sort_by_key(|&(joint, _)| joint);

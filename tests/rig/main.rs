@@ -1,3 +1,8 @@
 //! Rigs of real characters.
 
+mod blend;
+mod limbs;
 mod names;
+mod own_joints;
+mod weights;
+mod weights_random;

@@ -7,6 +7,7 @@ pub mod gltf;
 pub mod library;
 pub mod obj;
 pub mod obj_text;
+pub mod posing;
 pub mod process;
 mod random;
 pub mod scene;

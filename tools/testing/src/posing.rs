@@ -1,0 +1,145 @@
+//! Poses a body and a garment by their skin weights, and counts what passes through what.
+
+use std::collections::HashSet;
+
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
+use bespoke::rig::weights::blend::{linear_blend, place};
+use bespoke::verify::intersections;
+use closet::skeleton::{ARMS, LEGS};
+use glam::{DAffine3, DQuat, DVec3};
+
+/// A joint that bends, on both sides of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bend {
+    /// Arms come down where they are spread, and are raised where they hang.
+    Shoulder,
+    /// Forearms come forward.
+    Elbow,
+    /// Thighs come forward.
+    Hip,
+    /// Shins go back.
+    Knee,
+}
+
+/// The poses by which weights are judged.
+pub const POSES: [&[Bend]; 5] = [
+    &[Bend::Shoulder],
+    &[Bend::Elbow],
+    &[Bend::Hip],
+    &[Bend::Knee],
+    &[Bend::Shoulder, Bend::Elbow, Bend::Hip, Bend::Knee],
+];
+
+/// A skeleton of the samples' joints as a hierarchy from joint 0, and where its front and its top are.
+pub struct Puppet {
+    joints: Vec<DVec3>,
+    parents: Vec<Option<u32>>,
+    front: DVec3,
+    up: DVec3,
+}
+
+impl Puppet {
+    /// The hierarchy of a skeleton whose joints are numbered as the samples' ones.
+    pub fn new(skeleton: &Skeleton, front: DVec3, up: DVec3) -> Self {
+        let mut parents = vec![None; skeleton.joints.len()];
+        let mut reached = vec![0];
+        let mut next = 0;
+        while let Some(&joint) = reached.get(next) {
+            for &[a, b] in &skeleton.bones {
+                for (from, to) in [(a, b), (b, a)] {
+                    if from == joint && !reached.contains(&to) {
+                        parents[to as usize] = Some(from);
+                        reached.push(to);
+                    }
+                }
+            }
+            next += 1;
+        }
+        Self { joints: skeleton.joints.clone(), parents, front, up }
+    }
+
+    /// How each joint moves what it owns when these joints bend by `degrees`.
+    pub fn moves(&self, bends: &[Bend], degrees: f64) -> Vec<DAffine3> {
+        let mut turns = vec![DQuat::IDENTITY; self.joints.len()];
+        let mut turn = |joint: usize, axis: DVec3| {
+            turns[joint] = DQuat::from_axis_angle(axis.normalize(), degrees.to_radians());
+        };
+        for bend in bends {
+            for ([shoulder, elbow, wrist], [hip, knee, _]) in ARMS.into_iter().zip(LEGS) {
+                let along = |a: usize, b: usize| (self.joints[b] - self.joints[a]).normalize();
+                match bend {
+                    Bend::Shoulder => {
+                        let arm = along(shoulder, elbow);
+                        let way = if arm.dot(self.up) < -0.6 { self.up } else { -self.up };
+                        turn(shoulder, arm.cross(way));
+                    }
+                    Bend::Elbow => turn(elbow, along(elbow, wrist).cross(self.front)),
+                    Bend::Hip => turn(hip, along(hip, knee).cross(self.front)),
+                    Bend::Knee => turn(knee, -along(hip, knee).cross(self.front)),
+                }
+            }
+        }
+        place(&self.joints, &self.parents, &turns)
+    }
+}
+
+/// Intersecting pairs of triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Within the garment, less those of the bind pose.
+    pub own: u64,
+    /// Of garment and body, where the body does not pass through itself.
+    pub body: u64,
+    /// Of garment and body, where it does.
+    pub folds: u64,
+}
+
+impl std::ops::AddAssign for Counts {
+    fn add_assign(&mut self, more: Self) {
+        self.own += more.own;
+        self.body += more.body;
+        self.folds += more.folds;
+    }
+}
+
+/// What passes through what when body and garment are posed by their weights.
+pub fn counts(
+    garment: &TriangleMesh,
+    weights: &SkinWeights,
+    body: &TriangleMesh,
+    skin: &SkinWeights,
+    moves: &[DAffine3],
+) -> Counts {
+    let posed = |mesh: &TriangleMesh, skin: &SkinWeights| TriangleMesh {
+        positions: linear_blend(&mesh.positions, skin, moves),
+        triangles: mesh.triangles.clone(),
+    };
+    let pairs =
+        |a: &TriangleMesh, b: Option<&TriangleMesh>| intersections(a, b, usize::MAX).expect("finite coordinates");
+    let (cloth, under) = (posed(garment, weights), posed(body, skin));
+    // What passes through itself in the bind pose already does not fold because of the pose.
+    let bound: HashSet<[u32; 2]> = pairs(body, None).pairs.into_iter().collect();
+    let mut folded = vec![false; body.triangles.len()];
+    let fresh = pairs(&under, None).pairs.into_iter().filter(|pair| !bound.contains(pair));
+    fresh.flatten().for_each(|t| folded[t as usize] = true);
+    let (folds, others): (Vec<_>, Vec<_>) =
+        pairs(&cloth, Some(&under)).pairs.into_iter().partition(|p| folded[p[1] as usize]);
+    Counts {
+        own: pairs(&cloth, None).count.saturating_sub(pairs(garment, None).count),
+        body: others.len() as u64,
+        folds: folds.len() as u64,
+    }
+}
+
+/// The weights of the nearest vertex of the body: what tools do that look at nothing else.
+pub fn nearest_vertex(garment: &TriangleMesh, body: &TriangleMesh, skin: &SkinWeights) -> SkinWeights {
+    let nearest = |p: &DVec3| {
+        let weighted = (0..body.positions.len()).filter(|&v| !skin.weights(v).is_empty());
+        let best = weighted
+            .min_by(|&a, &b| body.positions[a].distance_squared(*p).total_cmp(&body.positions[b].distance_squared(*p)));
+        best.map_or_else(Vec::new, |v| skin.weights(v).to_vec())
+    };
+    SkinWeights::from_rows(skin.joint_count(), garment.positions.iter().map(nearest))
+}
