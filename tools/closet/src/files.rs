@@ -92,7 +92,7 @@ pub fn write_rig<'a>(path: &Path, joints: impl IntoIterator<Item = RigLine<'a>>)
         let parent = parent.map_or("-1".to_owned(), |parent| parent.to_string());
         let _ = write!(text, "joint {name} {parent}");
         for number in DMat4::from(bind).to_cols_array() {
-            let _ = write!(text, " {number}");
+            let _ = write!(text, " {number:?}");
         }
         text.push('\n');
     }
@@ -103,7 +103,7 @@ pub fn write_rig<'a>(path: &Path, joints: impl IntoIterator<Item = RigLine<'a>>)
 pub fn write_influences(path: &Path, influences: &[Vec<(usize, f64)>]) -> io::Result<()> {
     let mut text = String::new();
     for vertex in influences {
-        let words: Vec<String> = vertex.iter().map(|(joint, weight)| format!("{joint} {weight}")).collect();
+        let words: Vec<String> = vertex.iter().map(|(joint, weight)| format!("{joint} {weight:?}")).collect();
         text += &words.join(" ");
         text.push('\n');
     }
