@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "joint_map.h"
 #include "numbers.h"
 #include "parts.h"
 
@@ -29,6 +30,47 @@ static bool set_skeleton(Session *session, const char *path,
     const BespokeView bones = view_of(obj.segments, obj.segment_count, BESPOKE_COMPONENT_U32);
     const bool good = session_good(session, set(session->handle, &joints, &bones), path);
     obj_free(&obj);
+    return good;
+}
+
+static bool set_rig(Session *session, Rig *rig, const char *path,
+                    BespokeStatus (*set)(BespokeSession *, const BespokeJoint *, size_t)) {
+    return rig_read(rig, path, &session->message) &&
+           session_good(session, set(session->handle, rig->joints, rig->count), path);
+}
+
+static bool set_influences(Session *session, const char *path, size_t joint_count,
+                           BespokeStatus (*set)(BespokeSession *, const BespokeView *, const BespokeView *, size_t,
+                                                size_t)) {
+    Influences influences;
+    if (!influences_read(&influences, path, &session->message)) {
+        return false;
+    }
+    const BespokeView joints = view_of(influences.joints, influences.count, BESPOKE_COMPONENT_U32);
+    const BespokeView weights = view_of(influences.weights, influences.count, BESPOKE_COMPONENT_F32);
+    const bool good =
+        session_good(session, set(session->handle, &joints, &weights, influences.width, joint_count), path);
+    influences_free(&influences);
+    return good;
+}
+
+static bool set_joint_pairs(Session *session, const char *path) {
+    List list;
+    if (!list_read(&list, path, &session->message)) {
+        return false;
+    }
+    bool good = true;
+    for (size_t row = 0, begin = 0; good && row < list.rows; begin = list.ends[row++]) {
+        if (list.ends[row] - begin != 2) {
+            good = fail(&session->message, "%s: pair %zu has %zu numbers; a joint of either rig makes two", path, row + 1,
+                        list.ends[row] - begin);
+        }
+    }
+    if (good) {
+        const BespokeView pairs = view_of(list.values, list.rows, BESPOKE_COMPONENT_U32);
+        good = session_good(session, bespoke_session_set_joint_pairs(session->handle, &pairs), path);
+    }
+    list_free(&list);
     return good;
 }
 
@@ -143,16 +185,30 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
            set_space(session, &options->target_space, "--target-space", bespoke_session_set_target_coordinate_system) &&
            obj_read(&inputs->garment, options->garment, &session->message) &&
            set_mesh(session, &inputs->garment, options->garment, bespoke_session_set_garment) &&
-           set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton) &&
+           (options->source_skeleton == NULL ||
+            set_skeleton(session, options->source_skeleton, bespoke_session_set_source_skeleton)) &&
+           (options->source_rig == NULL ||
+            set_rig(session, &inputs->source_rig, options->source_rig, bespoke_session_set_source_rig)) &&
            obj_read(&inputs->avatar, options->avatar, &session->message) &&
            set_mesh(session, &inputs->avatar, options->avatar, bespoke_session_set_target_avatar) &&
            parts_set(session, &inputs->avatar, options) &&
-           set_skeleton(session, options->target_skeleton, bespoke_session_set_target_skeleton) &&
+           (options->target_skeleton == NULL ||
+            set_skeleton(session, options->target_skeleton, bespoke_session_set_target_skeleton)) &&
+           (options->target_rig == NULL ||
+            set_rig(session, &inputs->target_rig, options->target_rig, bespoke_session_set_target_rig)) &&
            (options->source_avatar == NULL ||
             set_further_mesh(session, options->source_avatar, bespoke_session_set_source_avatar)) &&
            add_layers(session, options) &&
            (options->skin_weights == NULL ||
             set_skin_weights(session, options->skin_weights, inputs->avatar.vertex_count)) &&
+           (options->target_skin == NULL ||
+            set_influences(session, options->target_skin, inputs->target_rig.count,
+                           bespoke_session_set_target_skin_influences)) &&
+           (options->source_skin == NULL ||
+            set_influences(session, options->source_skin, inputs->source_rig.count,
+                           bespoke_session_set_source_skin_influences)) &&
+           (options->joint_pairs == NULL || set_joint_pairs(session, options->joint_pairs)) &&
+           (options->joint_map == NULL || joint_map_write(session, inputs, options->joint_map)) &&
            (options->no_fit == NULL || set_no_fit(session, options->no_fit)) &&
            (options->pins == NULL || set_pins(session, options->pins)) &&
            (options->rigid == NULL || add_rigid_groups(session, options->rigid));
@@ -161,4 +217,6 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
 void inputs_free(Inputs *inputs) {
     obj_free(&inputs->garment);
     obj_free(&inputs->avatar);
+    rig_free(&inputs->source_rig);
+    rig_free(&inputs->target_rig);
 }

@@ -4,12 +4,16 @@
 
 #include "obj.h"
 #include "options.h"
+#include "rig.h"
 #include "session.h"
 
 /* What is needed again when the results are written. */
 typedef struct Inputs {
     Obj garment;
     Obj avatar;
+    /* Where there are none, they have no joints. */
+    Rig source_rig;
+    Rig target_rig;
 } Inputs;
 
 /* False, with a message in the session, where a file cannot be read or the library refuses what it holds. Whatever it

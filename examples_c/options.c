@@ -36,11 +36,14 @@ typedef struct Entry {
 /* In the order of --help. */
 static const Entry entries[] = {
     {"--garment", "FILE", NEEDED, FIELD(garment), 0, "the garment, around the source skeleton"},
-    {"--source-skeleton", "FILE", NEEDED, FIELD(source_skeleton), 0,
+    {"--source-skeleton", "FILE", PATH, FIELD(source_skeleton), 0,
      "skeleton of the body it was modelled on: joints as v, bones as l lines"},
+    {"--source-rig", "FILE", PATH, FIELD(source_rig), 0,
+     "or its rig: a line 'joint NAME PARENT' and the 16 numbers of the bind transform for each"},
     {"--avatar", "FILE", NEEDED, FIELD(avatar), 0, "the body to dress"},
-    {"--target-skeleton", "FILE", NEEDED, FIELD(target_skeleton), 0,
+    {"--target-skeleton", "FILE", PATH, FIELD(target_skeleton), 0,
      "its skeleton: the same joints in the same order, the same bones in any order"},
+    {"--target-rig", "FILE", PATH, FIELD(target_rig), 0, "or its rig, with whatever joints it has"},
     {"-o", "", PATH, FIELD(output), 0, ","},
     {"--output", "FILE", NEEDED, FIELD(output), 0,
      "the garment on the avatar, in the avatar's coordinate system and unit"},
@@ -49,6 +52,14 @@ static const Entry entries[] = {
      "the body the garment was modelled on; the fit then aims at the looseness it had there"},
     {"--skin-weights", "FILE", PATH, FIELD(skin_weights), 0,
      "skin weights of the avatar: a text matrix, a row for each joint, a column for each vertex"},
+    {"--target-skin", "FILE", PATH, FIELD(target_skin), 0,
+     "the same as a line 'JOINT WEIGHT JOINT WEIGHT ...' for each vertex, joints from 0"},
+    {"--source-skin", "FILE", PATH, FIELD(source_skin), 0, "the same of the source avatar, on the source rig"},
+    {"--joint-pairs", "FILE", PATH, FIELD(joint_pairs), 0,
+     "joints of source rig and target rig that correspond, where the names do not say it: two\n"
+     "numbers in a line, from 0"},
+    {"--joint-map", "FILE", PATH, FIELD(joint_map), 0,
+     "writes which joints of the two rigs correspond, why, and how sure that is"},
     {"--source-space", "AXES", SPACE, FIELD(source_space), 0,
      "axes of garment, source skeleton and source avatar that point right, up and forward, and\n"
      "metres a unit where that is not 1: -x,y,z or y,z,x,0.01 (x,y,-z). With ',trusted' at its end\n"
@@ -268,8 +279,18 @@ static bool check(const Options *options, Message *message) {
             return fail(message, "%s is missing; see retarget --help", entries[k].name);
         }
     }
+    if (options->source_skeleton == NULL && options->source_rig == NULL) {
+        return fail(message, "--source-skeleton or --source-rig is missing; see retarget --help");
+    }
+    if (options->target_skeleton == NULL && options->target_rig == NULL) {
+        return fail(message, "--target-skeleton or --target-rig is missing; see retarget --help");
+    }
+    if (options->skin_weights != NULL && options->target_skin != NULL) {
+        return fail(message, "--skin-weights and --target-skin are the same; give one of them");
+    }
     const char *outputs[] = {options->output, options->output_avatar, options->report,
-                             options->distortion, options->keep_partial, options->partial_avatar};
+                             options->distortion, options->keep_partial, options->partial_avatar,
+                             options->joint_map};
     for (size_t a = 0; a < sizeof outputs / sizeof *outputs; a++) {
         for (size_t b = 0; b < a; b++) {
             if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {

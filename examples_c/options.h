@@ -9,11 +9,17 @@
 
 typedef struct Options {
     const char *garment;
-    const char *source_skeleton;
     const char *avatar;
-    const char *target_skeleton;
     const char *output;
-    /* The rest may be null. */
+    /* The rest may be null; of skeleton and rig one is there. */
+    const char *source_skeleton;
+    const char *target_skeleton;
+    const char *source_rig;
+    const char *target_rig;
+    const char *target_skin;
+    const char *source_skin;
+    const char *joint_pairs;
+    const char *joint_map;
     const char *source_avatar;
     const char *skin_weights;
     const char *no_fit;

@@ -9,7 +9,8 @@ typedef BespokeStatus (*ReadVertices)(const BespokeSession *, const BespokeBuffe
 
 bool results_check(const Options *options, Message *message) {
     const char *paths[] = {options->output, options->output_avatar, options->distortion,
-                           options->report, options->keep_partial, options->partial_avatar};
+                           options->report, options->keep_partial, options->partial_avatar,
+                           options->joint_map};
     for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
         if (paths[k] != NULL && !output_check(paths[k], message)) {
             return false;

@@ -67,6 +67,15 @@
 /// would no longer work; additions at the end of a struct with a `struct_size` do not change it.
 #define BESPOKE_ABI_VERSION 2
 
+/// In place of a joint's number: no joint.
+#define BESPOKE_NO_JOINT 4294967295
+
+/// Numbers of a 4 x 4 transform.
+#define BESPOKE_TRANSFORM_SIZE 16
+
+/// Bytes of the part in BespokeMappedJoint, its zero byte included.
+#define BESPOKE_PART_NAME_SIZE 32
+
 /// The value of a weight in BespokeOptions that switches its term off; 0 means the default.
 #define BESPOKE_WEIGHT_OFF -1.0
 
@@ -177,6 +186,9 @@ enum BespokeStage
   BESPOKE_STAGE_FAILED = 6,
   /// Cancelled by the caller. The last garment can be read.
   BESPOKE_STAGE_CANCELLED = 7,
+  /// Between INFLATE and FIT, where a target rig stands in another pose than the source: the avatar goes from the source's
+  /// pose to its own, and takes the garment along.
+  BESPOKE_STAGE_REPOSE = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -302,6 +314,9 @@ enum BespokeDiagnosticKind
   /// root on the floor is. The bone is named; the distance is how far the body goes on, or how far the joint is off. It is
   /// taken to lie where the message says, unless the option strict is set.
   BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED = 18,
+  /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
+  /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
+  BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE = 33,
   /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
   /// for them, unless the option strict is set. The first vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT = 19,
@@ -484,6 +499,32 @@ typedef struct BespokeCoordinateSystem {
   /// neither turned nor refused for them. Default 0.
   uint32_t trusted;
 } BespokeCoordinateSystem;
+
+/// A joint of a rig.
+typedef struct BespokeJoint {
+  /// Its name, UTF-8, as the tool has it; ends with a zero byte. Null: it has none.
+  const char *name;
+  /// The joint that moves it, from 0, in any order; BESPOKE_NO_JOINT for a root.
+  uint32_t parent;
+  /// 0.
+  uint32_t reserved;
+  /// The bind transform: from the joint's own space to that in which the mesh is given, in the pose in which the mesh is
+  /// given. 4 x 4 numbers, column after column, so that numbers 12 to 14 (from 0) are the joint's place: the memory of
+  /// glTF, OpenGL, Unity and Unreal, and the inverse of an inverse bind matrix.
+  double bind[BESPOKE_TRANSFORM_SIZE];
+} BespokeJoint;
+
+/// A joint of the source rig and what corresponds to it in the target rig.
+typedef struct BespokeMappedJoint {
+  /// The target rig's joint; BESPOKE_NO_JOINT where there is none.
+  uint32_t target;
+  /// One of BespokeJointReason.
+  uint32_t reason;
+  /// From 0, a guess, to 1, sure.
+  double confidence;
+  /// The part of the body, such as "left upper arm"; ends with a zero byte. Empty where it is none.
+  char part[BESPOKE_PART_NAME_SIZE];
+} BespokeMappedJoint;
 
 /// The options of a session. Zero in a field means its default. Unless noted otherwise, lengths are in the normalised
 /// space, in which the longest side of the skeleton's bounding box is 2. Weights are finite and not negative, or
@@ -867,6 +908,74 @@ BespokeStatus bespoke_session_set_source_coordinate_system(struct BespokeSession
 /// State, errors, threads: as for bespoke_session_set_source_coordinate_system.
 BespokeStatus bespoke_session_set_target_coordinate_system(struct BespokeSession *session,
                                                            const struct BespokeCoordinateSystem *coordinate_system);
+
+/// In place of a source skeleton: the rig of the body on which the garment was designed, in the coordinate system of the
+/// garment. With a rig on both sides no skeletons have to correspond: which joints do follows from their names, from their
+/// places and from bespoke_session_set_joint_pairs, and can be read with bespoke_session_read_joint_map. A skeleton beside
+/// a rig is read as a rig without names.
+///
+/// `joints`: `count` of them, at most 65535. Ownership: copied during the call. State: SETUP; the later one of skeleton and
+/// rig counts. Errors: INVALID_ARGUMENT, INVALID_SKELETON (no joints, a parent that is no joint, parents in a circle, a
+/// number that is not finite, a last row that is not 0, 0, 0, 1; that nothing corresponds is found by
+/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_source_rig(struct BespokeSession *session,
+                                             const struct BespokeJoint *joints,
+                                             size_t count);
+
+/// In place of a target skeleton: the rig of the body to dress, in its coordinate system and in the pose in which it is given.
+/// The weights of bespoke_session_set_target_skin_weights and _influences are then on its joints. That source and target
+/// stand in different poses, such as an A-pose and a T-pose, needs nothing.
+///
+/// `joints`: `count` of them, at most 65535. Ownership: copied during the call. State: SETUP; the later one of skeleton and
+/// rig counts. Errors: as for bespoke_session_set_source_rig. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_target_rig(struct BespokeSession *session,
+                                             const struct BespokeJoint *joints,
+                                             size_t count);
+
+/// Optional: skin weights of the source avatar on the source rig. They tell which of its joints move nothing, and where the
+/// top of the head is in a rig that has no joint there.
+///
+/// `joints`, `weights`, `influences`, `joint_count`: as for bespoke_session_set_target_skin_influences. Ownership: copied
+/// during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
+/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_source_skin_influences(struct BespokeSession *session,
+                                                         const struct BespokeView *joints,
+                                                         const struct BespokeView *weights,
+                                                         size_t influences,
+                                                         size_t joint_count);
+
+/// Optional: skin weights of the garment as it was modelled, on the source rig.
+///
+/// `joints`, `weights`, `influences`, `joint_count`: as for bespoke_session_set_target_skin_influences, one element for each
+/// vertex of the garment. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a
+/// wrong size may be found only by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_garment_skin_influences(struct BespokeSession *session,
+                                                          const struct BespokeView *joints,
+                                                          const struct BespokeView *weights,
+                                                          size_t influences,
+                                                          size_t joint_count);
+
+/// Optional: joints of the two rigs that correspond. They win over names and places. Replaces earlier pairs.
+///
+/// `pairs`: a joint of the source rig and one of the target rig each, U16 or U32; BESPOKE_NO_JOINT (65535 in U16) as the
+/// second: nothing corresponds to it. Each joint is in one pair at most. Ownership: copied during the call. State: SETUP.
+/// Errors: INVALID_ARGUMENT (a joint that a rig does not have, or one in two pairs, is found by bespoke_session_prepare and
+/// bespoke_session_read_joint_map), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_joint_pairs(struct BespokeSession *session,
+                                              const struct BespokeView *pairs);
+
+/// Writes which joint of the target rig corresponds to each joint of the source rig, why, and how sure that is: for an editor
+/// to show, and for a caller to mend with bespoke_session_set_joint_pairs.
+///
+/// `joints`: room for `capacity` of them, one for each joint of the source rig in its order; the first that fit are written.
+/// May be null where `capacity` is 0. `*count`, unless null: how many there are. State: any, with rig or skeleton set on
+/// both sides; the map is that of what is set. Errors: INVALID_ARGUMENT (null with a capacity, a pair that suits no
+/// joints), INVALID_WEIGHTS (weights that do not suit their rig), INVALID_STATE (a rig is missing), BUSY, INTERNAL.
+/// Threads: any, one at a time.
+BespokeStatus bespoke_session_read_joint_map(const struct BespokeSession *session,
+                                             struct BespokeMappedJoint *joints,
+                                             size_t capacity,
+                                             size_t *count);
 
 /// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
 /// 0: not at all.

@@ -96,6 +96,7 @@ enum class Stage : std::uint32_t {
     done = BESPOKE_STAGE_DONE,
     failed = BESPOKE_STAGE_FAILED,
     cancelled = BESPOKE_STAGE_CANCELLED,
+    repose = BESPOKE_STAGE_REPOSE,
 };
 
 /// A direction along one axis of the caller's coordinates: BespokeAxis.
@@ -140,6 +141,7 @@ enum class DiagnosticKind : std::uint32_t {
     facing_mismatch = BESPOKE_DIAGNOSTIC_KIND_FACING_MISMATCH,
     sides_swapped = BESPOKE_DIAGNOSTIC_KIND_SIDES_SWAPPED,
     joint_misplaced = BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED,
+    joints_unsure = BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE,
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
     carried_piece = BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE,

@@ -35,13 +35,17 @@ pub enum Stage {
     Failed = 6,
     /// CANCELLED: the caller asked to stop; the last state of the garment can still be read.
     Cancelled = 7,
+    /// REPOSE: the avatar goes from the pose of the design to its own, between INFLATE and FIT.
+    Repose = 8,
 }
 
 impl Stage {
     /// The stage with number `code`, if there is one.
     pub fn from_code(code: u64) -> Option<Self> {
         use Stage::*;
-        [Setup, Prepared, Inflate, Fit, Verify, Done, Failed, Cancelled].into_iter().find(|stage| *stage as u64 == code)
+        [Setup, Prepared, Inflate, Fit, Verify, Done, Failed, Cancelled, Repose]
+            .into_iter()
+            .find(|stage| *stage as u64 == code)
     }
 }
 

@@ -59,6 +59,8 @@ pub struct Report {
     pub prepare: StageReport,
     /// Stage INFLATE.
     pub inflate: StageReport,
+    /// Stage REPOSE, where the target stands in another pose than the source.
+    pub repose: StageReport,
     /// Stage FIT.
     pub fit: StageReport,
     /// Seconds in the exact verifier.

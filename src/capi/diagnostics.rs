@@ -63,6 +63,9 @@ pub enum BespokeDiagnosticKind {
     /// root on the floor is. The bone is named; the distance is how far the body goes on, or how far the joint is off. It is
     /// taken to lie where the message says, unless the option strict is set.
     JointMisplaced = 18,
+    /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
+    /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
+    JointsUnsure = 33,
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
     /// for them, unless the option strict is set. The first vertices are named.
     WeightsContradict = 19,
@@ -217,6 +220,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
             DiagnosticKind::FacingMismatch => BespokeDiagnosticKind::FacingMismatch,
             DiagnosticKind::SidesSwapped => BespokeDiagnosticKind::SidesSwapped,
             DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
+            DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,

@@ -130,6 +130,32 @@ pub unsafe extern "C" fn bespoke_session_set_source_avatar(
     unsafe { call(session, |session| session.set_source_avatar(mesh(positions, triangles, "source avatar")?.0)) }
 }
 
+/// A few joints with their weights for each vertex; `name` names them in error messages.
+///
+/// # Safety
+/// Each pointer is null or points to a valid view.
+pub(super) unsafe fn skin_influences(
+    joints: *const BespokeView,
+    weights: *const BespokeView,
+    influences: usize,
+    joint_count: usize,
+    name: &str,
+) -> Result<SkinWeights> {
+    // SAFETY: passed on from the caller.
+    let (joint_view, weight_view) = unsafe { (view::indices(joints, name)?, view::floats(weights, name)?) };
+    if joint_view.count != weight_view.count {
+        return invalid(format!(
+            "{name}: there are joints for {} vertices and weights for {}",
+            joint_view.count, weight_view.count
+        ));
+    }
+    // SAFETY: passed on from the caller.
+    let (joints, weights) = unsafe {
+        (buffer::read_indices(&joint_view, influences, name)?, buffer::read_rows(&weight_view, influences, name)?)
+    };
+    SkinWeights::from_sparse(&joints, &weights, influences, joint_count, joint_view.count, name)
+}
+
 const SKIN: &str = "target skin weights";
 
 /// Optional: skin weights of the target avatar as a full matrix, one row a joint. They only assign each vertex to one
@@ -174,24 +200,7 @@ pub unsafe extern "C" fn bespoke_session_set_target_skin_influences(
     // SAFETY: passed on from the caller.
     unsafe {
         call(session, |session| {
-            let (joint_view, weight_view) = (view::indices(joints, SKIN)?, view::floats(weights, SKIN)?);
-            if joint_view.count != weight_view.count {
-                return invalid(format!(
-                    "{SKIN}: there are joints for {} vertices and weights for {}",
-                    joint_view.count, weight_view.count
-                ));
-            }
-            let joints = buffer::read_indices(&joint_view, influences, SKIN)?;
-            let weights = buffer::read_rows(&weight_view, influences, SKIN)?;
-            let vertices = joint_view.count;
-            session.set_target_skin(SkinWeights::from_sparse(
-                &joints,
-                &weights,
-                influences,
-                joint_count,
-                vertices,
-                SKIN,
-            )?)
+            session.set_target_skin(skin_influences(joints, weights, influences, joint_count, SKIN)?)
         })
     }
 }

@@ -15,6 +15,8 @@ pub mod inputs;
 
 pub mod coordinate_system;
 
+pub mod rigs;
+
 pub mod fit;
 
 pub mod layers;

@@ -26,6 +26,9 @@ pub enum BespokeStage {
     Failed = 6,
     /// Cancelled by the caller. The last garment can be read.
     Cancelled = 7,
+    /// Between INFLATE and FIT, where a target rig stands in another pose than the source: the avatar goes from the source's
+    /// pose to its own, and takes the garment along.
+    Repose = 8,
 }
 
 impl From<Stage> for BespokeStage {
@@ -39,6 +42,7 @@ impl From<Stage> for BespokeStage {
             Stage::Done => Self::Done,
             Stage::Failed => Self::Failed,
             Stage::Cancelled => Self::Cancelled,
+            Stage::Repose => Self::Repose,
         }
     }
 }

@@ -118,3 +118,11 @@ pub(super) unsafe fn points_out(buffer: *const BespokeBuffer, name: &str) -> Res
     let BespokeBuffer { data, capacity, stride, component } = unsafe { dereference(buffer, name)? };
     Ok(PositionsViewMut { data, capacity, stride, component: float_component(component, name)? })
 }
+
+/// The largest index that is stored so: it stands for none.
+pub(super) fn largest_index(component: IndexComponent) -> u32 {
+    match component {
+        IndexComponent::U16 => u32::from(u16::MAX),
+        IndexComponent::U32 => u32::MAX,
+    }
+}

@@ -40,6 +40,8 @@ pub enum DiagnosticKind {
     InflationBlocked,
     /// A joint does not lie where the body wants it.
     JointMisplaced,
+    /// Joints of a rig whose part of the body is a guess.
+    JointsUnsure,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
     /// A connected piece of the avatar's mesh that is no part of the body.
@@ -397,6 +399,11 @@ pub enum Diagnostic {
         place: Option<[f64; 3]>,
         /// The joint is taken to lie there.
         mended: bool,
+    },
+    /// Which joints of the rigs are these places of the body is a guess.
+    JointsUnsure {
+        /// The places, such as "left shoulder".
+        places: Vec<&'static str>,
     },
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near.
     WeightsContradict {

@@ -28,6 +28,7 @@ impl Diagnostic {
             Self::RigidGroupBent { .. } => DiagnosticKind::RigidGroupBent,
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
             Self::EndWithoutBone { .. } | Self::JointMisplaced { .. } => DiagnosticKind::JointMisplaced,
+            Self::JointsUnsure { .. } => DiagnosticKind::JointsUnsure,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -69,6 +70,7 @@ impl Diagnostic {
             | Self::RigidGroupBent { .. }
             | Self::EndWithoutBone { .. }
             | Self::JointMisplaced { .. }
+            | Self::JointsUnsure { .. }
             | Self::WeightsContradict { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
@@ -149,6 +151,7 @@ impl Diagnostic {
             }
             Self::PieceResized { triangle: t, .. } => vec![triangle(t)],
             Self::CoarseCoordinates { .. }
+            | Self::JointsUnsure { .. }
             | Self::SettingsAdjusted { .. }
             | Self::NotConverged { .. }
             | Self::UnitMismatch { .. }

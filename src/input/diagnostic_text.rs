@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, part_name, point, short, turned, units,
+    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, short, turned, units,
 };
 
 impl Display for Diagnostic {
@@ -228,6 +228,12 @@ impl Display for Diagnostic {
                     _ => Ok(()),
                 }
             }
+            Self::JointsUnsure { places } => write!(
+                f,
+                "which joints of the two rigs are {} is a guess: the names do not say it; look at the joint map, and say \
+                 which joints correspond, as pairs",
+                listed(places)
+            ),
             Self::WeightsContradict { count, weighted, first, example, mended } => {
                 let fate = match mended {
                     true => "the nearest bone decides for these",

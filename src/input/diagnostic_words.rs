@@ -102,3 +102,12 @@ pub(super) fn turned(turn: AxisTurn) -> String {
 pub(super) fn axes(system: &CoordinateSystem) -> String {
     format!("right {}, up {}, forward {}", system.right.name(), system.up.name(), system.forward.name())
 }
+
+/// "a", "a and b", "a, b and c".
+pub(super) fn listed(words: &[&str]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => (*one).to_string(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

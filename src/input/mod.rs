@@ -12,6 +12,7 @@ mod mesh;
 pub mod near_seams;
 pub mod placement;
 pub mod precision;
+pub mod rig;
 pub mod skeleton;
 pub mod skin;
 pub mod weld;

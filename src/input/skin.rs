@@ -152,6 +152,18 @@ impl SkinWeights {
         extended
     }
 
+    /// The weights of further vertices alone, as in [`Self::extended`].
+    pub fn at(&self, places: &[Option<([u32; 3], [f64; 3])>]) -> Self {
+        let all = self.extended(places);
+        let mut own =
+            Self { joint_count: self.joint_count, ends: Vec::with_capacity(places.len()), influences: Vec::new() };
+        for vertex in self.vertex_count()..all.vertex_count() {
+            own.influences.extend(all.weights(vertex));
+            own.ends.push(own.influences.len());
+        }
+        own
+    }
+
     /// These without weights for `vertices`, which are ascending: the nearest bone decides for them.
     pub fn without(&self, vertices: &[u32]) -> Self {
         let mut kept =
@@ -163,6 +175,21 @@ impl SkinWeights {
             kept.ends.push(kept.influences.len());
         }
         kept
+    }
+
+    /// These on `count` other joints: each joint's weights go to its `owner`, and are left out where it has none.
+    pub fn contracted(&self, owner: &[Option<u32>], count: usize) -> Self {
+        let mut contracted =
+            Self { joint_count: count, ends: Vec::with_capacity(self.ends.len()), influences: Vec::new() };
+        let mut own = Vec::new();
+        for vertex in 0..self.vertex_count() {
+            own.clear();
+            let owned =
+                self.weights(vertex).iter().filter_map(|&(joint, weight)| Some((owner[joint as usize]?, weight)));
+            own.extend(owned);
+            contracted.push(&mut own);
+        }
+        contracted
     }
 
     /// Joints with their weights, ascending, each once.

@@ -1,5 +1,14 @@
-//! Rigs of real characters: what their joints are, and what a garment needs to move with them.
+//! Rigs of real characters: what their joints are, which correspond, the skeleton that two of them have in common, poses, and
+//! what a garment needs to move with them.
 
 pub mod body_part;
+pub mod common_skeleton;
+pub mod joint_map;
+pub mod landmark;
 pub mod names;
+pub mod part_name;
+pub mod places;
+pub mod posing;
+pub mod reading;
+pub mod structure;
 pub mod weights;

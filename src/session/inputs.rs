@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::rig_inputs::{Rigs, Skeletons};
+use super::way::Way;
 use super::{Session, Stage};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::{Body, PartRole};
-use crate::input::coordinate_system::CoordinateSystem;
+use crate::input::coordinate_system::{AxisTurn, CoordinateSystem};
 use crate::input::diagnostic::{Diagnostic, Subject};
 use crate::input::placement;
 use crate::input::placement::scene::Scene;
@@ -19,7 +21,7 @@ use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
 use crate::memory::{Sizes, bytes};
 use crate::options::Options;
-use crate::stage::setup::problem::{Inputs as Posed, Problem};
+use crate::stage::setup::problem::{Inputs as ProblemInputs, Problem};
 use crate::stage::start::foreign_parts;
 use crate::stage::start::joints::{self, Figure, Misplaced};
 
@@ -36,20 +38,56 @@ pub struct Pin {
 #[derive(Clone, Default)]
 pub(super) struct Inputs {
     pub(super) garment: Option<(Arc<TriangleMesh>, Precision)>,
-    source_skeleton: Option<Arc<Skeleton>>,
+    pub(super) source_skeleton: Option<Arc<Skeleton>>,
     pub(super) avatar: Option<Arc<TriangleMesh>>,
     /// One for each triangle of the avatar; none where nothing is said.
     pub(super) roles: Option<Arc<[PartRole]>>,
     pub(super) layers: Vec<Arc<TriangleMesh>>,
-    target_skeleton: Option<Arc<Skeleton>>,
-    source_avatar: Option<Arc<TriangleMesh>>,
-    skin: Option<Arc<SkinWeights>>,
+    pub(super) target_skeleton: Option<Arc<Skeleton>>,
+    pub(super) source_avatar: Option<Arc<TriangleMesh>>,
+    pub(super) skin: Option<Arc<SkinWeights>>,
+    pub(super) rigs: Rigs,
     fit_weights: Option<Arc<[f64]>>,
     pub(super) pins: Vec<Pin>,
     pub(super) rigid_groups: Vec<Arc<[u32]>>,
-    source_coordinate_system: CoordinateSystem,
+    pub(super) source_coordinate_system: CoordinateSystem,
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
+}
+
+/// What does not depend on how the target stands, in the internal coordinate system.
+struct Design {
+    garment: TriangleMesh,
+    weld: Arc<Weld>,
+    skeleton: Skeleton,
+    source_avatar: Option<TriangleMesh>,
+    skin: Option<Arc<SkinWeights>>,
+}
+
+/// The target in a pose, in its caller's coordinates.
+struct Stand {
+    avatar: Arc<TriangleMesh>,
+    layers: Vec<Arc<TriangleMesh>>,
+    target: Arc<Skeleton>,
+    /// The turn after which it faces as the source does, where that is known.
+    turn: Option<AxisTurn>,
+}
+
+/// A problem with the body as its caller would have it, and the coordinate system in which the target was read: the caller's,
+/// turned where it faces another way.
+pub(super) struct Setting {
+    pub(super) problem: Problem,
+    pub(super) body: Body,
+    pub(super) system: CoordinateSystem,
+    turn: AxisTurn,
+}
+
+/// What is to be solved.
+pub(super) struct Posed {
+    /// The problem to begin with.
+    pub(super) first: Setting,
+    /// Where that is one in the source's pose: the problem in the target's own pose, and the way there.
+    pub(super) own: Option<(Setting, Way)>,
 }
 
 impl Session {
@@ -88,6 +126,7 @@ impl Session {
         self.setting("the source skeleton")?;
         skeleton.check("source skeleton")?;
         self.inputs.source_skeleton = Some(Arc::new(skeleton));
+        self.inputs.rigs.source = None;
         Ok(())
     }
 
@@ -159,6 +198,7 @@ impl Session {
         self.setting("the target skeleton")?;
         skeleton.check("target skeleton")?;
         self.inputs.target_skeleton = Some(Arc::new(skeleton));
+        self.inputs.rigs.target = None;
         Ok(())
     }
 
@@ -246,7 +286,7 @@ impl Inputs {
         let skin = self.skin.as_ref().map_or(0, |skin| skin.memory());
         let groups: u64 = self.rigid_groups.iter().map(|group| size_of_val(&group[..]) as u64).sum();
         let controls = weights + bytes(&self.pins) + groups;
-        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin
+        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin + self.rigs.memory()
     }
 
     /// The sizes that are known from the inputs.
@@ -260,29 +300,18 @@ impl Inputs {
         }
     }
 
-    /// Checks the inputs against each other and poses the problem; returns it with the body as its caller has it, and with
-    /// the coordinate system in which the target was read: the caller's, turned where it faces another way. Adds to
-    /// `diagnostics`.
+    /// Checks the inputs against each other and poses the problem, or two: one in the source's pose where the target stands
+    /// in a very different one, and then that in the target's own. Adds to `diagnostics`.
     ///
     /// # Errors
     /// `InvalidState` where an input is missing, those of [`placement::check`] and of [`Problem::new`].
-    pub(super) fn pose_problem(
-        &self,
-        cancel: &Cancel,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> Result<(Problem, Body, CoordinateSystem)> {
-        let Some((garment, precision)) = &self.garment else { return missing("the garment", "set_garment") };
-        let Some(source) = &self.source_skeleton else {
-            return missing("the source skeleton", "set_source_skeleton");
-        };
-        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
-        let Some(target) = &self.target_skeleton else {
-            return missing("the target skeleton", "set_target_skeleton");
-        };
-        let target = target.aligned_to(source)?;
-        if let Some(skin) = &self.skin {
-            check_skin(skin, &target, avatar)?;
+    pub(super) fn pose_problem(&self, cancel: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<Posed> {
+        let Some((garment, _)) = &self.garment else { return missing("the garment", "set_garment") };
+        if self.source_skeleton.is_none() && self.rigs.source.is_none() {
+            return missing("the source skeleton", "set_source_skeleton or set_source_rig");
         }
+        let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
+        let Skeletons { source, target, skin, way } = self.skeletons(diagnostics)?;
         if let Some(weights) = &self.fit_weights
             && weights.len() != garment.positions.len()
         {
@@ -299,33 +328,87 @@ impl Inputs {
         let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);
         diagnostics.extend(found);
         cancel.check()?;
-        let garment = mesh_to_internal(&self.source_coordinate_system, &weld.mesh);
-        let mut source = skeleton_to_internal(&self.source_coordinate_system, source);
-        let source_avatar = self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m));
+        let design = Design {
+            garment: mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
+            weld: Arc::new(weld),
+            skeleton: skeleton_to_internal(&self.source_coordinate_system, &source),
+            source_avatar: self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m)),
+            skin,
+        };
+        let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
+        let Some(way) = way else {
+            let only = self.solve_in(&design, &stand, cancel, diagnostics)?;
+            return Ok(Posed { first: only, own: None });
+        };
+        let posed = self.stand_on(&way, 1.0, avatar);
+        let first = self.solve_in(&design, &posed, cancel, diagnostics)?;
+        stand.turn = Some(first.turn);
+        // All that there is to say of the inputs has been said.
+        let own = self.solve_in(&design, &stand, cancel, &mut Vec::new())?;
+        if own.problem.triangles != first.problem.triangles {
+            // What closes its openings differs: there is no way from one to the other.
+            return Ok(Posed { first: own, own: None });
+        }
+        Ok(Posed { first, own: Some((own, way)) })
+    }
+
+    /// The body on its way.
+    fn stand_on(&self, way: &Way, share: f64, avatar: &TriangleMesh) -> Stand {
+        let points = way.points(share);
+        let mut rest = &points[..];
+        let mut take = |mesh: &TriangleMesh| {
+            let (own, others) = rest.split_at(mesh.positions.len());
+            rest = others;
+            Arc::new(TriangleMesh { positions: own.to_vec(), triangles: mesh.triangles.clone() })
+        };
+        Stand {
+            avatar: take(avatar),
+            layers: self.layers.iter().map(|layer| take(layer)).collect(),
+            target: Arc::new(way.skeleton(share)),
+            turn: None,
+        }
+    }
+
+    /// The problem of the target as it stands.
+    fn solve_in(
+        &self,
+        design: &Design,
+        stand: &Stand,
+        cancel: &Cancel,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Setting> {
+        let Design { garment, weld, skeleton, source_avatar, skin } = design;
+        let (avatar, target) = (&stand.avatar, &*stand.target);
+        let precision = self.garment.as_ref().map_or(Precision::F32, |garment| garment.1);
         let told = self.target_coordinate_system;
-        let turn = placement::check(
-            &Scene {
-                garment: &garment,
-                source_skeleton: &source,
-                source_avatar: source_avatar.as_ref(),
-                avatar: &mesh_to_internal(&told, avatar),
-                target_skeleton: &skeleton_to_internal(&told, &target),
-                skin: self.skin.as_deref(),
-                source_coordinate_system: self.source_coordinate_system,
-                target_coordinate_system: told,
-            },
-            self.options.strict,
-            diagnostics,
-        )?;
+        let turn = match stand.turn {
+            Some(turn) => turn,
+            None => placement::check(
+                &Scene {
+                    garment,
+                    source_skeleton: skeleton,
+                    source_avatar: source_avatar.as_ref(),
+                    avatar: &mesh_to_internal(&told, avatar),
+                    target_skeleton: &skeleton_to_internal(&told, target),
+                    skin: skin.as_deref(),
+                    source_coordinate_system: self.source_coordinate_system,
+                    target_coordinate_system: told,
+                },
+                self.options.strict,
+                diagnostics,
+            )?,
+        };
         cancel.check()?;
         let target_system = told.turned(turn);
-        let pins = self.welded_pins(&weld, &target_system)?;
-        let rigid_groups = self.welded_groups(&weld)?;
-        let body = Body::with_roles(avatar, &self.layers, &self.resolve_roles(avatar, &target, diagnostics)?)?;
+        let pins = self.welded_pins(weld, &target_system)?;
+        let rigid_groups = self.welded_groups(weld)?;
+        let roles = self.resolve_roles(avatar, target, diagnostics)?;
+        let body = Body::with_roles(avatar, &stand.layers, &roles)?;
         let posed_body = body.with_mesh(mesh_to_internal(&target_system, &body.mesh));
-        let mut target = skeleton_to_internal(&target_system, &target);
+        let mut target = skeleton_to_internal(&target_system, target);
+        let mut source = skeleton.clone();
         let bodies = [Some(&posed_body.avatar()), source_avatar.as_ref()];
-        let misplaced = misplaced_joints([&target, &source], bodies, &garment);
+        let misplaced = misplaced_joints([&target, &source], bodies, garment);
         cancel.check()?;
         let mends = !self.options.strict;
         diagnostics.extend(misplaced.iter().map(|joint| match joint.skeleton {
@@ -337,25 +420,25 @@ impl Inputs {
             joints::mend(&mut source, Subject::SourceSkeleton, &misplaced);
         }
         let problem = Problem::new(
-            &Posed {
-                garment: &garment,
+            &ProblemInputs {
+                garment,
                 source_skeleton: &source,
                 avatar: &posed_body,
                 target_skeleton: &target,
-                skin: self.skin.as_deref(),
+                skin: skin.as_deref(),
                 source_avatar: source_avatar.as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &pins,
                 rigid_groups: &rigid_groups,
                 offset: target_system.metres_per_unit * self.options.offset,
-                weld: Arc::new(weld),
+                weld: weld.clone(),
                 coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),
             },
             &self.options,
             cancel,
             diagnostics,
         )?;
-        Ok((problem, body, target_system))
+        Ok(Setting { problem, body, system: target_system, turn })
     }
 
     /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what
@@ -400,7 +483,7 @@ fn misplaced_joints(
     target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(target, source, garment))
 }
 
-fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
+pub(super) fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh {
         positions: mesh.positions.iter().map(|&p| system.position_to_internal(p)).collect(),
         triangles: mesh.triangles.iter().map(|&t| system.triangle(t)).collect(),
@@ -418,17 +501,17 @@ pub(super) fn missing<T>(name: &str, call: &str) -> Result<T> {
     Err(Error::new(ErrorKind::InvalidState, format!("{name} is missing: call {call} before prepare")))
 }
 
-fn check_skin(skin: &SkinWeights, skeleton: &Skeleton, avatar: &TriangleMesh) -> Result<()> {
-    let (have, want) = ((skin.joint_count(), skin.vertex_count()), (skeleton.joints.len(), avatar.positions.len()));
-    if have == want {
+/// Refuses the weights `name` where they are not for the joints of `rig` and the vertices of their mesh.
+pub(super) fn check_skin(skin: &SkinWeights, joints: usize, vertices: usize, name: &str, rig: &str) -> Result<()> {
+    if (skin.joint_count(), skin.vertex_count()) == (joints, vertices) {
         return Ok(());
     }
     Err(Error::new(
         ErrorKind::InvalidWeights,
         format!(
-            "skin weights: they are for {} joints and {} vertices, the target skeleton has {} joints and the avatar {} \
-             vertices",
-            have.0, have.1, want.0, want.1
+            "{name}: they are for {} joints and {} vertices, the {rig} has {joints} joints and the mesh {vertices} vertices",
+            skin.joint_count(),
+            skin.vertex_count(),
         ),
     ))
 }

@@ -9,9 +9,13 @@ mod field_task;
 mod fit_controls;
 mod inputs;
 mod plausibility;
+mod reposing;
+mod rig_inputs;
+mod rigs;
 mod run;
 mod snapshot;
 mod verification;
+mod way;
 mod worker_pool;
 
 use std::sync::Arc;
@@ -150,7 +154,7 @@ impl Session {
     /// `ImplausibleResult`, `Internal`. The garment can still be read; with `ImplausibleResult` it is verified and the stage
     /// is [`Stage::Done`].
     pub fn step(&mut self, budget: Budget) -> Result<Stage> {
-        if !matches!(self.stage, Stage::Prepared | Stage::Inflate | Stage::Fit) {
+        if !matches!(self.stage, Stage::Prepared | Stage::Inflate | Stage::Repose | Stage::Fit) {
             return Err(Error::new(
                 ErrorKind::InvalidState,
                 match self.stage {

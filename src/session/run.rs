@@ -6,7 +6,8 @@ use std::time::Instant;
 use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
-use super::inputs::Inputs;
+use super::inputs::{Inputs, Posed, Setting};
+use super::reposing::Reposing;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::body::Body;
@@ -30,20 +31,22 @@ const MAX_DISTANCE_DOUBLINGS: u32 = 2;
 
 /// What exists between `prepare` and `reset`.
 pub(super) struct Run {
-    options: Options,
+    pub(super) options: Options,
     pub(super) problem: Arc<Problem>,
     /// The body to dress with its layers, as the caller gave them.
     pub(super) body: Arc<Body>,
     /// In which they are read: the caller's, turned where the target faces another way than the source.
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) state: State,
-    objective: Objective,
-    newton: Newton,
-    step: Step,
+    pub(super) objective: Objective,
+    pub(super) newton: Newton,
+    pub(super) step: Step,
     /// What was tried where the inflation stalled.
-    attempts: Attempts,
+    pub(super) attempts: Attempts,
+    /// The way to the target's own pose, where that begins after the inflation.
+    reposing: Option<Box<Reposing>>,
     /// Where an earlier attempt came farthest.
-    farthest: Option<Box<(Objective, State)>>,
+    pub(super) farthest: Option<Box<(Objective, State)>>,
     field: FieldTask,
     /// Pairs of garment triangles that intersected at the start.
     pub(super) initial_intersections: Arc<[[u32; 2]]>,
@@ -67,9 +70,12 @@ pub(super) struct Run {
 }
 
 /// The stage that is under way.
-enum Step {
+pub(super) enum Step {
     Inflate(Inflation),
+    Repose(Box<Reposing>),
     Fit(FitStage),
+    /// Nothing, while one of the others goes on.
+    Between,
 }
 
 impl Run {
@@ -86,20 +92,28 @@ impl Run {
         let begun = Instant::now();
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
-        let Pose { mut problem, body, target_coordinate_system, field: expected } =
-            pose(inputs, limit, stop, diagnostics)?;
-        let mut field = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
+        let (Posed { first, mut own }, expected) = pose(inputs, limit, stop, diagnostics)?;
+        let Setting { mut problem, body, system: target_coordinate_system, .. } = first;
+        let fitted = own.as_ref().map_or(&problem, |(own, _)| &own.problem).fitted.clone();
+        let mut field = FieldTask::start(fitted, options.voxel_size, threads, &context);
         let mut distance = None;
         if !problem.carried.is_empty() {
             // Where carried pieces go is known with the distance only.
             let (built, seconds) = field.wait()?;
-            problem.settle_carried(&built);
+            if let Some((own, _)) = &mut own {
+                own.problem.settle_carried(&built);
+                let mut posed = FieldTask::start(problem.fitted.clone(), options.voxel_size, threads, &context);
+                problem.settle_carried(&posed.wait()?.0);
+            } else {
+                problem.settle_carried(&built);
+            }
             distance = Some((Arc::new(built), seconds));
         }
+        let own_memory = own.as_ref().map_or(0, |(own, _)| own.problem.memory());
         let state = State { x: problem.initial_state(false).0.to_vec(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
-        let held = inputs.memory() + problem.memory();
+        let held = inputs.memory() + problem.memory() + own_memory;
         let budget = limit.reserving(held + expected + objective.memory());
         let mut newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
         let mut report = initial_report(&problem, &body, &objective, threads);
@@ -115,6 +129,7 @@ impl Run {
             newton,
             step: Step::Inflate(Inflation::default()),
             attempts: Attempts::default(),
+            reposing: own.map(|(own, way)| Box::new(Reposing::new(own.problem, own.body, way))),
             farthest: None,
             field,
             held,
@@ -135,7 +150,9 @@ impl Run {
     pub(super) fn iterations(&self) -> u32 {
         match &self.step {
             Step::Inflate(s) => s.iterations,
+            Step::Repose(s) => s.iterations,
             Step::Fit(s) => s.iterations,
+            Step::Between => 0,
         }
     }
 
@@ -149,8 +166,14 @@ impl Run {
             self.newton.forget_values();
             self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
         }
+        if let Step::Repose(_) = self.step {
+            return self.iterate_on_the_way(clock);
+        }
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
+            Step::Repose(_) | Step::Between => {
+                return Err(Error::new(ErrorKind::Internal, "no stage is under way"));
+            }
             Step::Inflate(inflation) => {
                 let limited = check_limit(inflation.attempted(), options, self.state.t);
                 let ended = match limited {
@@ -194,12 +217,37 @@ impl Run {
         match (stage, ended) {
             (_, false) => Ok(stage),
             (Stage::Inflate, true) => {
+                if let Some(reposing) = self.reposing.take() {
+                    self.begin_repose(reposing)?;
+                    return Ok(Stage::Repose);
+                }
                 self.report.feasible_seconds = self.begun.elapsed().as_secs_f64();
                 self.begin_fit()?;
                 Ok(Stage::Fit)
             }
             (_, true) => Ok(Stage::Verify),
         }
+    }
+
+    /// One iteration of the way to the target's own pose.
+    fn iterate_on_the_way(&mut self, clock: Instant) -> Result<Stage> {
+        let Step::Repose(reposing) = std::mem::replace(&mut self.step, Step::Between) else {
+            return Err(Error::new(ErrorKind::Internal, "the body is not on its way"));
+        };
+        let ended = self.iterate_repose(reposing)?;
+        if self.objective.contact.update_exemptions(self.state.configuration())? {
+            self.newton.forget_values();
+        }
+        self.report.repose.iterations += 1;
+        self.report.repose.collect(&mut self.newton, &mut self.objective, clock);
+        self.update_report();
+        self.check_memory()?;
+        if ended {
+            self.report.feasible_seconds = self.begun.elapsed().as_secs_f64();
+            self.begin_fit()?;
+            return Ok(Stage::Fit);
+        }
+        Ok(Stage::Repose)
     }
 
     /// Where the inflation has stalled, begins another attempt with other settings. False where all were tried.
@@ -290,7 +338,7 @@ impl Run {
     }
 
     /// The memory that is left for objective and solver.
-    fn remaining_budget(&self) -> MemoryLimit {
+    pub(super) fn remaining_budget(&self) -> MemoryLimit {
         MemoryLimit::new(self.options.memory_limit).reserving(self.held + self.field_memory())
     }
 
@@ -333,26 +381,18 @@ impl Run {
     }
 }
 
-/// What is known before anything is set up.
-struct Pose {
-    problem: Problem,
-    body: Body,
-    target_coordinate_system: CoordinateSystem,
-    /// The bytes that the distance field is expected to take.
-    field: u64,
-}
-
-/// The problem of `inputs`. Refuses early what will exceed `limit`.
-fn pose(inputs: &Inputs, limit: MemoryLimit, stop: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<Pose> {
+/// The problem of `inputs`, and the bytes that the distance field is expected to take. Refuses early what will exceed `limit`.
+fn pose(inputs: &Inputs, limit: MemoryLimit, stop: &Cancel, diagnostics: &mut Vec<Diagnostic>) -> Result<(Posed, u64)> {
     let left = limit.reserving(inputs.memory());
     let sizes = inputs.sizes();
     left.check(&sizes.estimate())?;
-    let (problem, body, target_coordinate_system) = inputs.pose_problem(stop, diagnostics)?;
+    let posed = inputs.pose_problem(stop, diagnostics)?;
     stop.check()?;
+    let problem = posed.own.as_ref().map_or(&posed.first.problem, |(own, _)| &own.problem);
     let field = Field::estimate(&problem.fitted, inputs.options.voxel_size)?;
     let sizes = Sizes { avatar_triangles: problem.projected.triangles.len(), field, ..sizes };
     left.check(&sizes.estimate())?;
-    Ok(Pose { problem, body, target_coordinate_system, field })
+    Ok((posed, field))
 }
 
 /// The report before the first iteration.
@@ -381,7 +421,7 @@ fn check_limit(iterations: u32, options: &Options, t: f64) -> Result<()> {
 
 impl StageReport {
     /// Adds what solver and objective have counted since the last call, and the time since `clock`.
-    fn collect(&mut self, newton: &mut Newton, objective: &mut Objective, clock: Instant) {
+    pub(super) fn collect(&mut self, newton: &mut Newton, objective: &mut Objective, clock: Instant) {
         self.seconds += clock.elapsed().as_secs_f64();
         let counters = std::mem::take(&mut newton.counters);
         self.factorisations += counters.factorisations;

@@ -30,6 +30,8 @@ pub(super) struct Snapshot {
     pub(super) t: f64,
     /// Iterations of the stage.
     pub(super) iteration: u32,
+    /// The vertices of the avatar while it is on the way to its own pose.
+    on_the_way: Option<Arc<[DVec3]>>,
 }
 
 impl Snapshot {
@@ -43,6 +45,7 @@ impl Snapshot {
             x: run.state.x.clone(),
             t: run.state.t,
             iteration: run.iterations(),
+            on_the_way: None,
         }
     }
 
@@ -51,6 +54,10 @@ impl Snapshot {
         self.x.clone_from(&run.state.x);
         self.t = run.state.t;
         self.iteration = run.iterations();
+        if !Arc::ptr_eq(&self.problem, &run.problem) {
+            (self.problem, self.body) = (run.problem.clone(), run.body.clone());
+        }
+        self.on_the_way = run.avatar_on_the_way().map(Into::into);
     }
 
     pub(super) fn garment_positions(&self) -> Vec<DVec3> {
@@ -61,6 +68,9 @@ impl Snapshot {
     }
 
     pub(super) fn avatar_positions(&self) -> Vec<DVec3> {
+        if let Some(points) = &self.on_the_way {
+            return points.to_vec();
+        }
         if self.t >= 1.0 {
             // As it was set, to the bit, not through the normalised space and back.
             return self.body.avatar_positions().to_vec();

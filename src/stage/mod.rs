@@ -11,5 +11,6 @@ pub mod inflate;
 mod inflation_start;
 pub mod objective;
 pub mod plausibility;
+pub mod repose;
 pub mod setup;
 pub mod start;

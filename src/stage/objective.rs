@@ -32,6 +32,8 @@ pub struct Objective {
     pub contact: ContactGuard,
     weights: Options,
     barrier_weight: f64,
+    /// Nothing of the garment is held to a place.
+    roams: bool,
 }
 
 impl Objective {
@@ -51,7 +53,14 @@ impl Objective {
             contact: ContactGuard::new(bodies, distances, MemoryLimit::new(weights.memory_limit), cancel),
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
+            roams: false,
         }
+    }
+
+    /// Leaves out what holds the garment to places of the target: curves along bones, pins, carried pieces. They are those of
+    /// its own pose, and the body is on the way there.
+    pub fn release_places(&mut self) {
+        self.roams = true;
     }
 
     /// Bytes that it holds.
@@ -106,17 +115,19 @@ impl Model for Objective {
             Term { energy: &shape.attachment, weight: w.surface_weight },
             Term { energy: &shape.curvature, weight: w.curvature_weight },
             Term { energy: &shape.torsion, weight: w.torsion_weight },
-            Term { energy: &shape.position, weight: w.position_weight },
             Term { energy: self.contact.barrier(), weight: self.barrier_weight },
         ];
         // Terms that a garment does not have are not asked for their derivatives in every iteration.
-        if !shape.pins.is_empty() {
+        if !self.roams {
+            terms.insert(4, Term { energy: &shape.position, weight: w.position_weight });
+        }
+        if !shape.pins.is_empty() && !self.roams {
             terms.push(Term { energy: &shape.pins, weight: w.pin_weight });
         }
         if !shape.borders.is_empty() {
             terms.push(Term { energy: &shape.borders, weight: w.surface_weight });
         }
-        if !shape.carry.is_empty() {
+        if !shape.carry.is_empty() && !self.roams {
             terms.push(Term { energy: &shape.carry, weight: w.surface_weight });
         }
         if !shape.rigid.is_empty() {

@@ -15,6 +15,7 @@ fn generated() -> String {
         "session",
         "inputs",
         "coordinate_system",
+        "rigs",
         "fit",
         "layers",
         "avatar_parts",

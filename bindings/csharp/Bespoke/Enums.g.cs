@@ -124,6 +124,12 @@ namespace Bespoke
 
         /// <summary>Cancelled by the caller. The last garment can be read.</summary>
         Cancelled = 7,
+
+        /// <summary>
+        /// Between INFLATE and FIT, where a target rig stands in another pose than the source: the avatar goes from the
+        /// source's pose to its own, and takes the garment along.
+        /// </summary>
+        Repose = 8,
     }
 
     /// <summary>A direction along one axis of the caller's coordinates.</summary>
@@ -256,6 +262,12 @@ namespace Bespoke
         /// the joint is off. It is taken to lie where the message says, unless the option strict is set.
         /// </summary>
         JointMisplaced = 18,
+
+        /// <summary>
+        /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say
+        /// it: <c>Session.ReadJointMap</c> shows it and <c>Session.SetJointPairs</c> mends it.
+        /// </summary>
+        JointsUnsure = 33,
 
         /// <summary>
         /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone

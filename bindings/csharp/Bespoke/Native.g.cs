@@ -76,6 +76,29 @@ namespace Bespoke
             SessionHandle session, NativeCoordinateSystem* coordinateSystem);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_source_rig(
+            SessionHandle session, NativeJoint* joints, UIntPtr count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_target_rig(
+            SessionHandle session, NativeJoint* joints, UIntPtr count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_source_skin_influences(
+            SessionHandle session, NativeView* joints, NativeView* weights, UIntPtr influences, UIntPtr jointCount);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_garment_skin_influences(
+            SessionHandle session, NativeView* joints, NativeView* weights, UIntPtr influences, UIntPtr jointCount);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_joint_pairs(SessionHandle session, NativeView* pairs);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_joint_map(
+            SessionHandle session, NativeMappedJoint* joints, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_vertex_fit_weights(
             SessionHandle session, NativeView* weights);
 

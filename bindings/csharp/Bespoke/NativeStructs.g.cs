@@ -11,6 +11,9 @@ namespace Bespoke
     internal static class NativeConstants
     {
         internal const int AbiVersion = 2;
+        internal const int NoJoint = 4294967295;
+        internal const int TransformSize = 16;
+        internal const int PartNameSize = 32;
         internal const double WeightOff = -1.0;
         internal const int MaxTerms = 12;
         internal const int EnergyNameSize = 32;
@@ -37,6 +40,24 @@ namespace Bespoke
         internal double metres_per_unit;
         internal Winding winding;
         internal uint trusted;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeJoint
+    {
+        internal byte* name;
+        internal uint parent;
+        internal uint reserved;
+        internal fixed double bind[NativeConstants.TransformSize];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeMappedJoint
+    {
+        internal uint target;
+        internal uint reason;
+        internal double confidence;
+        internal fixed byte part[NativeConstants.PartNameSize];
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -381,7 +381,7 @@ fn with_reason(mut error: Error, caps: &Caps) -> Error {
 }
 
 /// Moves vertices that no triangle uses onto one that is used: they are no part of the body, wherever they are.
-fn collapse_unused(mesh: &mut TriangleMesh) {
+pub fn collapse_unused(mesh: &mut TriangleMesh) {
     let used = mesh.used_vertices();
     let Some(&first) = mesh.triangles.iter().flatten().next() else { return };
     let target = mesh.positions[first as usize];

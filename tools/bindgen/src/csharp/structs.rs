@@ -58,6 +58,7 @@ fn member(field: &Field, description: &Description) -> Result<String> {
     let name = &field.name;
     let kind = match number(&field.kind) {
         _ if field.kind.base == "void" && field.kind.pointers == 1 => "void*".to_string(),
+        _ if field.kind.base == "char" && field.kind.pointers == 1 => "byte*".to_string(),
         Some(kind) if field.kind.pointers == 0 => kind,
         None if description.structure(&field.kind.base).is_some() => match array_of_structs(field, description) {
             Some(_) => format!("Native{}", pascal(name)),

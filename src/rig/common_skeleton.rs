@@ -1,0 +1,208 @@
+//! The skeleton that two rigs have in common, at its places in both, and the skin weights on it.
+//!
+//! Of two people these are the landmarks that both have, with the joints that a caller adds to them; of other creatures the
+//! joints that correspond. All other joints are contracted into the nearest one above them.
+
+use glam::{DAffine3, DVec3};
+
+use super::joint_map::{JointMap, Reason};
+use super::landmark::Landmark;
+use super::places::{self, Character, index, places};
+use super::posing::Posing;
+use super::reading::moves;
+use crate::error::{Error, ErrorKind, Result};
+use crate::input::diagnostic::Diagnostic;
+use crate::input::rig::Rig;
+use crate::input::skeleton::Skeleton;
+use crate::input::skin::SkinWeights;
+
+/// What a joint of the common skeleton stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CommonJoint {
+    /// A place of a body.
+    Landmark(Landmark),
+    /// A joint of the source rig and one of the target rig.
+    Pair(u32, u32),
+}
+
+/// The skeleton that two rigs have in common.
+#[derive(Clone, Debug)]
+pub struct CommonSkeleton {
+    /// What each of its joints is.
+    pub joints: Vec<CommonJoint>,
+    /// In the source.
+    pub source: Skeleton,
+    /// In the target, with the same bones.
+    pub target: Skeleton,
+    /// The joint of the common skeleton that each joint of the target rig belongs to.
+    pub owner: Vec<Option<u32>>,
+    /// The landmarks in source and target, in the order of [`Landmark::ALL`].
+    pub landmarks: [[Option<DVec3>; 16]; 2],
+}
+
+impl CommonSkeleton {
+    /// The common skeleton of two characters by the map between their rigs.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidSkeleton`] where fewer than two joints correspond, or all of them are in one place.
+    pub fn new(source: Character<'_>, target: Character<'_>, map: &JointMap) -> Result<Self> {
+        let order = [source.rig.parents_first("source rig")?, target.rig.parents_first("target rig")?];
+        let on_source = places(source, &map.readings[0], &order[0]);
+        let on_target = places(target, &map.readings[1], &order[1]);
+        let mut build = Builder::default();
+        let mut of_landmark = [None; 16];
+        let parents: Vec<Option<Landmark>> = Landmark::ALL.iter().map(|landmark| landmark.parent()).collect();
+        let is_common =
+            |landmark: Landmark| on_source[index(landmark)].is_some() && on_target[index(landmark)].is_some();
+        let person = Landmark::ALL.iter().filter(|&&landmark| is_common(landmark)).count() >= LEAST_LANDMARKS;
+        for (k, landmark) in Landmark::ALL.into_iter().enumerate() {
+            let (Some(from), Some(to)) = (on_source[k], on_target[k]) else { continue };
+            if person {
+                let above = std::iter::successors(parents[k], |above| above.parent()).find(|&above| is_common(above));
+                of_landmark[k] =
+                    Some(build.push(CommonJoint::Landmark(landmark), [from, to], above.map(Node::Landmark)));
+            }
+        }
+        let is_moved = match target.skin {
+            Some(skin) => moves(skin, &target.rig.joints.iter().map(|joint| joint.parent).collect::<Vec<_>>()),
+            None => vec![true; target.rig.joints.len()],
+        };
+        let mut pairs: [Vec<Option<u32>>; 2] = [source.rig, target.rig].map(|rig| vec![None; rig.joints.len()]);
+        for &joint in &order[0] {
+            let mapped = map.joints[joint as usize];
+            let Some(other) = mapped.target else { continue };
+            let of_person = person && (mapped.part.is_some() || mapped.reason != Reason::Caller);
+            let own = mapped.reason != Reason::Ancestor && mapped.reason != Reason::Nothing;
+            if of_person || !own || !is_moved[other as usize] || pairs[1][other as usize].is_some() {
+                continue;
+            }
+            let node = build.push(
+                CommonJoint::Pair(joint, other),
+                [source.rig.place(joint), target.rig.place(other)],
+                source.rig.joints[joint as usize].parent.map(Node::Joint),
+            );
+            pairs[0][joint as usize] = Some(node);
+            pairs[1][other as usize] = Some(node);
+        }
+        let readings = &map.readings;
+        let owners = |side: usize, rig: &Rig, order: &[u32]| {
+            let landmarks = places::owners(rig, &readings[side], order);
+            let mut owners: Vec<Option<u32>> = vec![None; rig.joints.len()];
+            for &joint in order {
+                let above = rig.joints[joint as usize].parent.and_then(|parent| owners[parent as usize]);
+                let own = landmarks[joint as usize].filter(|_| readings[side].part(joint).is_some());
+                let nearest = std::iter::successors(own, |landmark| landmark.parent());
+                let own = nearest.map(|landmark| of_landmark[index(landmark)]).find(Option::is_some).flatten();
+                owners[joint as usize] = pairs[side][joint as usize].or(own).or(above);
+            }
+            owners
+        };
+        let (from, owner) = (owners(0, source.rig, &order[0]), owners(1, target.rig, &order[1]));
+        let (source, target, joints) = build.finish(&of_landmark, &from)?;
+        Ok(Self { joints, source, target, owner, landmarks: [on_source, on_target] })
+    }
+
+    /// The target skeleton after these motions of the joints of the target rig.
+    pub fn posed_target(&self, posing: &Posing, motions: &[DAffine3]) -> Skeleton {
+        let landmarks = posing.moved_landmarks(motions, &self.landmarks[1]);
+        let place = |(joint, place): (&CommonJoint, &DVec3)| match *joint {
+            CommonJoint::Landmark(landmark) => landmarks[index(landmark)].unwrap_or(*place),
+            CommonJoint::Pair(_, target) => motions[target as usize].transform_point3(*place),
+        };
+        let joints = self.joints.iter().zip(&self.target.joints).map(place).collect();
+        Skeleton { joints, bones: self.target.bones.clone() }
+    }
+
+    /// Weights on the joints of the target rig, as weights on those of the common skeleton. What belongs to none of them, such as
+    /// a root on the floor, is left out: the nearest bone decides there.
+    pub fn skin(&self, skin: &SkinWeights) -> SkinWeights {
+        skin.contracted(&self.owner, self.joints.len())
+    }
+}
+
+/// A part of the body that was recognised with less than this is told.
+const SURE: f64 = 0.6;
+
+impl CommonSkeleton {
+    /// A finding about the landmarks of which the map is not sure, if there are any.
+    pub fn unsure(&self, map: &JointMap) -> Option<Diagnostic> {
+        let is_unsure = |landmark: &Landmark| {
+            let joint_of = |side: usize| Some((side, map.readings[side].joint_of(landmark.part()?)?));
+            (0..2).filter_map(joint_of).any(|(side, joint)| map.readings[side].confidence[joint as usize] < SURE)
+        };
+        let landmarks = self.joints.iter().filter_map(|joint| match joint {
+            CommonJoint::Landmark(landmark) => Some(*landmark),
+            CommonJoint::Pair(..) => None,
+        });
+        let mut places: Vec<&'static str> = landmarks.filter(is_unsure).map(Landmark::both).collect();
+        places.sort_unstable();
+        places.dedup();
+        (!places.is_empty()).then_some(Diagnostic::JointsUnsure { places })
+    }
+}
+
+/// Fewer landmarks than this make no person.
+const LEAST_LANDMARKS: usize = 5;
+
+/// What a new joint hangs on.
+#[derive(Clone, Copy)]
+enum Node {
+    Landmark(Landmark),
+    /// The first joint of the source rig from here up that belongs to something.
+    Joint(u32),
+}
+
+#[derive(Default)]
+struct Builder {
+    joints: Vec<CommonJoint>,
+    places: [Vec<DVec3>; 2],
+    above: Vec<Option<Node>>,
+}
+
+impl Builder {
+    fn push(&mut self, joint: CommonJoint, [from, to]: [DVec3; 2], above: Option<Node>) -> u32 {
+        self.joints.push(joint);
+        self.places[0].push(from);
+        self.places[1].push(to);
+        self.above.push(above);
+        self.joints.len() as u32 - 1
+    }
+
+    fn finish(
+        self,
+        of_landmark: &[Option<u32>; 16],
+        from: &[Option<u32>],
+    ) -> Result<(Skeleton, Skeleton, Vec<CommonJoint>)> {
+        let Self { joints, places: [source, target], above } = self;
+        if joints.len() < 2 {
+            return Err(Error::new(
+                ErrorKind::InvalidSkeleton,
+                format!(
+                    "rigs: {} of the source rig and the target rig correspond, which makes no skeleton: neither the names of \
+                     the joints nor their places say what they are; say which joints correspond, as pairs",
+                    match joints.len() {
+                        0 => "no joints",
+                        _ => "only one joint",
+                    }
+                ),
+            ));
+        }
+        let mut bones = Vec::new();
+        for (joint, above) in (0u32..).zip(&above) {
+            let above = above.and_then(|above| match above {
+                Node::Landmark(landmark) => of_landmark[index(landmark)],
+                Node::Joint(joint) => from[joint as usize],
+            });
+            // What hangs on nothing hangs on the first: a skeleton is in one piece.
+            match above.filter(|&above| above != joint).or(Some(0).filter(|_| joint != 0)) {
+                Some(above) => bones.push([above, joint]),
+                None => {}
+            }
+        }
+        let source = Skeleton { joints: source, bones: bones.clone() };
+        let target = Skeleton { joints: target, bones };
+        source.longest_side("source rig")?;
+        target.longest_side("target rig")?;
+        Ok((source, target, joints))
+    }
+}

@@ -1,0 +1,244 @@
+//! REPOSE: the body goes from the pose in which the garment was solved to its own, piece by piece, and takes the garment along.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::run::{Run, Step};
+use super::way::Way;
+use crate::contact::{Avatar, Configuration, Surface};
+use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::closest_point::{ClosestPoint, barycentric};
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::body::Body;
+use crate::input::coordinate_system::CoordinateSystem;
+use crate::input::skin::SkinWeights;
+use crate::solver::newton::{Model, Newton, State};
+use crate::stage::objective::Objective;
+use crate::stage::repose::Repose;
+use crate::stage::setup::problem::{Problem, collapse_unused};
+use crate::verify::intersections_with_cancel;
+
+/// No joint turns by more than this many degrees in a piece: each vertex goes straight where it should go along an arc.
+const PIECE: f64 = 12.0;
+
+/// The problem in the target's own pose, and the way there.
+pub(super) struct Reposing {
+    pub(super) problem: Arc<Problem>,
+    pub(super) body: Arc<Body>,
+    way: Way,
+    /// Weights of the garment's vertices, on the target rig; known once the way begins.
+    skin: Option<SkinWeights>,
+    pieces: u32,
+    /// The piece under way.
+    piece: u32,
+    step: Option<Repose>,
+    /// Iterations so far.
+    pub(super) iterations: u32,
+}
+
+impl Reposing {
+    pub(super) fn new(problem: Problem, body: Body, way: Way) -> Self {
+        let pieces = (way.posing.largest_turn().to_degrees() / PIECE).ceil().max(1.0) as u32;
+        Self {
+            problem: Arc::new(problem),
+            body: Arc::new(body),
+            way,
+            skin: None,
+            pieces,
+            piece: 0,
+            step: None,
+            iterations: 0,
+        }
+    }
+
+    /// Where the body is at the beginning of a piece, as a share of the way from its own pose.
+    fn share(&self, piece: u32) -> f64 {
+        f64::from(self.pieces - piece) / f64::from(self.pieces)
+    }
+
+    /// The vertices of body and layers at the beginning of a piece, in the caller's coordinates.
+    pub(super) fn body_points(&self, piece: u32) -> Vec<DVec3> {
+        if piece == self.pieces {
+            return self.body.mesh.positions.clone();
+        }
+        self.way.points(self.share(piece))
+    }
+
+    /// The avatar without its layers where it is now, in the caller's coordinates.
+    pub(super) fn avatar_points(&self, t: f64) -> Vec<DVec3> {
+        let (from, to) = (self.body_points(self.piece), self.body_points((self.piece + 1).min(self.pieces)));
+        let between = from.iter().zip(&to).map(|(a, b)| a.lerp(*b, t));
+        between.take(self.body.avatar_positions().len()).collect()
+    }
+
+    /// The body in the normalised space.
+    fn normalised(&self, points: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
+        let normalization = &self.problem.target_normalization;
+        let internal = points.iter().map(|&p| normalization.normalise(system.position_to_internal(p)));
+        let mut mesh = TriangleMesh { positions: internal.collect(), triangles: self.problem.avatar.triangles.clone() };
+        collapse_unused(&mut mesh);
+        mesh.positions
+    }
+
+    /// Weights of garment vertices at `x` on the body at `body`: those of the nearest point.
+    fn garment_skin(&self, x: &[DVec3], body: &TriangleMesh) -> SkinWeights {
+        let tree = ClosestPoint::new(body);
+        let beneath = |&p: &DVec3| {
+            let closest = tree.closest(p)?;
+            let triangle = body.triangles[closest.triangle as usize];
+            Some((triangle, barycentric(closest.point, triangle.map(|v| body.positions[v as usize]))))
+        };
+        let places: Vec<_> = x.par_iter().map(beneath).collect();
+        self.way.skin.at(&places)
+    }
+
+    /// How garment vertices at `x` go along with the body in a piece.
+    fn along(&self, x: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
+        let Some(skin) = &self.skin else { return vec![DVec3::ZERO; x.len()] };
+        let motions = self.way.motions_between(self.share(self.piece), self.share(self.piece + 1));
+        let normalization = &self.problem.target_normalization;
+        // The motions are in the internal coordinates of the body as told, before any turn.
+        let told =
+            |&p: &DVec3| self.way.system.position_to_internal(system.position_from_internal(normalization.restore(p)));
+        let points: Vec<DVec3> = x.iter().map(told).collect();
+        let moved = self.way.posing.moved(&motions, skin, &points);
+        let back =
+            |p: DVec3| normalization.normalise(system.position_to_internal(self.way.system.position_from_internal(p)));
+        moved.into_iter().zip(x).map(|(p, x)| back(p) - *x).collect()
+    }
+
+    /// The objective of a piece: the avatar goes from its beginning to its end.
+    fn objective(&self, run: &Run) -> Objective {
+        let system = &run.target_coordinate_system;
+        let start = self.normalised(&self.body_points(self.piece), system);
+        let end = self.normalised(&self.body_points(self.piece + 1), system);
+        let motion = start.iter().zip(&end).map(|(&a, &b)| b - a).collect();
+        let surface = Surface::new(start.len(), self.problem.avatar.triangles.clone());
+        let bodies = self.problem.bodies(Avatar { surface, start, motion });
+        let (shape, distances) = (self.problem.shape.clone(), self.problem.distances);
+        let mut objective = Objective::new(shape, None, bodies, distances, &run.options, run.context.stop.clone());
+        objective.release_places();
+        objective.contact.set_intersecting_at_rest(&self.problem.designed_intersections);
+        objective
+    }
+}
+
+impl Run {
+    /// Leaves the problem in the source's pose for that in the target's own, at the beginning of the way there.
+    pub(super) fn begin_repose(&mut self, mut reposing: Box<Reposing>) -> Result<()> {
+        let clock = Instant::now();
+        let (from, to) = (self.problem.target_normalization, reposing.problem.target_normalization);
+        self.state.x.iter_mut().for_each(|x| *x = to.normalise(from.restore(*x)));
+        let system = &self.target_coordinate_system;
+        let body = TriangleMesh {
+            positions: reposing.normalised(&reposing.body_points(0), system),
+            triangles: reposing.problem.avatar.triangles.clone(),
+        };
+        reposing.skin = Some(reposing.garment_skin(&self.state.x, &body));
+        self.problem = reposing.problem.clone();
+        self.body = reposing.body.clone();
+        self.farthest = None;
+        self.begin_piece(reposing)?;
+        self.report.inflate.collect(&mut self.newton, &mut self.objective, clock);
+        Ok(())
+    }
+
+    /// Begins the piece that `reposing` is at.
+    fn begin_piece(&mut self, mut reposing: Box<Reposing>) -> Result<()> {
+        let mut objective = reposing.objective(self);
+        if let Some(settings) = self.attempts.settings() {
+            objective.contact.set_inflation_dhat(settings.inflation_dhat);
+            objective.set_contact(settings.inflation_dhat, settings.inflation_barrier_weight);
+        }
+        self.state.t = 0.0;
+        let at = Configuration { x: &self.state.x, t: 0.0 };
+        objective.contact.initialise(at, self.objective.contact.exempt_pairs().triangle_pairs());
+        self.context.stop.check()?;
+        self.objective = objective;
+        let budget = self.remaining_budget().reserving(self.objective.memory());
+        let terms = self.objective.terms();
+        self.newton = Newton::new(self.state.x.len(), &terms, budget, self.context.stop.clone())?;
+        reposing.step = Some(Repose::new(reposing.along(&self.state.x, &self.target_coordinate_system)));
+        self.step = Step::Repose(reposing);
+        Ok(())
+    }
+
+    /// One iteration of the way. True at its end.
+    ///
+    /// # Errors
+    /// `InflationStalled` where the garment does not let the body pass, `Internal` where a piece ends with an intersection.
+    pub(super) fn iterate_repose(&mut self, mut reposing: Box<Reposing>) -> Result<bool> {
+        reposing.iterations += 1;
+        let Some(step) = &mut reposing.step else { return Ok(true) };
+        let ended = step.iterate(&mut self.objective, &mut self.newton, &mut self.state);
+        let ended = match ended {
+            Err(error) if error.kind == ErrorKind::InflationStalled => Err(reposing.blocked(&self.state)),
+            ended => ended,
+        };
+        match ended {
+            Ok(true) => {}
+            Ok(false) => {
+                self.step = Step::Repose(reposing);
+                return Ok(false);
+            }
+            Err(error) => {
+                self.step = Step::Repose(reposing);
+                return Err(error);
+            }
+        }
+        self.verify_piece(&reposing)?;
+        reposing.piece += 1;
+        if reposing.piece < reposing.pieces {
+            self.begin_piece(reposing)?;
+            return Ok(false);
+        }
+        self.step = Step::Repose(reposing);
+        Ok(true)
+    }
+
+    /// The avatar's vertices in its caller's coordinates, while it is on the way.
+    pub(super) fn avatar_on_the_way(&self) -> Option<Vec<DVec3>> {
+        match &self.step {
+            Step::Repose(reposing) => Some(reposing.avatar_points(self.state.t)),
+            _ => None,
+        }
+    }
+
+    /// The exact verifier, at the end of a piece.
+    fn verify_piece(&self, reposing: &Reposing) -> Result<()> {
+        let body = TriangleMesh {
+            positions: reposing.normalised(&reposing.body_points(reposing.piece + 1), &self.target_coordinate_system),
+            triangles: self.problem.avatar.triangles.clone(),
+        };
+        let garment = TriangleMesh { positions: self.state.x.clone(), triangles: self.problem.triangles.clone() };
+        let found = intersections_with_cancel(&garment, Some(&body), 1, &self.context.stop)?;
+        match found.pairs.first() {
+            None => Ok(()),
+            Some([own, other]) => Err(Error::new(
+                ErrorKind::Internal,
+                format!(
+                    "on the way to the target's own pose garment triangle {own} intersects avatar triangle {other}"
+                ),
+            )),
+        }
+    }
+}
+
+impl Reposing {
+    /// Why there is no result.
+    fn blocked(&self, state: &State) -> Error {
+        let done = (f64::from(self.piece) + state.t) / f64::from(self.pieces);
+        Error::new(
+            ErrorKind::InflationStalled,
+            format!(
+                "the avatar stands in another pose than the garment was designed in, and the garment does not let it go all the \
+                 way from that pose to its own: at {:.0} % of the way it is held; give the avatar in a pose nearer to the \
+                 design's",
+                100.0 * done
+            ),
+        )
+    }
+}

@@ -1,0 +1,225 @@
+//! Rigs in place of skeletons: what a caller says of them, and the skeletons that follow.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3};
+
+use super::Session;
+use super::inputs::{Inputs, check_skin, mesh_to_internal, missing};
+use super::rig_inputs::Skeletons;
+use super::way::Way;
+use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::mesh::TriangleMesh;
+use crate::input::body::Body;
+use crate::input::coordinate_system::CoordinateSystem;
+use crate::input::diagnostic::Diagnostic;
+use crate::input::rig::Rig;
+use crate::input::skeleton::Skeleton;
+use crate::input::skin::SkinWeights;
+use crate::rig::common_skeleton::CommonSkeleton;
+use crate::rig::joint_map::{CallersPair, JointMap};
+use crate::rig::places::Character;
+use crate::rig::posing::Posing;
+use crate::rig::reading::Reading;
+use crate::stage::setup::layer_skin::skin_with_layers;
+
+impl Session {
+    /// The rig of the body on which the garment was designed, in the source coordinate system, in the pose in which garment and
+    /// source avatar are given. Takes the place of a source skeleton.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton`, `InvalidState`.
+    pub fn set_source_rig(&mut self, rig: Rig) -> Result<()> {
+        self.setting("the source rig")?;
+        rig.check("source rig")?;
+        self.inputs.rigs.source = Some(Arc::new(rig));
+        self.inputs.source_skeleton = None;
+        Ok(())
+    }
+
+    /// The rig of the body to dress, in the target coordinate system, in the pose in which the avatar is given. Takes the place of a
+    /// target skeleton; the avatar's skin weights are then on its joints.
+    ///
+    /// # Errors
+    /// `InvalidSkeleton`, `InvalidState`.
+    pub fn set_target_rig(&mut self, rig: Rig) -> Result<()> {
+        self.setting("the target rig")?;
+        rig.check("target rig")?;
+        self.inputs.rigs.target = Some(Arc::new(rig));
+        self.inputs.target_skeleton = None;
+        Ok(())
+    }
+
+    /// Skin weights of the garment on the joints of the source rig. Optional.
+    ///
+    /// # Errors
+    /// `InvalidState`. The size is compared with rig and garment by `prepare`.
+    pub fn set_garment_skin(&mut self, skin: SkinWeights) -> Result<()> {
+        self.setting("the garment's skin weights")?;
+        self.inputs.rigs.garment_skin = Some(Arc::new(skin));
+        Ok(())
+    }
+
+    /// Skin weights of the source avatar on the joints of the source rig. Optional: they tell where the top of its head is, and
+    /// which of its joints move nothing.
+    ///
+    /// # Errors
+    /// `InvalidState`. The size is compared with rig and source avatar by `prepare`.
+    pub fn set_source_skin(&mut self, skin: SkinWeights) -> Result<()> {
+        self.setting("the source avatar's skin weights")?;
+        self.inputs.rigs.source_skin = Some(Arc::new(skin));
+        Ok(())
+    }
+
+    /// Joints of the source rig and those of the target rig that correspond to them, or none: they win over names and
+    /// structure. Replaces earlier pairs.
+    ///
+    /// # Errors
+    /// `InvalidState`. The joints are compared with the rigs' by `prepare` and by [`Self::joint_map`].
+    pub fn set_joint_pairs(&mut self, pairs: Vec<CallersPair>) -> Result<()> {
+        self.setting("the joint pairs")?;
+        self.inputs.rigs.pairs = pairs.into();
+        Ok(())
+    }
+
+    /// Which joint of the target rig corresponds to each joint of the source rig, by what has been set so far.
+    ///
+    /// # Errors
+    /// `InvalidState` where a side has neither rig nor skeleton, `InvalidWeights` where skin weights do not suit their rig,
+    /// `InvalidArgument` where a caller's pair does not.
+    pub fn joint_map(&self) -> Result<JointMap> {
+        let [source, target] = self.inputs.posed_rigs()?;
+        JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], &self.inputs.rigs.pairs)
+    }
+}
+
+/// A rig with its body in the internal coordinate system.
+struct PosedRig {
+    rig: Rig,
+    body: Option<TriangleMesh>,
+    skin: Option<Arc<SkinWeights>>,
+}
+
+impl PosedRig {
+    fn read(&self) -> Reading {
+        Reading::new(&self.rig, self.skin.as_deref())
+    }
+
+    fn character(&self) -> Character<'_> {
+        Character { rig: &self.rig, body: self.body.as_ref(), skin: self.skin.as_deref() }
+    }
+}
+
+impl Inputs {
+    /// The skeletons as they were set, or those that two rigs have in common. A skeleton beside a rig is read as a rig
+    /// without names. Adds to `diagnostics`.
+    ///
+    /// # Errors
+    /// `InvalidState` where one is missing, `InvalidWeights`, `InvalidSkeleton`, `InvalidArgument`.
+    pub(super) fn skeletons(&self, diagnostics: &mut Vec<Diagnostic>) -> Result<Skeletons> {
+        if self.rigs.source.is_none() && self.rigs.target.is_none() {
+            let Some(source) = &self.source_skeleton else {
+                return missing("the source skeleton", "set_source_skeleton or set_source_rig");
+            };
+            let Some(target) = &self.target_skeleton else {
+                return missing("the target skeleton", "set_target_skeleton or set_target_rig");
+            };
+            let target = Arc::new(target.aligned_to(source)?);
+            if let (Some(skin), Some(avatar)) = (&self.skin, &self.avatar) {
+                check_skin(skin, target.joints.len(), avatar.positions.len(), "skin weights", "target skeleton")?;
+            }
+            return Ok(Skeletons { source: source.clone(), target, skin: self.skin.clone(), way: None });
+        }
+        let [source, target] = self.posed_rigs()?;
+        let readings = [source.read(), target.read()];
+        let map = JointMap::new(&source.rig, &target.rig, readings, &self.rigs.pairs)?;
+        let common = CommonSkeleton::new(source.character(), target.character(), &map)?;
+        diagnostics.extend(common.unsure(&map));
+        let skin = target.skin.as_deref().map(|skin| Arc::new(common.skin(skin)));
+        let from_internal = |system: &CoordinateSystem, skeleton: &Skeleton| {
+            let joints: Vec<DVec3> = skeleton.joints.iter().map(|&p| system.position_from_internal(p)).collect();
+            Arc::new(Skeleton { joints, bones: skeleton.bones.clone() })
+        };
+        Ok(Skeletons {
+            source: from_internal(&self.source_coordinate_system, &common.source),
+            target: from_internal(&self.target_coordinate_system, &common.target),
+            skin,
+            way: self.way(&target, &map.readings[1], &Arc::new(common))?,
+        })
+    }
+
+    /// The way of the target from the source's pose, where that is so different that the inflation could not take the garment
+    /// along.
+    fn way(&self, target: &PosedRig, reading: &Reading, common: &Arc<CommonSkeleton>) -> Result<Option<Way>> {
+        let (Some(avatar), Some(skin)) = (&self.avatar, &target.skin) else { return Ok(None) };
+        let order = target.rig.parents_first("target rig")?;
+        let [others, own] = &common.landmarks;
+        let Some(posing) = Posing::new(target.character(), reading, &order, own, others) else { return Ok(None) };
+        let body = Body::new(avatar, &self.layers)?;
+        let system = self.target_coordinate_system;
+        Ok(Some(Way {
+            posing: Arc::new(posing),
+            common: common.clone(),
+            system,
+            skin: Arc::new(skin_with_layers(skin, &body).into_owned()),
+            points: body.mesh.positions.iter().map(|&p| system.position_to_internal(p)).collect(),
+        }))
+    }
+
+    /// Both rigs with what is known of their bodies.
+    fn posed_rigs(&self) -> Result<[PosedRig; 2]> {
+        let rigs = &self.rigs;
+        let source = posed(
+            [rigs.source.as_deref(), self.source_skeleton.as_deref().map(Rig::of_skeleton).as_ref()],
+            &self.source_coordinate_system,
+            ("source", "set_source_rig"),
+        )?;
+        let target = posed(
+            [rigs.target.as_deref(), self.target_skeleton.as_deref().map(Rig::of_skeleton).as_ref()],
+            &self.target_coordinate_system,
+            ("target", "set_target_rig"),
+        )?;
+        let (joints, target_joints) = (source.joints.len(), target.joints.len());
+        let garment = self.garment.as_ref().map(|garment| &garment.0);
+        for (skin, mesh, count, name, rig) in [
+            (&rigs.garment_skin, garment, joints, "garment skin weights", "source rig"),
+            (&rigs.source_skin, self.source_avatar.as_ref(), joints, "source skin weights", "source rig"),
+            (&self.skin, self.avatar.as_ref(), target_joints, "target skin weights", "target rig"),
+        ] {
+            if let (Some(skin), Some(mesh)) = (skin, mesh) {
+                check_skin(skin, count, mesh.positions.len(), name, rig)?;
+            }
+        }
+        let body = |mesh: &Option<Arc<TriangleMesh>>, system| mesh.as_ref().map(|mesh| mesh_to_internal(system, mesh));
+        Ok([
+            PosedRig {
+                rig: source,
+                body: body(&self.source_avatar, &self.source_coordinate_system),
+                skin: rigs.source_skin.clone().filter(|_| self.source_avatar.is_some()),
+            },
+            PosedRig {
+                rig: target,
+                body: body(&self.avatar, &self.target_coordinate_system),
+                skin: self.skin.clone().filter(|_| self.avatar.is_some()),
+            },
+        ])
+    }
+}
+
+/// The rig that was set, in the internal coordinate system.
+fn posed(given: [Option<&Rig>; 2], system: &CoordinateSystem, (side, call): (&str, &str)) -> Result<Rig> {
+    let Some(rig) = given.into_iter().flatten().next() else {
+        return Err(Error::new(
+            ErrorKind::InvalidState,
+            format!("the {side} rig is missing: call {call} before prepare and before the joint map is read"),
+        ));
+    };
+    let axis = |v: DVec3| (system.position_to_internal(v) - system.position_to_internal(DVec3::ZERO)).extend(0.0);
+    let map = DMat4::from_cols(
+        axis(DVec3::X),
+        axis(DVec3::Y),
+        axis(DVec3::Z),
+        system.position_to_internal(DVec3::ZERO).extend(1.0),
+    );
+    Ok(rig.mapped(map))
+}
