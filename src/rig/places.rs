@@ -23,6 +23,8 @@ const ANKLE: f64 = 0.86;
 /// A joint of the hips that is farther from the middle between the legs than this, in lengths of the trunk, stands elsewhere, such as
 /// on the floor.
 const STRAY_HIPS: f64 = 0.6;
+/// And one that is farther below it than this.
+const LOW_HIPS: f64 = 0.04;
 
 /// A rig with the body that it moves, as far as that is known.
 #[derive(Clone, Copy)]
@@ -52,11 +54,7 @@ pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Op
     let (hips, shoulders) = (middle(BodyPart::UpperLeg), middle(BodyPart::UpperArm));
     let neck = neck(character.rig, reading, shoulders);
     let pelvis = match (at(BodyPart::Hips), hips) {
-        (Some(joint), Some(hips))
-            if neck.is_some_and(|neck| joint.distance(hips) > STRAY_HIPS * neck.distance(hips)) =>
-        {
-            Some(hips)
-        }
+        (Some(joint), Some(hips)) if neck.is_some_and(|neck| is_stray(joint, hips, neck)) => Some(hips),
         (joint, hips) => joint.or(hips),
     };
     let mut places = Landmark::ALL.map(|landmark| landmark.part().and_then(at));
@@ -87,6 +85,13 @@ pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Op
         }
     }
     places
+}
+
+/// Whether the joint of the hips is no place for the pelvis: below the legs' joints, between the legs, or far away, as on the
+/// floor.
+fn is_stray(joint: DVec3, hips: DVec3, neck: DVec3) -> bool {
+    let trunk = neck - hips;
+    joint.distance(hips) > STRAY_HIPS * trunk.length() || (joint - hips).dot(trunk) < -LOW_HIPS * trunk.length_squared()
 }
 
 /// The place of a landmark in [`Landmark::ALL`].

@@ -8,6 +8,7 @@ mod fault;
 mod field_task;
 mod fit_controls;
 mod inputs;
+mod on_the_way;
 mod plausibility;
 mod reposing;
 mod rig_inputs;

@@ -1,25 +1,24 @@
 //! REPOSE: the body goes from the pose in which the garment was solved to its own, piece by piece, and takes the garment along.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::run::{Run, Step};
 use super::way::Way;
-use crate::contact::{Avatar, Configuration, Surface};
-use crate::error::{Error, ErrorKind, Result};
+use crate::contact::{Avatar, Surface};
+use crate::control::Cancel;
+use crate::error::{Error, ErrorKind};
 use crate::geometry::closest_point::{ClosestPoint, barycentric};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::skin::SkinWeights;
-use crate::solver::newton::{Model, Newton, State};
+use crate::options::Options;
+use crate::solver::newton::State;
 use crate::stage::objective::Objective;
 use crate::stage::repose::Repose;
 use crate::stage::setup::problem::{Problem, collapse_unused};
-use crate::verify::intersections_with_cancel;
 
 /// No joint turns by more than this many degrees in a piece: each vertex goes straight where it should go along an arc.
 const PIECE: f64 = 12.0;
@@ -30,11 +29,11 @@ pub(super) struct Reposing {
     pub(super) body: Arc<Body>,
     way: Way,
     /// Weights of the garment's vertices, on the target rig; known once the way begins.
-    skin: Option<SkinWeights>,
-    pieces: u32,
+    pub(super) skin: Option<SkinWeights>,
+    pub(super) pieces: u32,
     /// The piece under way.
-    piece: u32,
-    step: Option<Repose>,
+    pub(super) piece: u32,
+    pub(super) step: Option<Repose>,
     /// Iterations so far.
     pub(super) iterations: u32,
 }
@@ -75,7 +74,7 @@ impl Reposing {
     }
 
     /// The body in the normalised space.
-    fn normalised(&self, points: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
+    pub(super) fn normalised(&self, points: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
         let normalization = &self.problem.target_normalization;
         let internal = points.iter().map(|&p| normalization.normalise(system.position_to_internal(p)));
         let mut mesh = TriangleMesh { positions: internal.collect(), triangles: self.problem.avatar.triangles.clone() };
@@ -84,7 +83,7 @@ impl Reposing {
     }
 
     /// Weights of garment vertices at `x` on the body at `body`: those of the nearest point.
-    fn garment_skin(&self, x: &[DVec3], body: &TriangleMesh) -> SkinWeights {
+    pub(super) fn garment_skin(&self, x: &[DVec3], body: &TriangleMesh) -> SkinWeights {
         let tree = ClosestPoint::new(body);
         let beneath = |&p: &DVec3| {
             let closest = tree.closest(p)?;
@@ -96,7 +95,7 @@ impl Reposing {
     }
 
     /// How garment vertices at `x` go along with the body in a piece.
-    fn along(&self, x: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
+    pub(super) fn along(&self, x: &[DVec3], system: &CoordinateSystem) -> Vec<DVec3> {
         let Some(skin) = &self.skin else { return vec![DVec3::ZERO; x.len()] };
         let motions = self.way.motions_between(self.share(self.piece), self.share(self.piece + 1));
         let normalization = &self.problem.target_normalization;
@@ -111,125 +110,23 @@ impl Reposing {
     }
 
     /// The objective of a piece: the avatar goes from its beginning to its end.
-    fn objective(&self, run: &Run) -> Objective {
-        let system = &run.target_coordinate_system;
+    pub(super) fn objective(&self, system: &CoordinateSystem, options: &Options, cancel: &Cancel) -> Objective {
         let start = self.normalised(&self.body_points(self.piece), system);
         let end = self.normalised(&self.body_points(self.piece + 1), system);
         let motion = start.iter().zip(&end).map(|(&a, &b)| b - a).collect();
         let surface = Surface::new(start.len(), self.problem.avatar.triangles.clone());
         let bodies = self.problem.bodies(Avatar { surface, start, motion });
         let (shape, distances) = (self.problem.shape.clone(), self.problem.distances);
-        let mut objective = Objective::new(shape, None, bodies, distances, &run.options, run.context.stop.clone());
+        let mut objective = Objective::new(shape, None, bodies, distances, options, cancel.clone());
         objective.release_places();
         objective.contact.set_intersecting_at_rest(&self.problem.designed_intersections);
         objective
     }
 }
 
-impl Run {
-    /// Leaves the problem in the source's pose for that in the target's own, at the beginning of the way there.
-    pub(super) fn begin_repose(&mut self, mut reposing: Box<Reposing>) -> Result<()> {
-        let clock = Instant::now();
-        let (from, to) = (self.problem.target_normalization, reposing.problem.target_normalization);
-        self.state.x.iter_mut().for_each(|x| *x = to.normalise(from.restore(*x)));
-        let system = &self.target_coordinate_system;
-        let body = TriangleMesh {
-            positions: reposing.normalised(&reposing.body_points(0), system),
-            triangles: reposing.problem.avatar.triangles.clone(),
-        };
-        reposing.skin = Some(reposing.garment_skin(&self.state.x, &body));
-        self.problem = reposing.problem.clone();
-        self.body = reposing.body.clone();
-        self.farthest = None;
-        self.begin_piece(reposing)?;
-        self.report.inflate.collect(&mut self.newton, &mut self.objective, clock);
-        Ok(())
-    }
-
-    /// Begins the piece that `reposing` is at.
-    fn begin_piece(&mut self, mut reposing: Box<Reposing>) -> Result<()> {
-        let mut objective = reposing.objective(self);
-        if let Some(settings) = self.attempts.settings() {
-            objective.contact.set_inflation_dhat(settings.inflation_dhat);
-            objective.set_contact(settings.inflation_dhat, settings.inflation_barrier_weight);
-        }
-        self.state.t = 0.0;
-        let at = Configuration { x: &self.state.x, t: 0.0 };
-        objective.contact.initialise(at, self.objective.contact.exempt_pairs().triangle_pairs());
-        self.context.stop.check()?;
-        self.objective = objective;
-        let budget = self.remaining_budget().reserving(self.objective.memory());
-        let terms = self.objective.terms();
-        self.newton = Newton::new(self.state.x.len(), &terms, budget, self.context.stop.clone())?;
-        reposing.step = Some(Repose::new(reposing.along(&self.state.x, &self.target_coordinate_system)));
-        self.step = Step::Repose(reposing);
-        Ok(())
-    }
-
-    /// One iteration of the way. True at its end.
-    ///
-    /// # Errors
-    /// `InflationStalled` where the garment does not let the body pass, `Internal` where a piece ends with an intersection.
-    pub(super) fn iterate_repose(&mut self, mut reposing: Box<Reposing>) -> Result<bool> {
-        reposing.iterations += 1;
-        let Some(step) = &mut reposing.step else { return Ok(true) };
-        let ended = step.iterate(&mut self.objective, &mut self.newton, &mut self.state);
-        let ended = match ended {
-            Err(error) if error.kind == ErrorKind::InflationStalled => Err(reposing.blocked(&self.state)),
-            ended => ended,
-        };
-        match ended {
-            Ok(true) => {}
-            Ok(false) => {
-                self.step = Step::Repose(reposing);
-                return Ok(false);
-            }
-            Err(error) => {
-                self.step = Step::Repose(reposing);
-                return Err(error);
-            }
-        }
-        self.verify_piece(&reposing)?;
-        reposing.piece += 1;
-        if reposing.piece < reposing.pieces {
-            self.begin_piece(reposing)?;
-            return Ok(false);
-        }
-        self.step = Step::Repose(reposing);
-        Ok(true)
-    }
-
-    /// The avatar's vertices in its caller's coordinates, while it is on the way.
-    pub(super) fn avatar_on_the_way(&self) -> Option<Vec<DVec3>> {
-        match &self.step {
-            Step::Repose(reposing) => Some(reposing.avatar_points(self.state.t)),
-            _ => None,
-        }
-    }
-
-    /// The exact verifier, at the end of a piece.
-    fn verify_piece(&self, reposing: &Reposing) -> Result<()> {
-        let body = TriangleMesh {
-            positions: reposing.normalised(&reposing.body_points(reposing.piece + 1), &self.target_coordinate_system),
-            triangles: self.problem.avatar.triangles.clone(),
-        };
-        let garment = TriangleMesh { positions: self.state.x.clone(), triangles: self.problem.triangles.clone() };
-        let found = intersections_with_cancel(&garment, Some(&body), 1, &self.context.stop)?;
-        match found.pairs.first() {
-            None => Ok(()),
-            Some([own, other]) => Err(Error::new(
-                ErrorKind::Internal,
-                format!(
-                    "on the way to the target's own pose garment triangle {own} intersects avatar triangle {other}"
-                ),
-            )),
-        }
-    }
-}
-
 impl Reposing {
     /// Why there is no result.
-    fn blocked(&self, state: &State) -> Error {
+    pub(super) fn blocked(&self, state: &State) -> Error {
         let done = (f64::from(self.piece) + state.t) / f64::from(self.pieces);
         Error::new(
             ErrorKind::InflationStalled,

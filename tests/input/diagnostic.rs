@@ -61,7 +61,12 @@ fn every_sentence_is_made_of_its_data() {
             "garment: the loose piece of 7 vertices with triangle 40 is held to the piece beside it, near triangle 11".into(),
         ),
         (
-            Diagnostic::JointsUnsure { places: vec!["left shoulder", "right shoulder"] },
+            Diagnostic::JointsUnsure { places: vec!["shoulders", "hips", "knees"] },
+            "which joints of the two rigs are shoulders, hips and knees is a guess: the names do not say it; look at the joint \
+             map, and say which joints correspond, as pairs"
+                .into(),
+        ),
+        (
             Diagnostic::KeptTogether { vertices: 12, vertex: 5, triangle: 40, distance: 0.01 },
             "garment: 12 vertices on its borders lie on or beside another part of it and keep their place there, such as vertex \
              5 at triangle 40"
