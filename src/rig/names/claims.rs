@@ -13,11 +13,15 @@ use crate::rig::body_part::{BodyPart, Side};
 
 /// What the vocabulary claims of a joint that a table knows, for where the table leaves a hole.
 const BESIDE_TABLE: f64 = 0.55;
+/// What a table calls a helper is a part only where its name says so more clearly.
+const HELPER: f64 = 0.85;
 /// Where so many limbs say that they move the body, joints that do not say so are controls.
 const DEFORMING: usize = 4;
 /// How sure a table is, and the vocabulary of a word with one meaning.
 pub const BY_TABLE: f64 = 0.95;
 pub const BY_WORD: f64 = 0.85;
+/// What a table says otherwise is no more than a guess.
+pub const AGAINST_TABLE: f64 = 0.55;
 /// Weaker claims are of words with several meanings.
 pub const CLEAR: f64 = 0.75;
 /// A table is named where it says so much of what was found.
@@ -36,6 +40,8 @@ pub struct Claim {
     pub strength: f64,
     /// Whether a table says so, not the vocabulary.
     pub by_table: bool,
+    /// Whether a table says otherwise.
+    pub against_table: bool,
 }
 
 /// What a joint's name says.
@@ -135,7 +141,7 @@ impl Reader {
                     (kind(slot).unwrap_or(Named::Unknown), if by_table { 0.9 } else { 0.7 })
                 }
                 // It was taken for less fitting than another joint of the same limb: a helper beside it.
-                (None, None) if self.is_helper(index as u32) => (Named::Twist, 0.6),
+                (None, None) if self.is_helper(index as u32) => (Named::Twist, 0.5),
                 _ => (Named::Unknown, 0.0),
             };
             naming.joints[index] = named;
@@ -147,7 +153,8 @@ impl Reader {
     /// Whether a joint has a claim that did not hold, and hangs on the body.
     fn is_helper(&self, index: u32) -> bool {
         let joint = &self.joints[index as usize];
-        let claims = !joint.parts.is_empty() || joint.finger.is_some();
+        let is_sided = joint.side.is_some() || joint.parts.iter().any(|claim| claim.slot.part(None).is_some());
+        let claims = is_sided && (!joint.parts.is_empty() || joint.finger.is_some());
         claims && self.tree.above(index).any(|above| self.found[above as usize].is_some())
     }
 
@@ -176,7 +183,10 @@ fn joint(words: &Words, bare: &[String], meaning: Meaning, row: Option<table::Ro
         number: bare.iter().rev().find(|word| is_number(word)).and_then(|word| word.parse().ok()),
         ..Joint::default()
     };
-    let mut add = |slot, strength, by_table| joint.parts.push(Claim { slot, strength, by_table });
+    let says_other = row.is_some();
+    let mut add = |slot, strength, by_table| {
+        joint.parts.push(Claim { slot, strength, by_table, against_table: says_other && !by_table });
+    };
     let slot = row.map(|row| row.slot);
     match slot {
         None | Some(Slot::Twist | Slot::Control | Slot::Prop | Slot::Secondary) => {}
@@ -188,8 +198,11 @@ fn joint(words: &Words, bare: &[String], meaning: Meaning, row: Option<table::Ro
     // What a table calls a control is none of the parts that its words mean.
     if !matches!(slot, Some(Slot::Control | Slot::Prop | Slot::Secondary | Slot::Arm | Slot::Leg)) {
         let share = if slot.is_some() { BESIDE_TABLE } else { 1.0 };
-        let is_helper = slot == Some(Slot::Twist);
-        let parts = meaning.parts.iter().filter(|(part, _)| !is_helper || NEEDED.contains(part));
+        // A helper is one of the needed parts, where nothing else is and its name says nothing but that.
+        let can_be = |&&(part, strength): &&(Slot, f64)| {
+            slot != Some(Slot::Twist) || (NEEDED.contains(&part) && strength > HELPER)
+        };
+        let parts = meaning.parts.iter().filter(can_be);
         parts.for_each(|&(slot, strength)| add(slot, share * strength, false));
     }
     joint.finger = match row {

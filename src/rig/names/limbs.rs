@@ -1,6 +1,6 @@
 //! Which joints are the arms and legs.
 
-use super::claims::{BY_TABLE, BY_WORD, CLEAR, Claim, NEEDED, Reader};
+use super::claims::{AGAINST_TABLE, BY_TABLE, BY_WORD, CLEAR, Claim, NEEDED, Reader};
 use super::slot::Slot;
 use crate::rig::body_part::Side;
 
@@ -83,6 +83,7 @@ fn best_chain(reader: &Reader, limb: &Limb, side: Side) -> Vec<Link> {
 /// How sure a claim is by itself, in a limb that is complete or not.
 fn confidence(claim: Claim, is_complete: bool) -> f64 {
     match (claim.strength >= CLEAR, claim.by_table) {
+        _ if claim.against_table => AGAINST_TABLE,
         (true, true) => BY_TABLE,
         (true, false) => BY_WORD,
         // A word with several meanings is clear where all its limb is there.

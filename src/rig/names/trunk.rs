@@ -1,6 +1,6 @@
 //! Which joints are hips, spine, neck and head. Their names overlap more than those of limbs, and what hangs on them decides.
 
-use super::claims::{BY_TABLE, BY_WORD, Claim, Reader};
+use super::claims::{AGAINST_TABLE, BY_TABLE, BY_WORD, Claim, Reader};
 use super::slot::Slot;
 use crate::rig::body_part::{BodyPart, Side};
 
@@ -48,7 +48,11 @@ fn middle(reader: &Reader, slot: Slot) -> Vec<(u32, Claim)> {
 }
 
 fn by_name(claim: Claim) -> f64 {
-    if claim.by_table { BY_TABLE } else { BY_WORD * claim.strength.min(1.0) }
+    match claim {
+        Claim { against_table: true, .. } => AGAINST_TABLE,
+        Claim { by_table: true, .. } => BY_TABLE,
+        Claim { strength, .. } => BY_WORD * strength.min(1.0),
+    }
 }
 
 fn find_head(reader: &mut Reader, arms: Option<u32>) -> Option<u32> {
