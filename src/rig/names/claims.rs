@@ -69,8 +69,17 @@ impl Joint {
     }
 }
 
+/// The names of a rig's joints: all words, those that it does not share with the others, and what they say.
+#[derive(Default)]
+struct Names {
+    words: Vec<Words>,
+    bare: Vec<Vec<String>>,
+    meanings: Vec<Meaning>,
+}
+
 /// A rig while it is read.
 pub struct Reader {
+    names: Names,
     /// What hangs on what.
     pub tree: Tree,
     /// What each joint's name says.
@@ -91,19 +100,31 @@ impl Reader {
         let levels = Levels::new(&words, &vocabulary);
         let sides: Vec<Option<Side>> = words.iter().map(|words| words.side).collect();
         let table = table::best(&sides, &levels, &tree);
-        let mut joints = Vec::with_capacity(names.len());
-        for (index, words) in words.iter().enumerate() {
-            let meaning = vocabulary.read(&levels.bare[index], words.side.is_some());
-            let row = table.as_ref().and_then(|table| table.rows[index]);
-            joints.push(joint(words, &levels.bare[index], meaning, row));
+        let meaning = |(words, bare): (&Words, &Vec<String>)| vocabulary.read(bare, words.side.is_some());
+        let meanings = words.iter().zip(&levels.bare).map(meaning).collect();
+        Self::with(Names { words, bare: levels.bare, meanings }, tree, table)
+    }
+
+    /// The same rig without its table, where that says little of what was found.
+    pub fn without_table(&mut self) -> Option<Self> {
+        if self.table.is_none() || self.profile().is_some() {
+            return None;
         }
-        drop_controls(&words, &mut joints);
+        let (names, tree) = (std::mem::take(&mut self.names), std::mem::take(&mut self.tree));
+        Some(Self::with(names, tree, None))
+    }
+
+    fn with(names: Names, tree: Tree, table: Option<Match>) -> Self {
+        let row = |index: usize| table.as_ref().and_then(|table| table.rows[index]);
+        let one = |index: usize| joint(&names.words[index], &names.bare[index], &names.meanings[index], row(index));
+        let mut joints: Vec<Joint> = (0..names.words.len()).map(one).collect();
+        drop_controls(&names.words, &mut joints);
         for &index in &tree.order {
             let above = tree.parents[index as usize].and_then(|parent| joints[parent as usize].side);
             let joint = &mut joints[index as usize];
             joint.side = joint.side.or(above);
         }
-        Self { tree, found: vec![None; joints.len()], joints, taken: HashMap::new(), table }
+        Self { names, tree, found: vec![None; joints.len()], joints, taken: HashMap::new(), table }
     }
 
     /// Says what a joint is, unless something has been said of it or another joint is that part.
@@ -176,7 +197,7 @@ impl Reader {
 }
 
 /// What one joint's name says.
-fn joint(words: &Words, bare: &[String], meaning: Meaning, row: Option<table::Row>) -> Joint {
+fn joint(words: &Words, bare: &[String], meaning: &Meaning, row: Option<table::Row>) -> Joint {
     let mut joint = Joint {
         side: words.side,
         says_side: words.side.is_some(),
@@ -194,6 +215,10 @@ fn joint(words: &Words, bare: &[String], meaning: Meaning, row: Option<table::Ro
         Some(Slot::Leg) => LEG.iter().for_each(|&(slot, strength)| add(slot, strength, true)),
         Some(Slot::Finger(_) | Slot::Palm(_)) => {}
         Some(slot) => add(slot, 1.0, true),
+    }
+    if slot.is_some_and(|slot| slot == Slot::Trunk || slot.part(None).is_some()) {
+        // The L of L5, a vertebra, is no side.
+        (joint.side, joint.says_side) = (None, false);
     }
     // What a table calls a control is none of the parts that its words mean.
     if !matches!(slot, Some(Slot::Control | Slot::Prop | Slot::Secondary | Slot::Arm | Slot::Leg)) {

@@ -57,7 +57,7 @@ struct Count {
     least: u32,
     /// The segment of the least number.
     first: u8,
-    /// A thumb whose three bones are called metacarpal, proximal and distal.
+    /// A thumb whose first bone is called metacarpal, and two others.
     is_from_palm: bool,
 }
 
@@ -78,7 +78,8 @@ impl Count {
         // Three bones and a tip, or with the bone in the palm: those that count from 0, and those that count five.
         let from_palm = !is_thumb && (numbers.len() >= 5 || (least == 0 && numbers.len() == 4));
         let free = places().filter(|(bone, _)| matches!(bone.place, Place::Segment(1..=3))).count();
-        Self { least, first: u8::from(!from_palm), is_from_palm: is_thumb && has_palm && numbers.len() < 3 && free < 3 }
+        let is_from_palm = is_thumb && has_palm && numbers.len() < 3 && free < 3;
+        Self { least, first: if from_palm { 0 } else { 1 + u8::from(is_from_palm) }, is_from_palm }
     }
 
     fn segment(&self, number: u32) -> Option<u8> {

@@ -52,10 +52,19 @@ pub struct Naming {
 /// go in a circle are no error: such joints hang on nothing.
 pub fn read(names: &[&str], parents: &[Option<u32>]) -> Naming {
     let mut reader = Reader::new(names, parents);
-    limbs::read(&mut reader);
-    trunk::read(&mut reader);
-    fingers::read(&mut reader);
+    find(&mut reader);
+    // A table that the rig does not follow says nothing.
+    if let Some(mut other) = reader.without_table() {
+        find(&mut other);
+        return other.finish();
+    }
     reader.finish()
+}
+
+fn find(reader: &mut Reader) {
+    limbs::read(reader);
+    trunk::read(reader);
+    fingers::read(reader);
 }
 
 /// The kind of joint that a row stands for, where it is no part of the body.

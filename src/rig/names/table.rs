@@ -49,9 +49,9 @@ impl Table {
                     Slot::Finger(_) => Place::Segment(index as u8 + 1),
                     _ => Place::Segment(0),
                 };
-                let has_side = name.contains('*');
                 for prefix in std::iter::once("").chain(profile.prefixes.iter().copied()) {
                     let words = Words::new(&format!("{prefix}_{}", name.replace('#', ANY)));
+                    let has_side = name.contains('*') || words.side.is_some();
                     rows.entry((words.key(), has_side)).or_insert(Row { slot, place });
                 }
             }

@@ -1,6 +1,7 @@
 //! The tree of a rig's joints, whatever was given as parents.
 
 /// Parents without circles, and who is above whom.
+#[derive(Default)]
 pub struct Tree {
     /// The joint above each; none for a root, and where a parent is out of range or a circle was cut.
     pub parents: Vec<Option<u32>>,

@@ -68,7 +68,7 @@ const PROPS: &str = "slot weapon gun sword shield socket prop attach attachment 
 const SECONDARY: &str = "hair bang bangs braid ponytail pigtail ahoge skirt cape cloak coat jacket cloth clothes robe dress \
     scarf sleeve ribbon tie belt strap string sash tassel hood hat helmet mask glasses earring jewel necklace breast \
     breasts boob boobs bust nipple pectoral pec glute butt buttock genital tail ear ears wing horn antenna fin spring jiggle \
-    physics phys dyn dynamic sec secondary bounce wiggle tongue teeth tooth lip lips brow eyebrow eyelid lid lash cheek \
+    physics phys dyn dynamic sec secondary bounce wiggle tongue teeth tooth lip lips brow brows eyebrow eyebrows eyelid eyelids lid lids lash lashes eyelash eyelashes cheek \
     nose nostril mouth chin face facial forehead temple beard mustache whisker snout trunkfat bellyfat fat flap chain \
     feather fur 髪 スカート 胸 乳";
 
@@ -81,7 +81,7 @@ const TWISTS: &str = "twist roll bend share corrective correctiveroot muscle mus
 const ENDS: &str = "end nub tip top leaf site endsite terminal 先";
 
 /// Words that say nothing.
-const NOISE: &str = "bone bones joint joints jnt jt bn bind skin sk def deform dfm c m x cn mid center centre bip biped b j \
+const NOISE: &str = "node bone bones joint joints jnt jt bn bind skin sk def deform dfm c m x cn mid center centre bip biped b j \
     valve cc base rl geo hum adj ｄ";
 
 /// Words of the fingers.
@@ -94,8 +94,12 @@ const FINGERS: &[(&str, Finger)] = &[
 ];
 
 /// Words of the bones of a finger, with their places.
-const SEGMENTS: &[(&str, u8)] =
-    &[("metacarpal meta carpal palm", 0), ("proximal prox", 1), ("intermediate inter medial", 2), ("distal dist", 3)];
+const SEGMENTS: &[(&str, u8)] = &[
+    ("metacarpal meta carpal palm start", 0),
+    ("proximal prox", 1),
+    ("intermediate inter medial", 2),
+    ("distal dist", 3),
+];
 
 /// Words that names are made of where they stand without separators; together with those of the rows above.
 const PIECES: &str = "up low upper lower fore finger heel big";
@@ -238,14 +242,15 @@ impl Vocabulary {
             .filter(|(_, e)| !e.is_noise && !e.is_end)
             .map(|(word, _)| word)
             .collect();
-        let (parts, known) = self.phrase(&rest, has_side);
+        let parts = self.phrase(&rest, has_side);
         if parts.is_empty() {
             let is_control =
                 any(|entry| entry.is_weak_control) && entries.iter().all(|e| e.is_noise || e.is_weak_control);
             let parts = if says(&["root", "cog"]) { vec![(Slot::Hips, ROOT)] } else { Vec::new() };
             return if is_control { Meaning { parts, ..Meaning::class(Slot::Control) } } else { Meaning::default() };
         }
-        let share = UNKNOWN_WORD.powi((rest.len() - known).min(8) as i32);
+        let unknown = rest.iter().filter(|word| !self.helps(word)).count();
+        let share = UNKNOWN_WORD.powi(unknown.min(8) as i32);
         let parts = match (is_end, parts[0].0) {
             (false, _) => parts.iter().map(|&(slot, strength)| (slot, share * strength)).collect(),
             (true, Slot::Head) => vec![(Slot::HeadTop, share)],
@@ -255,19 +260,29 @@ impl Vocabulary {
         Meaning { parts, ..Meaning::default() }
     }
 
-    /// The longest run of words that means a part, and how many words it has.
-    fn phrase(&self, words: &[&str], has_side: bool) -> (&'static [(Slot, f64)], usize) {
+    /// What the longest run of words that means a part means, the last of several. `arm` and `leg` say less than any other
+    /// word: in `arm_elbow` they say only which limb it is.
+    fn phrase(&self, words: &[&str], has_side: bool) -> &'static [(Slot, f64)] {
+        let mut vague: &[(Slot, f64)] = &[];
         // No row has more than three words in one.
         for length in (1..=words.len().min(3)).rev() {
-            for run in words.windows(length) {
+            for run in words.windows(length).rev() {
                 let entry = self.entry(&run.concat());
                 let parts = if has_side && !entry.sided.is_empty() { entry.sided } else { entry.parts };
-                if !parts.is_empty() {
-                    return (parts, length);
+                if parts == ARM || parts == LEG {
+                    vague = parts;
+                } else if !parts.is_empty() {
+                    return parts;
                 }
             }
         }
-        (&[], 0)
+        vague
+    }
+
+    /// Whether a word means a part by itself, or helps to.
+    fn helps(&self, word: &str) -> bool {
+        let entry = self.entry(word);
+        entry.is_piece || entry.is_weak_control || !entry.parts.is_empty()
     }
 
     /// A word that is several without separators, such as `handslot`, in its pieces; itself where it is none.

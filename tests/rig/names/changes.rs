@@ -71,6 +71,10 @@ pub fn with_spines(joints: &[Joint], count: usize) -> Option<Vec<Joint>> {
     let last = *spines.last()?;
     let first_digit = joints[last].name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let (base, number) = joints[last].name.split_at(first_digit);
+    // Vertebrae are no row that goes on.
+    if base.len() < 2 {
+        return None;
+    }
     let width = number.len();
     let highest = spines.iter().filter_map(|&k| joints[k].name.strip_prefix(base)?.parse::<u32>().ok()).max()?;
     let mut more = joints.to_vec();

@@ -196,6 +196,133 @@ spine1=hips
 ",
         },
     ),
+    (
+        "limbs in groups",
+        List {
+            profiles: &[],
+            sides: ["L", "R"],
+            text: "
+C_root_jnt=control
+ C_spine_pelvis_jnt=hips
+  C_spine_01_jnt=spine > C_spine_02_jnt=spine > C_spine_chest_jnt=spine
+   C_neck_jnt=neck > C_neck_head_jnt=head
+   *_arm_clavicle_jnt=collar > *_arm_shoulder_jnt=arm > *_arm_elbow_jnt=elbow > *_arm_wrist_jnt=hand
+  *_leg_hip_jnt=leg > *_leg_knee_jnt=knee > *_leg_ankle_jnt=foot > *_leg_ball_jnt=toes
+",
+        },
+    ),
+    (
+        "apple body tracking",
+        List {
+            profiles: &[],
+            sides: ["left", "right"],
+            text: "
+root=control
+ hips_joint=hips
+  *_upLeg_joint=leg > *_leg_joint=knee > *_foot_joint=foot > *_toes_joint=toes > *_toesEnd_joint=toetip
+  spine_1_joint=spine > spine_2_joint=spine > spine_3_joint=spine > spine_4_joint=spine > spine_5_joint=spine > spine_6_joint=spine > spine_7_joint=spine
+   neck_1_joint=neck > neck_2_joint=neck > neck_3_joint=neck > neck_4_joint=neck > head_joint=head
+    jaw_joint=jaw > chin_joint=secondary
+    *_eye_joint=eye > *_eyeLowerLid_joint=secondary
+    nose_joint=secondary
+   *_shoulder_1_joint=collar > *_arm_joint=arm > *_forearm_joint=elbow > *_hand_joint=hand
+    *_handThumbStart_joint=thumb1 > *_handThumb_1_joint=thumb2 > *_handThumb_2_joint=thumb3 > *_handThumbEnd_joint=thumb4
+    *_handIndexStart_joint=index0 > *_handIndex_1_joint=index1 > *_handIndex_2_joint=index2 > *_handIndex_3_joint=index3 > *_handIndexEnd_joint=index4
+    *_handMidStart_joint=middle0 > *_handMid_1_joint=middle1 > *_handMid_2_joint=middle2 > *_handMid_3_joint=middle3 > *_handMidEnd_joint=middle4
+    *_handRingStart_joint=ring0 > *_handRing_1_joint=ring1 > *_handRing_2_joint=ring2 > *_handRing_3_joint=ring3 > *_handRingEnd_joint=ring4
+    *_handPinkyStart_joint=little0 > *_handPinky_1_joint=little1 > *_handPinky_2_joint=little2 > *_handPinky_3_joint=little3 > *_handPinkyEnd_joint=little4
+",
+        },
+    ),
+    (
+        "kinect",
+        List {
+            profiles: &[],
+            sides: ["LEFT", "RIGHT"],
+            text: "
+PELVIS=hips
+ SPINE_NAVEL=spine > SPINE_CHEST=spine
+  NECK=neck > HEAD=head
+   EYE_*=eye
+   NOSE=secondary
+  CLAVICLE_*=collar > SHOULDER_*=arm > ELBOW_*=elbow > WRIST_*=hand > HAND_*=twist > HANDTIP_*=twist
+ HIP_*=leg > KNEE_*=knee > ANKLE_*=foot > FOOT_*=toes
+",
+        },
+    ),
+    (
+        "synty",
+        List {
+            profiles: &[],
+            sides: ["L", "R"],
+            text: "
+Root=control
+ Hips=hips
+  Spine_01=spine > Spine_02=spine > Spine_03=spine
+   Neck=neck > Head=head
+    Eyebrows=secondary
+   Clavicle_*=collar > Shoulder_*=arm > Elbow_*=elbow > Hand_*=hand
+    Thumb_01*=thumb1 > Thumb_02*=thumb2 > Thumb_03*=thumb3
+    IndexFinger_01*=index1 > IndexFinger_02*=index2 > IndexFinger_03*=index3
+  UpperLeg_*=leg > LowerLeg_*=knee > Ankle_*=foot > Ball_*=toes
+",
+        },
+    ),
+    (
+        "mikumikudance in english",
+        List {
+            profiles: &[],
+            sides: ["L", "R"],
+            text: "
+RootNode=control > Center=control
+ LowerBody=hips
+  Leg_*=leg > Knee_*=knee > Ankle_*=foot
+ UpperBody=spine > UpperBody2=spine
+  Neck=neck > Head=head
+   Eye_*=eye
+  Shoulder_*=collar > Arm_*=arm
+   ArmTwist_*=twist
+   Elbow_*=elbow > Wrist_*=hand
+    Thumb1_*=thumb2 > Thumb2_*=thumb3
+LegIK_*=control
+",
+        },
+    ),
+    (
+        "rigify with names",
+        List {
+            profiles: &[],
+            sides: ["L", "R"],
+            text: "
+root=control
+ DEF-hips=hips
+  DEF-spine.001=spine > DEF-spine.002=spine > DEF-spine.003=spine
+   DEF-neck=neck > DEF-head=head
+   DEF-shoulder.*=collar > DEF-upper_arm.*=arm > DEF-forearm.*=elbow > DEF-hand.*=hand
+    DEF-thumb.01.*=thumb1 > DEF-thumb.02.*=thumb2 > DEF-thumb.03.*=thumb3
+    DEF-f_index.01.*=index1 > DEF-f_index.02.*=index2 > DEF-f_index.03.*=index3
+  DEF-thigh.*=leg > DEF-shin.*=knee > DEF-foot.*=foot > DEF-toe.*=toes
+",
+        },
+    ),
+    (
+        "robot",
+        List {
+            profiles: &[],
+            sides: ["L", "R"],
+            text: "
+Bone=control
+ Foot*=foot
+ Body=control
+  Hips=hips > Abdomen=spine > Torso=spine
+   Neck=neck > Head=head > Head_end=headtop
+   Shoulder*=collar > UpperArm*=arm > LowerArm*=elbow > Palm1*=hand
+    Thumb1*=thumb1 > Thumb2*=thumb2
+  UpperLeg*=leg > LowerLeg*=knee
+ PoleTarget*=control
+",
+        },
+    ),
 ];
 
 #[test]

@@ -309,4 +309,18 @@ mPelvis=hips
 ",
         },
     ),
+    (
+        "xsens",
+        List {
+            profiles: &["Xsens"],
+            sides: ["Left", "Right"],
+            text: "
+Pelvis=hips
+ L5=spine > L3=spine > T12=spine > T8=spine
+  Neck=neck > Head=head
+  *Shoulder=collar > *UpperArm=arm > *ForeArm=elbow > *Hand=hand
+ *UpperLeg=leg > *LowerLeg=knee > *Foot=foot > *Toe=toes
+",
+        },
+    ),
 ];

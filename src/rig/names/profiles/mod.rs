@@ -33,6 +33,7 @@ mod unreal;
 mod vrchat;
 mod vrm;
 mod vroid;
+mod xsens;
 
 use super::slot::Slot;
 
@@ -71,6 +72,7 @@ pub const ALL: &[&Profile] = &[
     &vrchat::PROFILE,
     &second_life::PROFILE,
     &mikumikudance::PROFILE,
+    &xsens::PROFILE,
     &kaykit::PROFILE,
     &quaternius::PROFILE,
     &khronos::PROFILE,
