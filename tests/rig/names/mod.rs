@@ -3,6 +3,7 @@
 mod adversarial;
 mod blender;
 mod changes;
+mod characters;
 mod engines;
 mod lists;
 mod packs;
