@@ -8,7 +8,7 @@ use super::role::{FINGERS, Role, SIDES};
 use crate::Sample;
 use crate::skeleton::{ARMS, LEGS, NECK, ROOT, WAIST};
 
-/// The place of every role, in metres.
+/// The place of every role, in the body's unit.
 pub fn places(body: &Sample) -> BTreeMap<Role, DVec3> {
     let j = &body.skeleton.joints;
     // Vertices that move with a joint.
@@ -30,8 +30,10 @@ pub fn places(body: &Sample) -> BTreeMap<Role, DVec3> {
     put(Role::Spine(2), j[WAIST].lerp(j[NECK], 0.5));
     put(Role::Neck, j[WAIST].lerp(j[NECK], 0.86));
     put(Role::Head, j[NECK]);
-    let top = flesh(NECK).map(|p| p.z).fold(j[NECK].z + 0.1, f64::max);
-    put(Role::HeadEnd, DVec3::new(j[NECK].x, j[NECK].y, top));
+    let head: Vec<DVec3> = flesh(NECK).collect();
+    let top = head.iter().map(|p| p.z).fold(j[NECK].z + 0.2 * j[NECK].distance(j[WAIST]), f64::max);
+    let middle = head.iter().map(|p| p.y).sum::<f64>() / head.len().max(1) as f64;
+    put(Role::HeadEnd, DVec3::new(j[NECK].x, middle, top));
 
     for (side, ([shoulder, elbow, wrist], [hip, knee, ankle])) in SIDES.into_iter().zip(ARMS.into_iter().zip(LEGS)) {
         let [a, b, c] = [shoulder, elbow, wrist].map(|joint| j[joint]);
@@ -45,7 +47,7 @@ pub fn places(body: &Sample) -> BTreeMap<Role, DVec3> {
 
         let along = (c - b).normalize();
         let across = DVec3::NEG_Y.reject_from_normalized(along).normalize();
-        let length = flesh(wrist).map(|p| (p - c).dot(along)).fold(0.08, f64::max);
+        let length = flesh(wrist).map(|p| (p - c).dot(along)).fold(0.3 * b.distance(c), f64::max);
         put(Role::Hand(side), c + 0.18 * length * along);
         put(Role::Slot(side), c + 0.5 * length * along);
         for finger in 0..FINGERS {
@@ -66,7 +68,7 @@ pub fn places(body: &Sample) -> BTreeMap<Role, DVec3> {
         put(Role::Calf(side), b);
         put(Role::Foot(side), c);
         let low = floor + 0.2 * (c.z - floor);
-        let front = flesh(ankle).fold(c - 0.1 * DVec3::Y, |tip, p| if p.y < tip.y { p } else { tip });
+        let front = flesh(ankle).fold(c - 0.25 * b.distance(c) * DVec3::Y, |tip, p| if p.y < tip.y { p } else { tip });
         put(Role::Toe(side), c.lerp(front, 0.68).with_z(low));
         put(Role::ToeEnd(side), front.with_z(low));
         put(Role::FootTarget(side), c);
