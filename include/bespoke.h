@@ -456,6 +456,35 @@ typedef uint32_t BespokePartRole;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Why a joint is mapped as it is.
+enum BespokeJointReason
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// Nothing corresponds to it: a control, a prop, or above all that was recognised.
+  BESPOKE_JOINT_REASON_NOTHING = 0,
+  /// The caller said so.
+  BESPOKE_JOINT_REASON_CALLER = 1,
+  /// The names of both say that they are the same part of the body.
+  BESPOKE_JOINT_REASON_NAME = 2,
+  /// At least for one of the two, its place among the others says so.
+  BESPOKE_JOINT_REASON_STRUCTURE = 3,
+  /// Of several joints in spine or neck, it has the same place in the order.
+  BESPOKE_JOINT_REASON_ORDER = 4,
+  /// Both have the same name, which stands for no part of the body.
+  BESPOKE_JOINT_REASON_SAME_NAME = 5,
+  /// It has no counterpart and goes with the joint above it.
+  BESPOKE_JOINT_REASON_ANCESTOR = 6,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum BespokeJointReason BespokeJointReason;
+#else
+typedef uint32_t BespokeJointReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// Cancellation and progress of one session; a handle of its own that may outlive the session. Opaque.
 typedef struct BespokeControl BespokeControl;
 

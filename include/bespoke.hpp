@@ -188,12 +188,26 @@ enum class PartRole : std::uint32_t {
     ignored = BESPOKE_PART_ROLE_IGNORED,
 };
 
+/// Why a joint is mapped as it is: BespokeJointReason.
+enum class JointReason : std::uint32_t {
+    nothing = BESPOKE_JOINT_REASON_NOTHING,
+    caller = BESPOKE_JOINT_REASON_CALLER,
+    name = BESPOKE_JOINT_REASON_NAME,
+    structure = BESPOKE_JOINT_REASON_STRUCTURE,
+    order = BESPOKE_JOINT_REASON_ORDER,
+    same_name = BESPOKE_JOINT_REASON_SAME_NAME,
+    ancestor = BESPOKE_JOINT_REASON_ANCESTOR,
+};
+
 // End of the enums.
 
 // ---- Constants and versions -----------------------------------------------------------------------------------------
 
 /// The value of a weight that switches its term off; 0 means the default.
 inline constexpr double weight_off = BESPOKE_WEIGHT_OFF;
+
+/// As the second joint of a pair: nothing corresponds to the first.
+inline constexpr std::uint32_t no_joint = BESPOKE_NO_JOINT;
 
 /// Length of Progress::energies.
 inline constexpr std::size_t max_terms = BESPOKE_MAX_TERMS;
@@ -666,6 +680,11 @@ using Triangles = detail::Elements<detail::Index, 3, const void>;
 /// Bones, two joints each, counted from 0, of the types of Triangles. Made as Points are.
 using Bones = detail::Elements<detail::Index, 2, const void>;
 
+/// Pairs of joints, the first of the source rig and the second of the target rig, counted from 0, of the types of
+/// Triangles. no_joint (65535 in std::uint16_t, -1 in std::int32_t) as the second: nothing corresponds to the first.
+/// Made as Points are.
+using JointPairs = detail::Elements<detail::Index, 2, const void>;
+
 /// Vertices, counted from 0, of the types of Triangles. Made as Points are.
 using Indices = detail::Elements<detail::Index, 1, const void>;
 
@@ -929,6 +948,29 @@ struct Element {
         if (subject < Subject::layer) return std::nullopt;
         return static_cast<std::uint32_t>(subject) - static_cast<std::uint32_t>(Subject::layer);
     }
+};
+
+/// A joint of a rig: BespokeJoint.
+struct Joint {
+    /// Its name, UTF-8, as the tool has it; empty: it has none.
+    std::string name;
+    /// The joint that moves it, from 0, in any order; none for a root.
+    std::optional<std::uint32_t> parent;
+    /// The bind transform: from the joint's own space to that in which the mesh is given, in the pose in which the mesh
+    /// is given. Column after column: numbers 12 to 14 (from 0) are the joint's place.
+    std::array<double, BESPOKE_TRANSFORM_SIZE> bind{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+};
+
+/// A joint of the source rig and what corresponds to it in the target rig: BespokeMappedJoint.
+struct MappedJoint {
+    /// The target rig's joint, where there is one.
+    std::optional<std::uint32_t> target;
+    /// Why.
+    JointReason reason;
+    /// From 0, a guess, to 1, sure.
+    double confidence;
+    /// The part of the body, such as "left upper arm"; empty where it is none.
+    std::string part;
 };
 
 /// A diagnostic about the inputs or the result: BespokeDiagnostic.
@@ -1267,13 +1309,33 @@ public:
     /// Optional: skin weights of the target avatar as engines keep them: a row for each vertex, in it a few joints, and
     /// in `weights` the weights of these. Only the joint with the largest weight of a vertex is used.
     Result<void> set_target_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
-        if (handle_ && joints.columns() != weights.columns()) {
-            return Error(Status::invalid_argument, "target skin influences: a vertex has " +
-                                                       std::to_string(joints.columns()) + " joints, but " +
-                                                       std::to_string(weights.columns()) + " weights");
-        }
-        return set(bespoke_session_set_target_skin_influences, "target skin joints", joints, "target skin weights",
-                   weights, joints.columns(), joint_count);
+        return set_influences(bespoke_session_set_target_skin_influences, "target skin", joints, weights, joint_count);
+    }
+
+    /// In place of a source skeleton: the rig of the body on which the garment was designed.
+    Result<void> set_source_rig(const std::vector<Joint> &joints) {
+        return set_rig(bespoke_session_set_source_rig, joints);
+    }
+
+    /// In place of a target skeleton: the rig of the body to dress, in the pose in which it is given.
+    Result<void> set_target_rig(const std::vector<Joint> &joints) {
+        return set_rig(bespoke_session_set_target_rig, joints);
+    }
+
+    /// Optional: skin weights of the source avatar on the source rig, as in set_target_skin_influences.
+    Result<void> set_source_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
+        return set_influences(bespoke_session_set_source_skin_influences, "source skin", joints, weights, joint_count);
+    }
+
+    /// Optional: skin weights of the garment as it was modelled, on the source rig, as in set_target_skin_influences.
+    Result<void> set_garment_skin_influences(IndexRows joints, NumberRows weights, std::size_t joint_count) {
+        return set_influences(bespoke_session_set_garment_skin_influences, "garment skin", joints, weights,
+                              joint_count);
+    }
+
+    /// Optional: joints of the two rigs that correspond. They win over names and places. Replaces earlier pairs.
+    Result<void> set_joint_pairs(JointPairs pairs) {
+        return set(bespoke_session_set_joint_pairs, "joint pairs", pairs);
     }
 
     /// Optional: the coordinate system of garment, source skeleton and source avatar.
@@ -1459,6 +1521,28 @@ public:
         return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
     }
 
+    /// Which joint of the target rig corresponds to each joint of the source rig, why, and how sure that is.
+    Result<std::vector<MappedJoint>> read_joint_map() const {
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_joint_map, nullptr, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<BespokeMappedJoint> read(count);
+        if (const auto done = call(bespoke_session_read_joint_map, read.data(), read.size(), &count); !done) {
+            return done.error();
+        }
+        // Another call may have come in between the two.
+        if (count < read.size()) read.resize(count);
+        std::vector<MappedJoint> joints;
+        joints.reserve(read.size());
+        for (const BespokeMappedJoint &from : read) {
+            MappedJoint to{{}, static_cast<JointReason>(from.reason), from.confidence, detail::text_of(from.part)};
+            if (from.target != BESPOKE_NO_JOINT) to.target = from.target;
+            joints.push_back(std::move(to));
+        }
+        return joints;
+    }
+
     /// The session's measurements so far.
     Result<Report> read_report() const {
         Report report{};
@@ -1585,6 +1669,35 @@ private:
         if (auto whole = divides(what, second); !whole) return whole;
         const BespokeView view = second.get();
         return call(function, &first, &view, further...);
+    }
+
+    using SetInfluences = BespokeStatus(BespokeSession *, const BespokeView *, const BespokeView *, std::size_t,
+                                        std::size_t);
+
+    Result<void> set_influences(SetInfluences *function, const std::string &what, const IndexRows &joints,
+                                const NumberRows &weights, std::size_t joint_count) {
+        if (handle_ && joints.columns() != weights.columns()) {
+            return Error(Status::invalid_argument, what + " influences: a vertex has " +
+                                                       std::to_string(joints.columns()) + " joints, but " +
+                                                       std::to_string(weights.columns()) + " weights");
+        }
+        return set(function, (what + " joints").c_str(), joints, (what + " weights").c_str(), weights,
+                   joints.columns(), joint_count);
+    }
+
+    using SetRig = BespokeStatus(BespokeSession *, const BespokeJoint *, std::size_t);
+
+    Result<void> set_rig(SetRig *function, const std::vector<Joint> &joints) {
+        std::vector<BespokeJoint> given(joints.size());
+        for (std::size_t k = 0; k < joints.size(); k++) {
+            const Joint &joint = joints[k];
+            BespokeJoint &to = given[k];
+            to.name = joint.name.c_str();
+            to.parent = joint.parent ? *joint.parent : BESPOKE_NO_JOINT;
+            to.reserved = 0;
+            for (std::size_t n = 0; n < joint.bind.size(); n++) to.bind[n] = joint.bind[n];
+        }
+        return call(function, given.data(), given.size());
     }
 
     using Read = BespokeStatus(const BespokeSession *, const BespokeBuffer *, std::size_t *);

@@ -93,6 +93,7 @@ template <class T> bool same_bits(const std::vector<T> &left, const std::vector<
 void views();
 void results();
 void inputs();
+void rigs();
 void sessions();
 void stops();
 

@@ -39,7 +39,7 @@ fn every_function_and_every_name_of_the_c_api_has_its_place() {
     }
     let used = words(&cpp, "BESPOKE_");
     // Lengths of arrays inside of structs, which C++ sees by the arrays.
-    let lengths = ["BESPOKE_H", "BESPOKE_ENERGY_NAME_SIZE", "BESPOKE_MESSAGE_SIZE"];
+    let lengths = ["BESPOKE_H", "BESPOKE_ENERGY_NAME_SIZE", "BESPOKE_MESSAGE_SIZE", "BESPOKE_PART_NAME_SIZE"];
     let names: Vec<_> = words(&c, "BESPOKE_").into_iter().filter(|name| !lengths.contains(name)).collect();
     assert!(names.len() > 50, "only {} names were found", names.len());
     for name in names {
@@ -61,6 +61,8 @@ fn every_field_crosses() {
         ("BespokeEnergy", &["energy"]),
         ("BespokeElement", &["element"]),
         ("BespokeDiagnostic", &["from"]),
+        ("BespokeJoint", &["to"]),
+        ("BespokeMappedJoint", &["from"]),
     ] {
         let fields = layout.lines().filter_map(|line| line.strip_prefix(&format!("FIELD({name}, ")));
         for field in fields.map(|rest| rest.split(',').next().expect("a field")) {

@@ -10,6 +10,7 @@ int main(int count, char **arguments) {
     views();
     results();
     inputs();
+    rigs();
     sessions();
     stops();
     std::puts("all good");

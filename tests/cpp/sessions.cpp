@@ -34,6 +34,12 @@ void empty(Session &session) {
     refused(session.set_target_skin_weights({std::vector<float>(4), 2}));
     refused(session.set_target_skin_influences(triangles, points, 3));
     refused(session.set_target_skin_influences(scene.bones, points, 3));
+    refused(session.set_source_rig({Joint()}));
+    refused(session.set_target_rig({}));
+    refused(session.set_source_skin_influences(triangles, points, 3));
+    refused(session.set_garment_skin_influences(scene.bones, points, 3));
+    refused(session.set_joint_pairs(scene.bones));
+    refused(session.read_joint_map());
     refused(session.set_source_coordinate_system(CoordinateSystem()));
     refused(session.set_target_coordinate_system(CoordinateSystem()));
     refused(session.set_vertex_fit_weights(std::vector<float>(4)));

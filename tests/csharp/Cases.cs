@@ -12,6 +12,7 @@ internal static class Cases
         { "every_input", folder => Dressing.EveryInput() },
         { "every_result", folder => Dressing.EveryResult() },
         { "coordinate_systems", folder => Dressing.CoordinateSystems() },
+        { "rigs", folder => Rigs.All() },
         { "versions_and_names", folder => Errors.Library() },
         { "bad_arguments", folder => Errors.Arguments() },
         { "wrong_states", folder => Errors.States() },

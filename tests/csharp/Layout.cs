@@ -34,6 +34,8 @@ internal static class Layout
         {
             { "BespokeView", sizeof(NativeView) },
             { "BespokeBuffer", sizeof(NativeBuffer) },
+            { "BespokeJoint", sizeof(NativeJoint) },
+            { "BespokeMappedJoint", sizeof(NativeMappedJoint) },
             { "BespokeCoordinateSystem", sizeof(NativeCoordinateSystem) },
             { "BespokeOptions", sizeof(NativeOptions) },
             { "BespokeIntersections", sizeof(NativeIntersections) },
@@ -104,6 +106,9 @@ internal static class Layout
         Dictionary<string, long> known = new Dictionary<string, long>
         {
             { "BESPOKE_ABI_VERSION", NativeConstants.AbiVersion },
+            { "BESPOKE_NO_JOINT", NativeConstants.NoJoint },
+            { "BESPOKE_TRANSFORM_SIZE", NativeConstants.TransformSize },
+            { "BESPOKE_PART_NAME_SIZE", NativeConstants.PartNameSize },
             { "BESPOKE_MAX_TERMS", NativeConstants.MaxTerms },
             { "BESPOKE_ENERGY_NAME_SIZE", NativeConstants.EnergyNameSize },
             { "BESPOKE_MESSAGE_SIZE", NativeConstants.MessageSize },

@@ -23,7 +23,7 @@ fn compile() -> PathBuf {
     let documentation = format!("-doc:{}", folder.join("Bespoke.xml").display());
     mcs(&folder, "Bespoke.dll", &["-target:library", "-unsafe", &documentation, &binding], &[]);
     let reference = format!("-r:{}", folder.join("Bespoke.dll").display());
-    let cases = tests(&["Cases", "Check", "Inputs", "Dressing", "Errors", "Running", "Lifetime"]);
+    let cases = tests(&["Cases", "Check", "Inputs", "Dressing", "Errors", "Rigs", "Running", "Lifetime"]);
     mcs(&folder, "Cases.exe", &["-r:System.Core", &reference], &cases);
     let example = root().join("bindings/csharp/Dress/*.cs").display().to_string();
     mcs(&folder, "Dress.exe", &[&reference, &example], &[]);

@@ -420,4 +420,29 @@ namespace Bespoke
         /// <summary>It takes no part: the garment may pass through it, and it is not verified.</summary>
         Ignored = 3,
     }
+
+    /// <summary>Why a joint is mapped as it is.</summary>
+    public enum JointReason : uint
+    {
+        /// <summary>Nothing corresponds to it: a control, a prop, or above all that was recognised.</summary>
+        Nothing = 0,
+
+        /// <summary>The caller said so.</summary>
+        Caller = 1,
+
+        /// <summary>The names of both say that they are the same part of the body.</summary>
+        Name = 2,
+
+        /// <summary>At least for one of the two, its place among the others says so.</summary>
+        Structure = 3,
+
+        /// <summary>Of several joints in spine or neck, it has the same place in the order.</summary>
+        Order = 4,
+
+        /// <summary>Both have the same name, which stands for no part of the body.</summary>
+        SameName = 5,
+
+        /// <summary>It has no counterpart and goes with the joint above it.</summary>
+        Ancestor = 6,
+    }
 }

@@ -11,7 +11,7 @@ namespace Bespoke
     internal static class NativeConstants
     {
         internal const int AbiVersion = 2;
-        internal const int NoJoint = 4294967295;
+        internal const uint NoJoint = 4294967295;
         internal const int TransformSize = 16;
         internal const int PartNameSize = 32;
         internal const double WeightOff = -1.0;
@@ -55,7 +55,7 @@ namespace Bespoke
     internal unsafe struct NativeMappedJoint
     {
         internal uint target;
-        internal uint reason;
+        internal JointReason reason;
         internal double confidence;
         internal fixed byte part[NativeConstants.PartNameSize];
     }

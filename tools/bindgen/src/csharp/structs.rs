@@ -12,7 +12,11 @@ pub fn text(description: &Description) -> Result<String> {
     let mut text = head(about, &["System", "System.Runtime.InteropServices"]);
     text += "    internal static class NativeConstants\n    {\n";
     for one in &description.constants {
-        let kind = if one.value.is_i64() { "int" } else { "double" };
+        let kind = match one.value.as_i64() {
+            Some(value) if i32::try_from(value).is_ok() => "int",
+            Some(_) => "uint",
+            None => "double",
+        };
         let _ = writeln!(text, "        internal const {kind} {} = {};", constant(&one.name), one.value);
     }
     text += "    }\n";
