@@ -207,6 +207,9 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
            (options->source_skin == NULL ||
             set_influences(session, options->source_skin, inputs->source_rig.count,
                            bespoke_session_set_source_skin_influences)) &&
+           (options->garment_skin == NULL ||
+            set_influences(session, options->garment_skin, inputs->source_rig.count,
+                           bespoke_session_set_garment_skin_influences)) &&
            (options->joint_pairs == NULL || set_joint_pairs(session, options->joint_pairs)) &&
            (options->joint_map == NULL || joint_map_write(session, inputs, options->joint_map)) &&
            (options->no_fit == NULL || set_no_fit(session, options->no_fit)) &&

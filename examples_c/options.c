@@ -55,6 +55,12 @@ static const Entry entries[] = {
     {"--target-skin", "FILE", PATH, FIELD(target_skin), 0,
      "the same as a line 'JOINT WEIGHT JOINT WEIGHT ...' for each vertex, joints from 0"},
     {"--source-skin", "FILE", PATH, FIELD(source_skin), 0, "the same of the source avatar, on the source rig"},
+    {"--output-skin", "FILE", PATH, FIELD(output_skin), 0,
+     "writes skin weights of the result on the target rig, up to 8 a vertex, in lines as above"},
+    {"--output-rig", "FILE", PATH, FIELD(output_rig), 0,
+     "writes the target rig with the garment's own joints, such as those of a skirt, after its own"},
+    {"--garment-skin", "FILE", PATH, FIELD(garment_skin), 0,
+     "skin weights of the garment on the source rig: what is on joints of its own comes along"},
     {"--joint-pairs", "FILE", PATH, FIELD(joint_pairs), 0,
      "joints of source rig and target rig that correspond, where the names do not say it: two\n"
      "numbers in a line, from 0"},
@@ -290,7 +296,7 @@ static bool check(const Options *options, Message *message) {
     }
     const char *outputs[] = {options->output, options->output_avatar, options->report,
                              options->distortion, options->keep_partial, options->partial_avatar,
-                             options->joint_map};
+                             options->joint_map, options->output_skin, options->output_rig};
     for (size_t a = 0; a < sizeof outputs / sizeof *outputs; a++) {
         for (size_t b = 0; b < a; b++) {
             if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {

@@ -20,6 +20,9 @@ typedef struct Options {
     const char *source_skin;
     const char *joint_pairs;
     const char *joint_map;
+    const char *output_skin;
+    const char *output_rig;
+    const char *garment_skin;
     const char *source_avatar;
     const char *skin_weights;
     const char *no_fit;

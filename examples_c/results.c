@@ -10,7 +10,7 @@ typedef BespokeStatus (*ReadVertices)(const BespokeSession *, const BespokeBuffe
 bool results_check(const Options *options, Message *message) {
     const char *paths[] = {options->output, options->output_avatar, options->distortion,
                            options->report, options->keep_partial, options->partial_avatar,
-                           options->joint_map};
+                           options->joint_map, options->output_skin, options->output_rig};
     for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
         if (paths[k] != NULL && !output_check(paths[k], message)) {
             return false;
@@ -59,6 +59,60 @@ static bool write_report(Output *output, const char *path, const Session *sessio
            output_finish(output, message);
 }
 
+/* What hosts take at most. */
+enum { INFLUENCES = 8 };
+
+static bool write_skin(Output *output, const char *path, Session *session, size_t count) {
+    uint32_t *joints = array_new(count, INFLUENCES * sizeof *joints);
+    float *weights = array_new(count, INFLUENCES * sizeof *weights);
+    bool good = joints != NULL && weights != NULL;
+    if (!good) {
+        fail(&session->message, "%s: the skin weights do not fit into memory", path);
+    }
+    good = good &&
+           session_good(session,
+                        bespoke_session_read_garment_skin_influences(session->handle, INFLUENCES, joints, weights, count,
+                                                                     NULL),
+                        NULL) &&
+           output_open(output, path, &session->message);
+    for (size_t v = 0; good && v < count; v++) {
+        for (size_t k = 0; k < INFLUENCES && (k == 0 || weights[v * INFLUENCES + k] > 0.0f); k++) {
+            fprintf(output->file, "%s%u %.9g", k > 0 ? " " : "", (unsigned)joints[v * INFLUENCES + k],
+                    (double)weights[v * INFLUENCES + k]);
+        }
+        fprintf(output->file, "\n");
+    }
+    free(joints);
+    free(weights);
+    return good && output_finish(output, &session->message);
+}
+
+/* The target rig, and after its joints those that the garment brings along. Their names are those of the source rig. */
+static bool write_rig(Output *output, const char *path, Session *session, const Rig *target, const Rig *source) {
+    size_t count = 0;
+    if (!session_good(session, bespoke_session_read_added_joints(session->handle, NULL, 0, &count), NULL)) {
+        return false;
+    }
+    BespokeAddedJoint *added = calloc(count > 0 ? count : 1, sizeof *added);
+    if (added == NULL) {
+        return fail(&session->message, "%s: the joints do not fit into memory", path);
+    }
+    const bool good =
+        session_good(session, bespoke_session_read_added_joints(session->handle, added, count, &count), NULL) &&
+        output_open(output, path, &session->message);
+    if (good) {
+        for (size_t k = 0; k < target->count; k++) {
+            rig_write_joint(output->file, target->joints[k].name, target->joints[k].parent, target->joints[k].bind);
+        }
+        for (size_t k = 0; k < count; k++) {
+            const char *name = added[k].source < source->count ? source->joints[added[k].source].name : "";
+            rig_write_joint(output->file, name, added[k].parent, added[k].bind);
+        }
+    }
+    free(added);
+    return good && output_finish(output, &session->message);
+}
+
 bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options, const char *status,
                    const char *said) {
     Output *outputs = results->outputs;
@@ -69,7 +123,10 @@ bool results_write(Results *results, Session *session, const Inputs *inputs, con
            (options->distortion == NULL ||
             write_distortion(&outputs[2], options->distortion, session, inputs->garment.triangle_count)) &&
            (options->report == NULL ||
-            write_report(&outputs[3], options->report, session, status, said, &session->message));
+            write_report(&outputs[3], options->report, session, status, said, &session->message)) &&
+           (options->output_skin == NULL ||
+            write_skin(&outputs[4], options->output_skin, session, inputs->garment.vertex_count)) &&
+           (options->output_rig == NULL || write_rig(&outputs[5], options->output_rig, session, &inputs->target_rig, &inputs->source_rig));
 }
 
 bool results_commit(Results *results, Message *message) {

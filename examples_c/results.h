@@ -7,8 +7,8 @@
 #include "output.h"
 #include "session.h"
 
-/* Garment, avatar, distortion, report. */
-#define RESULTS 4
+/* Garment, avatar, distortion, report, skin weights, rig. */
+#define RESULTS 6
 
 typedef struct Results {
     Output outputs[RESULTS];

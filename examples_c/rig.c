@@ -99,6 +99,14 @@ void rig_free(Rig *rig) {
     memset(rig, 0, sizeof *rig);
 }
 
+void rig_write_joint(FILE *file, const char *name, uint32_t parent, const double bind[BESPOKE_TRANSFORM_SIZE]) {
+    fprintf(file, "joint %s %ld", name, parent == BESPOKE_NO_JOINT ? -1L : (long)parent);
+    for (size_t k = 0; k < BESPOKE_TRANSFORM_SIZE; k++) {
+        fprintf(file, " %.17g", bind[k]);
+    }
+    fprintf(file, "\n");
+}
+
 static bool influences_parse(Influences *influences, const Text *text, const char *path, Message *message) {
     for (Line line = line_start(text); line_next(&line, text);) {
         const size_t words = count_in_line(&line);

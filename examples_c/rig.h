@@ -2,6 +2,8 @@
 #ifndef RIG_H
 #define RIG_H
 
+#include <stdio.h>
+
 #include "bespoke.h"
 #include "text.h"
 
@@ -15,6 +17,9 @@ typedef struct Rig {
 
 bool rig_read(Rig *rig, const char *path, Message *message);
 void rig_free(Rig *rig);
+
+/* One line of such a file. */
+void rig_write_joint(FILE *file, const char *name, uint32_t parent, const double bind[BESPOKE_TRANSFORM_SIZE]);
 
 /* One line a vertex: pairs of a joint and its weight. */
 typedef struct Influences {

@@ -774,6 +774,17 @@ typedef struct BespokeEnergy {
   double weight;
 } BespokeEnergy;
 
+/// A joint of the garment's own, which follows on those of the target rig.
+typedef struct BespokeAddedJoint {
+  /// The joint of the source rig that it is.
+  uint32_t source;
+  /// The joint that moves it: one of the target rig, or an added one, which are numbered on from there; BESPOKE_NO_JOINT
+  /// for a root.
+  uint32_t parent;
+  /// Its bind transform in the coordinate system of the target, as in BespokeJoint.
+  double bind[BESPOKE_TRANSFORM_SIZE];
+} BespokeAddedJoint;
+
 /// A vertex, triangle or bone of an input.
 typedef struct BespokeElement {
   /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
@@ -1213,6 +1224,37 @@ BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, 
 BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
+
+/// Writes skin weights of the result on the joints of the target rig, or on those of the target skeleton where no rig was
+/// set: those of the body beneath, where the garment lies along it, and smoothly on from there where it does not. Vertices
+/// of a rigid group have the same. With weights of the garment on its own joints (bespoke_session_set_garment_skin_influences),
+/// such as those of a skirt or a cape, these joints come along: see bespoke_session_read_added_joints.
+///
+/// `influences`: joints a vertex, such as 4 or 8. `joints`, `weights`: `vertices` times `influences` of each, vertex after
+/// vertex, the largest weight first; weights are not negative and sum to 1 for each vertex, and what a vertex does not need
+/// is joint 0 with weight 0. `vertices`: those that there is room for, at least the garment's. `*joint_count`, unless null:
+/// joints of the target rig and added joints together. State: DONE, with skin weights of the target avatar set. Errors:
+/// INVALID_ARGUMENT (null, no influences, too little room), INVALID_STATE, INVALID_WEIGHTS (the avatar's weights are all
+/// 0), CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_garment_skin_influences(const struct BespokeSession *session,
+                                                           size_t influences,
+                                                           uint32_t *joints,
+                                                           float *weights,
+                                                           size_t vertices,
+                                                           size_t *joint_count);
+
+/// Writes the garment's own joints: those of the source rig that move the garment, are no part of a body and have no
+/// counterpart in the target rig, with what is between them and the first joint above that has one. They are placed where the
+/// result has taken what they move.
+///
+/// `joints`: room for `capacity` of them, in the order of their numbers: the first is the number of joints of the target rig.
+/// The first that fit are written. May be null where `capacity` is 0. `*count`, unless null: how many there are. State: DONE,
+/// with skin weights of the target avatar set. Errors: INVALID_ARGUMENT (null with a capacity), INVALID_STATE,
+/// INVALID_WEIGHTS, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_added_joints(const struct BespokeSession *session,
+                                                struct BespokeAddedJoint *joints,
+                                                size_t capacity,
+                                                size_t *count);
 
 /// Writes the diagnostics about the inputs and the result: what prepare found, also where it failed, what holds the
 /// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so

@@ -31,6 +31,8 @@ pub mod control;
 
 pub mod results;
 
+pub mod rig_results;
+
 pub mod diagnostics;
 
 mod float_mode;

@@ -3,7 +3,7 @@
 //! The internal one is right-handed, in metres: x to the right, y up, z backwards (towards a viewer who looks forward),
 //! front faces counter-clockwise. It is also the default, so the default conversion is the identity.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -163,6 +163,13 @@ impl CoordinateSystem {
             sign * p[k]
         };
         DVec3::new(take(self.right), take(self.up), -take(self.forward)) * self.metres_per_unit
+    }
+
+    /// The map of [`Self::position_to_internal`], for transforms.
+    pub fn affine_to_internal(&self) -> DAffine3 {
+        let origin = self.position_to_internal(DVec3::ZERO);
+        let axis = |v: DVec3| self.position_to_internal(v) - origin;
+        DAffine3::from_cols(axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z), origin)
     }
 
     /// An internal position in the caller's coordinate system: the inverse of

@@ -41,6 +41,8 @@ pub struct MappedJoint {
     pub confidence: f64,
     /// What the counterpart follows from.
     pub reason: Reason,
+    /// It is no part of its own and helps one, as a joint that takes a share of a limb's twist does.
+    pub helps: bool,
 }
 
 /// The map from a source rig to a target rig.
@@ -103,7 +105,8 @@ impl JointMap {
                 _ => (None, 0.0, Reason::Nothing),
             });
             let part = part.or_else(|| to.part(target?).filter(|_| reason == Reason::Caller));
-            joints[joint as usize] = Some(MappedJoint { target, part, confidence, reason });
+            let helps = from.named[joint as usize] == Named::Twist;
+            joints[joint as usize] = Some(MappedJoint { target, part, confidence, reason, helps });
         }
         Ok(Self { joints: joints.into_iter().flatten().collect(), readings })
     }

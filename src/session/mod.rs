@@ -7,6 +7,7 @@ mod context;
 mod fault;
 mod field_task;
 mod fit_controls;
+mod garment_skin;
 mod inputs;
 mod on_the_way;
 mod plausibility;
@@ -19,8 +20,8 @@ mod verification;
 mod way;
 mod worker_pool;
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use glam::DVec3;
@@ -37,6 +38,7 @@ pub use crate::report::{Report, StageReport, TermReport, Verification};
 use context::Context;
 #[doc(hidden)]
 pub use fault::Fault;
+pub use garment_skin::GarmentSkin;
 use inputs::Inputs;
 pub use inputs::Pin;
 use run::Run;
@@ -73,6 +75,8 @@ pub struct Session {
     diagnostics: Vec<Diagnostic>,
     /// The verification of the result in the precision that is not the garment's own.
     other_precision: Option<(Precision, Verification)>,
+    /// The skin weights of the result, once they were asked for.
+    skin: OnceLock<Arc<GarmentSkin>>,
     panics: Arc<PanicLog>,
     fault: Option<Fault>,
     /// For tests: more threads than cores are not refused.
@@ -138,6 +142,11 @@ impl Session {
         self.run = Some(run);
         self.enter(Stage::Prepared);
         Ok(())
+    }
+
+    /// Requests to stop that a call has answered.
+    fn answered(&self) -> u64 {
+        self.answered.load(Ordering::Relaxed)
     }
 
     /// Records that a request to stop was answered, where `error` is that answer.
@@ -397,6 +406,7 @@ impl Session {
         self.report = Report::default();
         self.diagnostics.clear();
         self.other_precision = None;
+        self.skin = OnceLock::new();
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);
         self.enter(Stage::Setup);

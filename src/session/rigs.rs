@@ -94,14 +94,14 @@ impl Session {
 }
 
 /// A rig with its body in the internal coordinate system.
-struct PosedRig {
-    rig: Rig,
+pub(super) struct PosedRig {
+    pub(super) rig: Rig,
     body: Option<TriangleMesh>,
-    skin: Option<Arc<SkinWeights>>,
+    pub(super) skin: Option<Arc<SkinWeights>>,
 }
 
 impl PosedRig {
-    fn read(&self) -> Reading {
+    pub(super) fn read(&self) -> Reading {
         Reading::new(&self.rig, self.skin.as_deref())
     }
 
@@ -166,8 +166,18 @@ impl Inputs {
         }))
     }
 
+    /// The skin weights of the garment on the source rig, where the caller has set them.
+    pub(super) fn garment_skin(&self) -> Option<&SkinWeights> {
+        self.rigs.garment_skin.as_deref().filter(|_| self.rigs.source.is_some())
+    }
+
+    /// What the caller says of joints that correspond.
+    pub(super) fn joint_pairs(&self) -> &[CallersPair] {
+        &self.rigs.pairs
+    }
+
     /// Both rigs with what is known of their bodies.
-    fn posed_rigs(&self) -> Result<[PosedRig; 2]> {
+    pub(super) fn posed_rigs(&self) -> Result<[PosedRig; 2]> {
         let rigs = &self.rigs;
         let source = posed(
             [rigs.source.as_deref(), self.source_skeleton.as_deref().map(Rig::of_skeleton).as_ref()],
@@ -214,12 +224,5 @@ fn posed(given: [Option<&Rig>; 2], system: &CoordinateSystem, (side, call): (&st
             format!("the {side} rig is missing: call {call} before prepare and before the joint map is read"),
         ));
     };
-    let axis = |v: DVec3| (system.position_to_internal(v) - system.position_to_internal(DVec3::ZERO)).extend(0.0);
-    let map = DMat4::from_cols(
-        axis(DVec3::X),
-        axis(DVec3::Y),
-        axis(DVec3::Z),
-        system.position_to_internal(DVec3::ZERO).extend(1.0),
-    );
-    Ok(rig.mapped(map))
+    Ok(rig.mapped(DMat4::from(system.affine_to_internal())))
 }

@@ -86,6 +86,11 @@ impl Snapshot {
         problem.weld.scatter_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
     }
 
+    /// In which the target is read.
+    pub(super) fn coordinate_system(&self) -> &CoordinateSystem {
+        &self.coordinate_system
+    }
+
     fn restored(&self, p: DVec3) -> DVec3 {
         self.coordinate_system.position_from_internal(self.problem.target_normalization.restore(p))
     }

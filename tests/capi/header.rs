@@ -23,6 +23,7 @@ fn generated() -> String {
         "running",
         "control",
         "results",
+        "rig_results",
         "diagnostics",
     ];
     let builder = files.iter().fold(cbindgen::Builder::new().with_config(config), |builder, file| {

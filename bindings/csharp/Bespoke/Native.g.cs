@@ -183,6 +183,14 @@ namespace Bespoke
             SessionHandle session, uint index, NativeEnergy* energy);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_garment_skin_influences(
+            SessionHandle session, UIntPtr influences, uint* joints, float* weights, UIntPtr vertices, UIntPtr* jointCount);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_added_joints(
+            SessionHandle session, NativeAddedJoint* joints, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_diagnostics(
             SessionHandle session, NativeDiagnostic* diagnostics, UIntPtr capacity, UIntPtr* count);
     }

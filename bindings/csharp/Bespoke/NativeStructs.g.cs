@@ -178,6 +178,14 @@ namespace Bespoke
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeAddedJoint
+    {
+        internal uint source;
+        internal uint parent;
+        internal fixed double bind[NativeConstants.TransformSize];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal struct NativeElement
     {
         internal Subject subject;

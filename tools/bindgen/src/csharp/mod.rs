@@ -53,6 +53,7 @@ fn number(kind: &Type) -> Option<String> {
         "uint64_t" => "ulong",
         "size_t" => "UIntPtr",
         "double" => "double",
+        "float" => "float",
         _ => return None,
     };
     Some(name.to_string())
