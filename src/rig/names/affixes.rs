@@ -7,7 +7,7 @@ use super::vocabulary::Vocabulary;
 
 /// A word is shared where at least this part of the names has it.
 const SHARED: f64 = 0.6;
-/// The same for a number, which also tells one joint of a chain from the next.
+/// The same for a number, which also tells one joint of a chain from the next, and for a word with a meaning.
 const SHARED_NUMBER: f64 = 0.9;
 /// Fewer names share nothing.
 const LEAST: usize = 4;
@@ -54,11 +54,16 @@ fn shared<'a>(words: impl Iterator<Item = Option<&'a String>>, vocabulary: &Voca
         *counts.entry(word).or_insert(0usize) += 1;
         total += 1;
     }
-    let least = |word: &str| if is_number(word) { SHARED_NUMBER } else { SHARED };
     let (word, count) = counts.into_iter().max_by_key(|&(word, count)| (count, word))?;
-    let is_shared = count >= LEAST && count as f64 >= least(word) * total as f64;
-    // What means something stays: most joints of a hand have `hand` in their names.
-    (is_shared && !vocabulary.is_known(word)).then(|| word.clone())
+    // What means a part stays: most joints of a hand have `hand` in their names. What means something else is a name where
+    // nearly all have it, such as that of an archer.
+    let least = match vocabulary.is_known(word) {
+        true if vocabulary.is_body(word) => return None,
+        true => SHARED_NUMBER,
+        false if is_number(word) => SHARED_NUMBER,
+        false => SHARED,
+    };
+    (count >= LEAST && count as f64 >= least * total as f64).then(|| word.clone())
 }
 
 fn without_first(names: &[Vec<String>], vocabulary: &Vocabulary) -> Option<Vec<Vec<String>>> {
@@ -69,7 +74,9 @@ fn without_first(names: &[Vec<String>], vocabulary: &Vocabulary) -> Option<Vec<V
         _ => words.clone(),
     };
     let fewer: Vec<Vec<String>> = names.iter().map(fewer).collect();
-    (fewer != names).then_some(fewer)
+    // Where numbers are all that is left, the word was all that they said.
+    let say = fewer.iter().filter(|words| words.iter().any(|word| !is_number(word))).count();
+    (fewer != names && 2 * say > fewer.len()).then_some(fewer)
 }
 
 fn without_last(names: &[Vec<String>], vocabulary: &Vocabulary) -> Option<Vec<Vec<String>>> {

@@ -42,6 +42,7 @@ struct Table {
 impl Table {
     fn new(profile: &Profile) -> Self {
         let mut rows = HashMap::new();
+        let prefixes: Vec<Vec<String>> = profile.prefixes.iter().map(|prefix| Words::new(prefix).words).collect();
         for &(slot, names) in profile.rows {
             for (index, name) in names.split(',').map(str::trim).enumerate() {
                 let place = match slot {
@@ -49,10 +50,11 @@ impl Table {
                     Slot::Finger(_) => Place::Segment(index as u8 + 1),
                     _ => Place::Segment(0),
                 };
-                for prefix in std::iter::once("").chain(profile.prefixes.iter().copied()) {
-                    let words = Words::new(&format!("{prefix}_{}", name.replace('#', ANY)));
-                    let has_side = name.contains('*') || words.side.is_some();
-                    rows.entry((words.key(), has_side)).or_insert(Row { slot, place });
+                let Words { side, words } = Words::new(&name.replace('#', ANY));
+                let has_side = name.contains('*') || side.is_some();
+                for prefix in std::iter::once(&Vec::new()).chain(&prefixes) {
+                    let row = Row { slot, place };
+                    rows.entry((key(&[prefix.as_slice(), &words].concat()), has_side)).or_insert(row);
                 }
             }
         }

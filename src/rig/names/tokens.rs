@@ -39,11 +39,6 @@ impl Words {
         let words = words.into_iter().enumerate().filter(|(k, _)| !said.contains(k)).map(|(_, word)| word).collect();
         Self { side, words }
     }
-
-    /// The words without separators, which only keep two numbers apart.
-    pub fn key(&self) -> String {
-        key(&self.words)
-    }
 }
 
 /// Words without separators, which only keep two numbers apart.

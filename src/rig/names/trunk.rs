@@ -125,11 +125,19 @@ fn find_hips(reader: &mut Reader, legs: Option<u32>, arms: Option<u32>, head: Op
 }
 
 fn find_spine(reader: &mut Reader, arms: Option<u32>, mut head: Option<u32>) {
-    let necks = middle(reader, Slot::Neck);
     let mut spine: Vec<(u32, Claim)> = middle(reader, Slot::Trunk);
     let unsaid: Vec<u32> = spine.iter().map(|&(joint, _)| joint).collect();
     spine.extend(middle(reader, Slot::Spine).into_iter().filter(|(joint, _)| !unsaid.contains(joint)));
     spine.sort_by_key(|&(joint, _)| (reader.tree.depth[joint as usize], joint));
+    let mut necks = middle(reader, Slot::Neck);
+    let hips = reader.joint_of(BodyPart::Hips);
+    let on_trunk = |joint: u32| {
+        let trunk = spine.iter().map(|&(joint, _)| joint).chain(hips).chain(arms);
+        trunk.into_iter().any(|other| reader.tree.is_above(other, joint) || arms == Some(joint))
+    };
+    if necks.iter().any(|&(joint, _)| on_trunk(joint)) {
+        necks.retain(|&(joint, _)| on_trunk(joint));
+    }
     // Beyond the arms it is neck, where nothing else is called so.
     let is_beyond = |joint: u32| arms.is_some_and(|arms| reader.tree.is_above(arms, joint));
     let is_below_head = |joint: u32| head.is_none_or(|head| reader.tree.is_above(joint, head));
@@ -161,7 +169,6 @@ fn find_spine(reader: &mut Reader, arms: Option<u32>, mut head: Option<u32>) {
         }
     }
     let upper: Vec<u32> = arms.into_iter().chain(head).chain(chain.iter().map(|&(joint, _)| joint)).collect();
-    let hips = reader.joint_of(BodyPart::Hips);
     for (joint, claim) in spine {
         let leads = upper.is_empty() || upper.iter().any(|&upper| reader.tree.holds(joint, upper));
         let holds_hips = hips.is_some_and(|hips| reader.tree.is_above(joint, hips));

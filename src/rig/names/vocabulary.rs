@@ -205,6 +205,12 @@ impl Vocabulary {
         self.entries.get(word).is_some_and(|entry| !entry.is_noise && !entry.is_weak_control)
     }
 
+    /// Whether a word is about a part of the body.
+    pub fn is_body(&self, word: &str) -> bool {
+        let entry = self.entry(word);
+        entry.is_piece || entry.is_end || !entry.parts.is_empty() || entry.finger.is_some() || entry.segment.is_some()
+    }
+
     /// Reads the words of a name that has a side, or none.
     pub fn read(&self, words: &[String], has_side: bool) -> Meaning {
         let number = words.iter().rev().find(|word| is_number(word)).and_then(|word| word.parse().ok());

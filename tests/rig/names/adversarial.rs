@@ -123,6 +123,14 @@ fn nonsense_is_unknown() {
     assert!(read(&[], &[]).joints.is_empty());
 }
 
+#[test]
+fn strands_stay_what_they_are() {
+    let names: Vec<String> = (0..12).map(|k| format!("Hair_{k:02}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let parents: Vec<Option<u32>> = (0..12u32).map(|k| k.checked_sub(1)).collect();
+    assert!(read(&names, &parents).joints.iter().all(|named| *named == Named::Secondary));
+}
+
 /// Ten thousand joints in one chain, all with the same name, and all with different ones.
 #[test]
 fn many_joints() {

@@ -53,6 +53,13 @@ pub fn without(joints: &[Joint], leaves: impl Fn(usize, &Joint) -> bool) -> Vec<
     left
 }
 
+/// With another joint of the name of each part, which hangs on nothing: as where meshes and joints have the same names.
+pub fn doubled(joints: &[Joint]) -> Vec<Joint> {
+    let parts = joints.iter().filter(|joint| matches!(joint.named, Named::Part(_)));
+    let doubles = parts.map(|joint| Joint { parent: None, named: Named::Unknown, ..joint.clone() });
+    joints.iter().cloned().chain(doubles).collect()
+}
+
 /// The indices of the joints that are `part`.
 pub fn of(joints: &[Joint], part: BodyPart) -> Vec<usize> {
     (0..joints.len()).filter(|&index| joints[index].named == Named::Part(part)).collect()
