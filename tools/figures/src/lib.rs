@@ -11,5 +11,6 @@ pub mod measure;
 pub mod resolution;
 pub mod shells;
 pub mod skeleton_edits;
+pub mod skin_weights;
 pub mod stress;
 pub mod transfer;

@@ -12,13 +12,15 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use figures::figure::{Figure, Outcome};
-use figures::{clearance, comparison, curve_term, fit_weight, layers, resolution, shells, skeleton_edits, stress};
+use figures::{
+    clearance, comparison, curve_term, fit_weight, layers, resolution, shells, skeleton_edits, skin_weights, stress,
+};
 
 /// The name of a figure, and what makes it.
 type Maker = (&'static str, fn() -> Outcome<Figure>);
 
 /// All of them.
-const FIGURES: [Maker; 9] = [
+const FIGURES: [Maker; 10] = [
     ("layers", layers::figure),
     ("stress", stress::figure),
     ("fit-weight", fit_weight::figure),
@@ -27,10 +29,11 @@ const FIGURES: [Maker; 9] = [
     ("resolution", resolution::figure),
     ("clearance", clearance::figure),
     ("shells", shells::figure),
+    ("skin-weights", skin_weights::figure),
     ("comparison", comparison::figure),
 ];
 
-const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [comparison]";
+const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [comparison]";
 
 fn main() -> ExitCode {
     let mut out = PathBuf::from("build/gallery/figures");

@@ -85,10 +85,10 @@ impl Puppet {
     }
 }
 
-/// Intersecting pairs of triangles.
+/// Pairs of triangles that intersect in a pose, and not in the bind pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Within the garment, less those of the bind pose.
+    /// Within the garment.
     pub own: u64,
     /// Of garment and body, where the body does not pass through itself.
     pub body: u64,
@@ -117,17 +117,19 @@ pub fn counts(
         triangles: mesh.triangles.clone(),
     };
     let pairs =
-        |a: &TriangleMesh, b: Option<&TriangleMesh>| intersections(a, b, usize::MAX).expect("finite coordinates");
+        |a: &TriangleMesh, b: Option<&TriangleMesh>| intersections(a, b, usize::MAX).expect("finite coordinates").pairs;
+    // Those that are there in the bind pose are not the pose's.
+    let fresh = |posed: Vec<[u32; 2]>, bound: Vec<[u32; 2]>| {
+        let bound: HashSet<[u32; 2]> = bound.into_iter().collect();
+        posed.into_iter().filter(move |pair| !bound.contains(pair))
+    };
     let (cloth, under) = (posed(garment, weights), posed(body, skin));
-    // What passes through itself in the bind pose already does not fold because of the pose.
-    let bound: HashSet<[u32; 2]> = pairs(body, None).pairs.into_iter().collect();
     let mut folded = vec![false; body.triangles.len()];
-    let fresh = pairs(&under, None).pairs.into_iter().filter(|pair| !bound.contains(pair));
-    fresh.flatten().for_each(|t| folded[t as usize] = true);
-    let (folds, others): (Vec<_>, Vec<_>) =
-        pairs(&cloth, Some(&under)).pairs.into_iter().partition(|p| folded[p[1] as usize]);
+    fresh(pairs(&under, None), pairs(body, None)).flatten().for_each(|t| folded[t as usize] = true);
+    let with_body = fresh(pairs(&cloth, Some(&under)), pairs(garment, Some(body)));
+    let (folds, others): (Vec<_>, Vec<_>) = with_body.partition(|pair| folded[pair[1] as usize]);
     Counts {
-        own: pairs(&cloth, None).count.saturating_sub(pairs(garment, None).count),
+        own: fresh(pairs(&cloth, None), pairs(garment, None)).count() as u64,
         body: others.len() as u64,
         folds: folds.len() as u64,
     }
