@@ -13,7 +13,7 @@ use super::reading::moves;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::Diagnostic;
 use crate::input::rig::Rig;
-use crate::input::skeleton::Skeleton;
+use crate::input::skeleton::{MAX_JOINTS, Skeleton};
 use crate::input::skin::SkinWeights;
 
 /// What a joint of the common skeleton stands for.
@@ -187,6 +187,16 @@ impl Builder {
                 ),
             ));
         }
+        if joints.len() > MAX_JOINTS {
+            return Err(Error::new(
+                ErrorKind::InvalidSkeleton,
+                format!(
+                    "rigs: {} joints of the source rig and the target rig correspond, at most {MAX_JOINTS} can be used; leave \
+                     out joints that move nothing",
+                    joints.len()
+                ),
+            ));
+        }
         let mut bones = Vec::new();
         for (joint, above) in (0u32..).zip(&above) {
             let above = above.and_then(|above| match above {
@@ -194,9 +204,8 @@ impl Builder {
                 Node::Joint(joint) => from[joint as usize],
             });
             // What hangs on nothing hangs on the first: a skeleton is in one piece.
-            match above.filter(|&above| above != joint).or(Some(0).filter(|_| joint != 0)) {
-                Some(above) => bones.push([above, joint]),
-                None => {}
+            if let Some(above) = above.filter(|&above| above != joint).or(Some(0).filter(|_| joint != 0)) {
+                bones.push([above, joint]);
             }
         }
         let source = Skeleton { joints: source, bones: bones.clone() };

@@ -81,14 +81,16 @@ impl JointMap {
         let taken: std::collections::HashSet<u32> = pairs.iter().filter_map(|pair| pair.1).collect();
         let by_name = same_names(source, target, &readings);
         let [from, to] = &readings;
+        let order = source.parents_first("source rig")?;
+        let parts = [Parts::new(source, from, &order), Parts::new(target, to, &target.parents_first("target rig")?)];
         let mut joints = vec![None; source.joints.len()];
-        for joint in source.parents_first("source rig")? {
+        for joint in order {
             let part = from.part(joint);
             let sure = from.confidence[joint as usize];
             let found = if let Some(&target) = callers.get(&joint) {
                 Some((target, 1.0, Reason::Caller))
             } else if let Some(part) = part {
-                counterpart(part, joint, [source, target], &readings)
+                counterpart(part, joint, &parts, &readings)
                     .filter(|(target, ..)| !taken.contains(target))
                     .map(|(target, confidence, reason)| (Some(target), confidence.min(sure), reason))
             } else {
@@ -135,17 +137,41 @@ fn check_pairs(source: &Rig, target: &Rig, pairs: &[CallersPair]) -> Result<()> 
     Ok(())
 }
 
+/// The joints of a rig by the parts that they are.
+struct Parts {
+    /// The joints of each part, those with fewer joints above them first.
+    joints: HashMap<BodyPart, Vec<u32>>,
+    /// The place of each joint among those of its part.
+    at: Vec<usize>,
+}
+
+impl Parts {
+    /// Those of `rig`; `order` has each joint after its parent.
+    fn new(rig: &Rig, reading: &Reading, order: &[u32]) -> Self {
+        let mut depth = vec![0_usize; rig.joints.len()];
+        for &joint in order {
+            depth[joint as usize] = rig.joints[joint as usize].parent.map_or(0, |above| depth[above as usize] + 1);
+        }
+        let mut joints: HashMap<BodyPart, Vec<u32>> = HashMap::new();
+        for joint in 0..rig.joints.len() as u32 {
+            if let Some(part) = reading.part(joint) {
+                joints.entry(part).or_default().push(joint);
+            }
+        }
+        let mut at = vec![0; rig.joints.len()];
+        for list in joints.values_mut() {
+            list.sort_by_key(|&joint| depth[joint as usize]);
+            list.iter().enumerate().for_each(|(place, &joint)| at[joint as usize] = place);
+        }
+        Self { joints, at }
+    }
+}
+
 /// The joint of the target rig that is the same part.
-fn counterpart(part: BodyPart, joint: u32, rigs: [&Rig; 2], readings: &[Reading; 2]) -> Option<(u32, f64, Reason)> {
+fn counterpart(part: BodyPart, joint: u32, parts: &[Parts; 2], readings: &[Reading; 2]) -> Option<(u32, f64, Reason)> {
     let [from, to] = readings;
-    let (mut own, mut others): (Vec<u32>, Vec<u32>) = (from.joints_of(part).collect(), to.joints_of(part).collect());
-    if others.is_empty() {
-        return None;
-    }
-    for (list, rig) in [(&mut own, rigs[0]), (&mut others, rigs[1])] {
-        list.sort_by_cached_key(|&joint| depth(rig, joint));
-    }
-    let at = own.iter().position(|&other| other == joint)?;
+    let (own, others) = (parts[0].joints.get(&part)?, parts[1].joints.get(&part)?);
+    let at = parts[0].at[joint as usize];
     // The first to the first, the last to the last.
     let place = if own.len() == 1 {
         0
@@ -163,12 +189,6 @@ fn counterpart(part: BodyPart, joint: u32, rigs: [&Rig; 2], readings: &[Reading;
     };
     let evenly = if own.len() == others.len() { 1.0 } else { 0.9 };
     Some((target, evenly * confidence, reason))
-}
-
-/// How many joints lie above one.
-fn depth(rig: &Rig, joint: u32) -> usize {
-    let up = |&joint: &u32| rig.joints[joint as usize].parent;
-    std::iter::successors(Some(joint), up).take(rig.joints.len()).count()
 }
 
 /// Joints that are no part of a body and have the same name, which no other has, in both rigs.

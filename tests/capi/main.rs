@@ -14,5 +14,6 @@ mod meshes;
 mod options;
 mod results;
 mod retarget;
+mod rigs;
 mod states;
 mod threads;

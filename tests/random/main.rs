@@ -1,6 +1,7 @@
 //! Properties of random retargets and random meshes. A failure is kept as a seed in `regressions.txt` beside this file.
 
 mod bad_meshes;
+mod bad_rigs;
 mod outcomes;
 mod step_verifier;
 mod steps;

@@ -1,6 +1,7 @@
 //! Rigs of real characters.
 
 mod blend;
+mod large;
 mod limbs;
 mod names;
 mod own_joints;

@@ -126,7 +126,7 @@ unsafe fn diagnostics(session: *const BespokeSession) {
     known("read_diagnostics", status, BespokeStatus::Ok);
     for (k, diagnostic) in list.iter().enumerate() {
         assert_eq!(diagnostic.kind != 0, k < count, "as many as there are, or as fit, are written");
-        assert!(diagnostic.kind <= BespokeDiagnosticKind::RimsNotFound as u32);
+        assert!(diagnostic.kind <= BespokeDiagnosticKind::JointsUnsure as u32);
         assert!(diagnostic.severity <= BespokeSeverity::Error as u32);
         let used = diagnostic.element_count as usize;
         assert!(used <= diagnostic.elements.len());
@@ -149,7 +149,7 @@ unsafe fn stage(session: *const BespokeSession) -> u32 {
     progress.struct_size = size_of::<BespokeProgress>() as u32;
     // SAFETY: the session is alive and the struct as large as it says.
     known("read_progress", unsafe { bespoke_session_read_progress(session, &mut progress) }, BespokeStatus::Ok);
-    assert!(progress.stage <= BespokeStage::Cancelled as u32);
+    assert!(progress.stage <= BespokeStage::Repose as u32);
     assert!((0.0..=1.0).contains(&progress.t) && progress.energy_count as usize <= progress.energies.len());
     progress.stage
 }

@@ -17,6 +17,7 @@ use bespoke::capi::view::{BespokeBuffer, BespokeView};
 
 use super::array::Array;
 use super::caller::{after, known, no_options};
+use super::rigs;
 use super::shape::{Shape, bones, joints};
 use super::source::Source;
 
@@ -126,7 +127,8 @@ impl Program {
             9 => self.set_weights(session, source),
             10 => self.set_space(session, source),
             11 => self.set_options(session, source),
-            12..15 => self.set_sample(session, source),
+            12 | 13 => self.set_sample(session, source),
+            14 => rigs::call(session, source),
             15..22 => self.work(session, source),
             22 => self.run_and_cancel(session, source),
             // SAFETY: as above.
@@ -361,7 +363,7 @@ impl Program {
                     let status = bespoke_session_step(session, iterations, milliseconds, &mut stage);
                     after(session, "step", status);
                     assert_eq!(stage == u32::MAX, session.is_null());
-                    assert!(session.is_null() || stage <= BespokeStage::Cancelled as u32);
+                    assert!(session.is_null() || stage <= BespokeStage::Repose as u32);
                 }
                 4 => drop(after(session, "run", bespoke_session_run(session))),
                 _ => {

@@ -8,6 +8,7 @@ mod buffers;
 mod caller;
 mod calls;
 mod meshes;
+mod rigs;
 mod shape;
 mod source;
 
