@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "curves.h"
 #include "joint_map.h"
 #include "numbers.h"
 #include "parts.h"
@@ -214,7 +215,8 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
            (options->joint_map == NULL || joint_map_write(session, inputs, options->joint_map)) &&
            (options->no_fit == NULL || set_no_fit(session, options->no_fit)) &&
            (options->pins == NULL || set_pins(session, options->pins)) &&
-           (options->rigid == NULL || add_rigid_groups(session, options->rigid));
+           (options->rigid == NULL || add_rigid_groups(session, options->rigid)) &&
+           (options->curves == NULL || curves_add(session, options->curves));
 }
 
 void inputs_free(Inputs *inputs) {

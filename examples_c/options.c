@@ -87,6 +87,9 @@ static const Entry entries[] = {
      "the vertex and the x y z where it is to be; the same in all lines"},
     {"--rigid", "FILE", PATH, FIELD(rigid), 0,
      "groups of garment vertices (from 0) that stay rigid, such as buttons: a line for each"},
+    {"--curves", "FILE", PATH, FIELD(curves), 0,
+     "curves along edges of the garment that keep shape and place, such as a neckline: a line for\n"
+     "each, open or closed, factors on --curve-weight and --position-weight, vertices (from 0)"},
     {"", "", TEXT, 0, 0, "\nHow it fits:\n"},
     {"--fit-weight", "W", WEIGHT, FIELD(library.fit_weight), 0, "how tight (2); 0 switches the term off"},
     {"--designed-clearance", "X", WEIGHT, FIELD(library.designed_clearance), 0,

@@ -28,6 +28,7 @@ typedef struct Options {
     const char *no_fit;
     const char *pins;
     const char *rigid;
+    const char *curves;
     /* Where struct_size is 0, none is told. */
     BespokeCoordinateSystem source_space;
     BespokeCoordinateSystem target_space;

@@ -1061,6 +1061,32 @@ BespokeStatus bespoke_session_add_rigid_group(struct BespokeSession *session, co
 /// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_rigid_groups(struct BespokeSession *session);
 
+/// Optional: a curve along edges of the garment, such as a neckline, a seam line or the rim of a lined sleeve, that keeps
+/// its shape and its place along the bones. Each call adds one; they are numbered from 0. One that runs through the
+/// vertices of a boundary curve, in their order either way around, takes its place: so a neckline can be held more, and a
+/// cuff less.
+///
+/// `vertices`: garment vertices, from 0, in the order of the curve, each once, U16 or U32; of vertices in one place any
+/// will do. `closed`: 1 where the last is joined to the first, else 0. `curve_weight`: factor on
+/// BespokeOptions.curvature_weight and torsion_weight, up to 1e6: 1 as for a boundary curve, 0 for none.
+/// `position_weight`: the same for BespokeOptions.position_weight. A closed curve keeps its place along the bone that
+/// goes through it, or the mean of several; each vertex of an open one, and of one that is too small and too far from
+/// the bones to be an opening, keeps its place along the bone nearest to it. On a piece that is held to another one, or
+/// carried, it has no place of its own. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (fewer
+/// than two vertices, or three where it is closed, one listed twice, a weight out of range; found by
+/// bespoke_session_prepare: a vertex that the garment does not have, two in a row that no edge joins, a place passed
+/// twice, an earlier curve once more), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_add_curve(struct BespokeSession *session,
+                                        const struct BespokeView *vertices,
+                                        uint32_t closed,
+                                        double curve_weight,
+                                        double position_weight);
+
+/// Removes all curves that were added.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_curves(struct BespokeSession *session);
+
 /// Optional: a garment that the avatar wears already, such as one that was read from another session. It joins the avatar as
 /// an obstacle that keeps its shape: the garment of this session fits over avatar and layers, and is verified against both.
 /// Each call adds one layer; they are numbered from 0, and stay until bespoke_session_clear_layers, also when another avatar

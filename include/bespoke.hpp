@@ -1378,6 +1378,15 @@ public:
     /// Removes all rigid groups.
     Result<void> clear_rigid_groups() { return call(bespoke_session_clear_rigid_groups); }
 
+    /// Optional: a curve along edges of the garment, its vertices in order, that keeps its shape and its place along the
+    /// bones; the weights are factors, 1 as for a boundary curve. Each call adds a curve.
+    Result<void> add_curve(Indices vertices, bool closed, double curve_weight = 1.0, double position_weight = 1.0) {
+        return set(bespoke_session_add_curve, "curve", vertices, closed ? 1u : 0u, curve_weight, position_weight);
+    }
+
+    /// Removes all curves that were added.
+    Result<void> clear_curves() { return call(bespoke_session_clear_curves); }
+
     /// Optional: what each triangle of the avatar is to the garment, a number of PartRole for each.
     Result<void> set_avatar_parts(Indices roles) {
         return set(bespoke_session_set_avatar_parts, "avatar parts", roles);

@@ -1,11 +1,11 @@
-//! An artist's controls of the fit: weights, pins, rigid groups.
+//! An artist's controls of the fit: weights, pins, rigid groups, curves.
 
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, BespokeView, invalid};
 use crate::error::{Error, ErrorKind};
 use crate::input::buffer;
-use crate::session::Pin;
+use crate::session::{Curve, Pin};
 
 /// Optional: how strongly each garment vertex is drawn to the body, relative to the others. 1 everywhere by default;
 /// 0: not at all.
@@ -123,4 +123,50 @@ pub unsafe extern "C" fn bespoke_session_add_rigid_group(
 pub unsafe extern "C" fn bespoke_session_clear_rigid_groups(session: *mut BespokeSession) -> BespokeStatus {
     // SAFETY: passed on from the caller.
     unsafe { call(session, |session| session.clear_rigid_groups()) }
+}
+
+const CURVE: &str = "curve";
+
+/// Optional: a curve along edges of the garment, such as a neckline, a seam line or the rim of a lined sleeve, that keeps
+/// its shape and its place along the bones. Each call adds one; they are numbered from 0. One that runs through the
+/// vertices of a boundary curve, in their order either way around, takes its place: so a neckline can be held more, and a
+/// cuff less.
+///
+/// `vertices`: garment vertices, from 0, in the order of the curve, each once, U16 or U32; of vertices in one place any
+/// will do. `closed`: 1 where the last is joined to the first, else 0. `curve_weight`: factor on
+/// BespokeOptions.curvature_weight and torsion_weight, up to 1e6: 1 as for a boundary curve, 0 for none.
+/// `position_weight`: the same for BespokeOptions.position_weight. A closed curve keeps its place along the bone that
+/// goes through it, or the mean of several; each vertex of an open one, and of one that is too small and too far from
+/// the bones to be an opening, keeps its place along the bone nearest to it. On a piece that is held to another one, or
+/// carried, it has no place of its own. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (fewer
+/// than two vertices, or three where it is closed, one listed twice, a weight out of range; found by
+/// bespoke_session_prepare: a vertex that the garment does not have, two in a row that no edge joins, a place passed
+/// twice, an earlier curve once more), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_add_curve(
+    session: *mut BespokeSession,
+    vertices: *const BespokeView,
+    closed: u32,
+    curve_weight: f64,
+    position_weight: f64,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        call(session, |session| {
+            if closed > 1 {
+                return invalid(format!("{CURVE}: closed is {closed}; it is 0 or 1"));
+            }
+            let vertices = buffer::read_indices(&view::indices(vertices, CURVE)?, 1, CURVE)?;
+            session.add_curve(Curve { vertices, closed: closed == 1, curve_weight, position_weight })
+        })
+    }
+}
+
+/// Removes all curves that were added.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_clear_curves(session: *mut BespokeSession) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| session.clear_curves()) }
 }

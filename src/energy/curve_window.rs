@@ -34,11 +34,13 @@ pub struct Polyline<'a> {
     pub vertices: &'a [u32],
     /// True where the last vertex is joined to the first.
     pub closed: bool,
+    /// What its part of an energy is multiplied by.
+    pub weight: f64,
 }
 
 impl<'a> From<&'a BoundaryLoop> for Polyline<'a> {
     fn from(boundary: &'a BoundaryLoop) -> Self {
-        Self { vertices: &boundary.vertices, closed: true }
+        Self { vertices: &boundary.vertices, closed: true, weight: 1.0 }
     }
 }
 
@@ -65,7 +67,7 @@ impl CurvePoint {
 }
 
 impl Polyline<'_> {
-    /// Calls `visit` with every N points in a row and the length of curve that they stand for: points a `chord` apart, or
+    /// Calls `visit` with every N points in a row and the length of curve that they stand for, times its weight: points a `chord` apart, or
     /// where that is 0 the vertices. N is at least 3.
     ///
     /// A closed curve of fewer than three vertices has none, and one of exactly three meets its first vertex again as the
@@ -81,7 +83,7 @@ impl Polyline<'_> {
         }
         let mut keep = |points: [CurvePoint; N], weight: f64| {
             if points.iter().zip(&points[2..]).all(|(a, b)| a != b) {
-                visit(points, weight);
+                visit(points, weight * self.weight);
             }
         };
         match Arc::new(self, rest) {

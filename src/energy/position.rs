@@ -87,12 +87,18 @@ impl Position {
     /// `constraints` are pairs of a vertex and an index into `axes`; `weights` holds one value for each
     /// vertex of the garment, the mean rest length of its edges. An axis without length at t = 0 constrains nothing.
     pub fn new(rest: &[DVec3], constraints: &[(u32, u32)], axes: Vec<MovingAxis>, weights: &[f64]) -> Self {
+        let constraints: Vec<(u32, u32, f64)> = constraints.iter().map(|&(v, axis)| (v, axis, 1.0)).collect();
+        Self::weighted(rest, &constraints, axes, weights)
+    }
+
+    /// The same with a factor on the weight of each constraint.
+    pub fn weighted(rest: &[DVec3], constraints: &[(u32, u32, f64)], axes: Vec<MovingAxis>, weights: &[f64]) -> Self {
         let constraints = constraints
             .iter()
-            .filter_map(|&(vertex, index)| {
+            .filter_map(|&(vertex, index, factor)| {
                 let axis = Axis::new(&axes[index as usize], 0.0)?;
                 let coordinate = axis.coordinate(rest[vertex as usize]);
-                Some(Constraint { vertex, axis: index, coordinate, weight: weights[vertex as usize] })
+                Some(Constraint { vertex, axis: index, coordinate, weight: factor * weights[vertex as usize] })
             })
             .collect();
         Self { constraints, axes }

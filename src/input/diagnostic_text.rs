@@ -57,7 +57,8 @@ impl Display for Diagnostic {
                     f,
                     "garment: the piece of {triangles} triangles with triangle {triangle} is closed, around the bone between joints \
                      {a} and {b}, and no cuff, hem or collar of it was found; nothing keeps its openings in their places along \
-                     the bones; model it without its inner side, or leave its openings open"
+                     the bones; name them with add_curve, or model it \
+                     without its inner side"
                 )
             }
             Self::WeldedNear { places, first, gap } => {

@@ -3,6 +3,7 @@
 pub mod body;
 pub mod buffer;
 pub mod coordinate_system;
+pub mod curve;
 pub mod diagnostic;
 pub mod diagnostic_facts;
 pub mod diagnostic_text;

@@ -12,6 +12,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::{AxisTurn, CoordinateSystem};
+use crate::input::curve::Curve;
 use crate::input::diagnostic::{Diagnostic, Subject};
 use crate::input::placement;
 use crate::input::placement::scene::Scene;
@@ -50,6 +51,7 @@ pub(super) struct Inputs {
     fit_weights: Option<Arc<[f64]>>,
     pub(super) pins: Vec<Pin>,
     pub(super) rigid_groups: Vec<Arc<[u32]>>,
+    pub(super) curves: Vec<Arc<Curve>>,
     pub(super) source_coordinate_system: CoordinateSystem,
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
@@ -285,7 +287,8 @@ impl Inputs {
         let weights = self.fit_weights.as_ref().map_or(0, |w| size_of_val(&w[..]) as u64);
         let skin = self.skin.as_ref().map_or(0, |skin| skin.memory());
         let groups: u64 = self.rigid_groups.iter().map(|group| size_of_val(&group[..]) as u64).sum();
-        let controls = weights + bytes(&self.pins) + groups;
+        let curves: u64 = self.curves.iter().map(|curve| bytes(&curve.vertices)).sum();
+        let controls = weights + bytes(&self.pins) + groups + curves;
         meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin + self.rigs.memory()
     }
 
@@ -402,6 +405,7 @@ impl Inputs {
         let target_system = told.turned(turn);
         let pins = self.welded_pins(weld, &target_system)?;
         let rigid_groups = self.welded_groups(weld)?;
+        let curves = self.welded_curves(weld)?;
         let roles = self.resolve_roles(avatar, target, diagnostics)?;
         let body = Body::with_roles(avatar, &stand.layers, &roles)?;
         let posed_body = body.with_mesh(mesh_to_internal(&target_system, &body.mesh));
@@ -430,6 +434,7 @@ impl Inputs {
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &pins,
                 rigid_groups: &rigid_groups,
+                curves: &curves,
                 offset: target_system.metres_per_unit * self.options.offset,
                 weld: weld.clone(),
                 coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),

@@ -4,6 +4,7 @@
 //! snapshot that can be read is kept apart from them: it is replaced after each iteration, and stays when a job is abandoned.
 
 mod context;
+mod curves;
 mod fault;
 mod field_task;
 mod fit_controls;
@@ -30,6 +31,7 @@ pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
 pub use crate::input::body::PartRole;
+pub use crate::input::curve::Curve;
 use crate::input::diagnostic::Diagnostic;
 pub use crate::input::precision::Precision;
 pub use crate::options::Options;

@@ -44,6 +44,8 @@ fn null_sessions_are_refused() {
             bespoke_session_set_pinned_vertices(session, &t, null()),
             bespoke_session_add_rigid_group(session, &t),
             bespoke_session_clear_rigid_groups(session),
+            bespoke_session_add_curve(session, &t, 0, 1.0, 1.0),
+            bespoke_session_clear_curves(session),
             bespoke_session_set_source_coordinate_system(session, null()),
             bespoke_session_set_target_coordinate_system(session, null()),
             bespoke_session_set_options(session, &no_options()),
@@ -89,6 +91,7 @@ fn null_views_and_null_data_are_named() {
         refused(bespoke_session_set_target_skin_influences(caller.session, null(), &p, 1, 1), "skin weights");
         refused(bespoke_session_set_vertex_fit_weights(caller.session, null()), "fit weights");
         refused(bespoke_session_set_no_fit_vertices(caller.session, null()), "no-fit vertices");
+        refused(bespoke_session_add_curve(caller.session, null(), 0, 1.0, 1.0), "curve");
         refused(bespoke_session_set_source_coordinate_system(caller.session, null()), "source coordinate system");
         refused(bespoke_session_set_target_coordinate_system(caller.session, null()), "target coordinate system");
         refused(bespoke_session_set_options(caller.session, null()), "options");

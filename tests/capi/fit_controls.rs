@@ -1,4 +1,4 @@
-//! Pins and rigid groups, as a C program sets them.
+//! Pins, rigid groups and curves, as a C program sets them.
 
 use std::ptr::null;
 
@@ -103,4 +103,47 @@ fn bad_pins_and_groups_are_refused() {
     caller.accepted(prepare(&caller));
     caller.refused(pin(&caller, &[0], &[[0.0; 3]]), BespokeStatus::InvalidState, &["reset"]);
     caller.refused(rigid(&caller, &[0]), BespokeStatus::InvalidState, &["reset"]);
+}
+
+#[test]
+fn curves_are_added_cleared_and_refused() {
+    let (caller, sample) = Caller::with_sample();
+    let add = |vertices: &[u32], closed: u32, weights: [f64; 2]| {
+        let view = view(vertices, BespokeComponent::U32);
+        // SAFETY: the view is valid.
+        unsafe { bespoke_session_add_curve(caller.session, &view, closed, weights[0], weights[1]) }
+    };
+    let ring: Vec<u32> = (0..16).collect();
+    caller.refused(add(&ring, 2, [1.0; 2]), InvalidArgument, &["closed is 2"]);
+    caller.refused(add(&ring[..2], 1, [1.0; 2]), InvalidArgument, &["curve 0", "closed"]);
+    caller.refused(add(&ring[..1], 0, [1.0; 2]), InvalidArgument, &["curve 0", "open"]);
+    caller.refused(add(&[4, 5, 4], 0, [1.0; 2]), InvalidArgument, &["vertex 4", "twice"]);
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        caller.refused(add(&ring, 1, [bad, 1.0]), InvalidArgument, &["curve 0", "curve weight"]);
+        caller.refused(add(&ring, 1, [1.0, bad]), InvalidArgument, &["curve 0", "position weight"]);
+    }
+    caller.accepted(add(&[3, 5], 0, [1.0; 2]));
+    caller.refused(prepare(&caller), InvalidArgument, &["curve 0", "vertices 3 and 5"]);
+    // SAFETY: the session is alive.
+    let clear = || unsafe { bespoke_session_clear_curves(caller.session) };
+    caller.accepted(clear());
+    caller.accepted(add(&[0, 60_000], 0, [1.0; 2]));
+    caller.refused(prepare(&caller), InvalidArgument, &["curve 0", "vertex 60000"]);
+    caller.accepted(clear());
+    // The same boundary twice, once the other way around.
+    caller.accepted(add(&ring, 1, [2.0, 0.5]));
+    caller.accepted(add(&ring.iter().rev().copied().collect::<Vec<_>>(), 1, [1.0; 2]));
+    caller.refused(prepare(&caller), InvalidArgument, &["curve 1", "curve 0"]);
+    caller.accepted(clear());
+    let plain = result(&caller, sample.garment.0.len());
+    caller.refused(clear(), BespokeStatus::InvalidState, &["reset"]);
+    // SAFETY: the session is alive.
+    unsafe { caller.accepted(bespoke_session_reset(caller.session)) };
+    caller.accepted(add(&ring, 1, [1.0; 2]));
+    assert_eq!(result(&caller, sample.garment.0.len()), plain);
+    // SAFETY: the session is alive.
+    unsafe { caller.accepted(bespoke_session_reset(caller.session)) };
+    caller.accepted(clear());
+    caller.accepted(add(&ring, 1, [0.0; 2]));
+    assert_ne!(result(&caller, sample.garment.0.len()), plain);
 }

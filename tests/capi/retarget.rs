@@ -355,6 +355,35 @@ fn layers_and_distortion() {
     folder.refuses(&["--layer", "bad.obj"], 1, &["bad.obj", "layer 0"]);
 }
 
+/// Curves from a file: a boundary as it is gives the same result, let go another one.
+#[test]
+fn curves_are_read_from_a_file() {
+    let folder = Folder::new("curves");
+    let ring = (0..16).map(|v| v.to_string()).collect::<Vec<_>>().join(" ");
+    folder.accepts(&["--quiet"]);
+    let plain = folder.read("out.obj");
+    folder.write("curves.txt", &format!("# the lower end\n\nclosed 1 1 {ring}\n"));
+    folder.accepts(&["--quiet", "--curves", "curves.txt"]);
+    assert!(folder.read("out.obj") == plain);
+    folder.write("curves.txt", &format!("closed 0 0 {ring}\nopen 2 0.5 40 41 42\n"));
+    folder.accepts(&["--quiet", "--curves", "curves.txt"]);
+    assert!(folder.read("out.obj") != plain);
+    let bad = [
+        ("ring 1 1 0 1\n", "line 1: 'ring' is neither open nor closed"),
+        ("open x 1 0 1\n", "line 1: 'x' is not a weight"),
+        ("\nopen 1 1 0 -1\n", "line 2: '-1' is not a vertex"),
+        ("open 1\n", "line 1: has 2 words"),
+        ("open 1 1 7\n", "curve 0: has 1 places"),
+        ("open 1 -1 7 8\n", "curve 0: its position weight is -1"),
+        ("open 1 1 0 2\n", "curve 0: no edge of the garment joins vertices 0 and 2"),
+    ];
+    for (text, message) in bad {
+        folder.write("curves.txt", text);
+        folder.refuses(&["--curves", "curves.txt"], 1, &[message]);
+    }
+    folder.refuses(&["--curves", "nothing.txt"], 1, &["nothing.txt"]);
+}
+
 /// Pins and rigid groups from files; pins that are not reached are in the report.
 #[test]
 fn pins_and_rigid_groups_are_read_from_files() {

@@ -72,6 +72,8 @@ fn inputs_are_fixed_from_prepare_to_reset() {
                 std::ptr::null(),
             ),
             bespoke_session_clear_rigid_groups(session),
+            bespoke_session_add_curve(session, &testing::caller::view(&[0u32, 1], BespokeComponent::U32), 0, 1.0, 1.0),
+            bespoke_session_clear_curves(session),
             bespoke::capi::options::bespoke_session_set_options(session, &options),
             bespoke_session_prepare(session),
         ] {

@@ -87,6 +87,7 @@ void refusals() {
     const std::array<std::uint16_t, 2> bone{0, 9};
     REFUSED(session.set_source_skeleton(scene.joints, bone), Status::invalid_skeleton, "9");
     REFUSED(session.add_rigid_group({}), Status::invalid_argument, "rigid group 0");
+    REFUSED(session.add_curve(std::array{40u, 41u}, true), Status::invalid_argument, "curve 0");
     ACCEPTED(session.set_target_skeleton(scene.joints, std::array<std::uint16_t, 4>{0, 2, 2, 1}));
     REFUSED(session.prepare(), Status::invalid_skeleton, "skeleton");
     REFUSED(session.step(), Status::invalid_state, "prepare");
@@ -126,6 +127,8 @@ void optional_inputs() {
     ACCEPTED(session.set_pinned_vertices({}));
     ACCEPTED(session.add_rigid_group(std::array{40u, 41u, 56u}));
     ACCEPTED(session.clear_rigid_groups());
+    ACCEPTED(session.add_curve(std::array{40u, 41u}, false, 2.0, 0.5));
+    ACCEPTED(session.clear_curves());
     ACCEPTED(session.add_layer(scene.body.points, scene.body.triangles));
     ACCEPTED(session.clear_layers());
     ACCEPTED(session.run());

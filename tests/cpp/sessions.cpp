@@ -48,6 +48,8 @@ void empty(Session &session) {
     refused(session.set_pinned_vertices(std::vector<std::uint32_t>(4), std::vector<float>(12)));
     refused(session.add_rigid_group(std::vector<std::uint32_t>(4)));
     refused(session.clear_rigid_groups());
+    refused(session.add_curve(std::vector<std::uint32_t>(4), true));
+    refused(session.clear_curves());
     refused(session.add_layer(points, std::vector<std::uint32_t>(4)));
     refused(session.clear_layers());
     refused(session.set_options(Options()));

@@ -177,6 +177,7 @@ internal static class Dressing
         Check.That(differs(s => s.SetNoFitVertices(Enumerable.Range(0, 48).ToArray())), "no-fit vertices");
         Check.That(differs(s => s.SetPinnedVertices(new[] { 70 })), "pins");
         Check.That(differs(s => s.AddRigidGroup(new ushort[] { 40, 41, 56 })), "rigid group");
+        Check.That(differs(s => s.AddCurve(new[] { 40, 41, 42 }, false)), "curve");
         Check.That(differs(s => s.AddLayer(plain, inputs.GarmentTriangles)), "layer");
         Check.That(differs(s => s.SetSourceAvatar(inputs.AvatarPositions, inputs.AvatarTriangles)), "source avatar");
         Check.That(!differs(s =>
@@ -185,7 +186,9 @@ internal static class Dressing
             s.ClearLayers();
             s.AddRigidGroup(new[] { 40, 41, 56 });
             s.ClearRigidGroups();
-        }), "layers and groups are forgotten");
+            s.AddCurve(new[] { 40, 41, 42 }, false);
+            s.ClearCurves();
+        }), "layers, groups and curves are forgotten");
 
         float[] pinned = Dressed(
             inputs, s => s.SetPinnedVertices(new[] { 0 }, new[] { 0.4f, -0.4f, 0.1f }));

@@ -118,7 +118,7 @@ fn open_curves_have_no_corner_at_their_ends() {
     let mut random = Random::new(15);
     let rest = ring(6, &mut random);
     let vertices: Vec<u32> = (0..6).collect();
-    let open = |n: usize| [Polyline { vertices: &vertices[..n], closed: false }];
+    let open = |n: usize| [Polyline { vertices: &vertices[..n], closed: false, weight: 1.0 }];
     for (n, corners, twists) in [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 1, 0), (4, 2, 1), (6, 4, 3)] {
         assert_eq!(
             (Curvature::new(&rest, open(n), 0.0).len(), Torsion::new(&rest, open(n), 0.0).len()),
@@ -128,6 +128,25 @@ fn open_curves_have_no_corner_at_their_ends() {
     let x = shaken(&rest, 0.3, &mut random);
     check_gradient(&Curvature::new(&rest, open(6), 0.0), &x, 0.0, 1e-4, 1e-7);
     check_gradient(&Torsion::new(&rest, open(6), 0.0), &x, 0.0, 1e-4, 1e-7);
+}
+
+#[test]
+fn a_curve_costs_its_weight_times_as_much() {
+    let mut random = Random::new(19);
+    let rest = ring(12, &mut random);
+    let x = shaken(&rest, 0.3, &mut random);
+    let vertices: Vec<u32> = (0..12).collect();
+    for (closed, chord) in [(true, 0.0), (false, 0.0), (true, 0.3), (false, 0.3)] {
+        let curve = |weight: f64| [Polyline { vertices: &vertices, closed, weight }];
+        let cost = |weight: f64| {
+            let (curvature, torsion) =
+                (Curvature::new(&rest, curve(weight), chord), Torsion::new(&rest, curve(weight), chord));
+            [value(&curvature, &x), value(&torsion, &x)]
+        };
+        for (one, many) in cost(1.0).into_iter().zip(cost(3.5)) {
+            assert!(one > 0.0 && (many - 3.5 * one).abs() < 1e-9 * many, "{one} {many}");
+        }
+    }
 }
 
 #[test]
@@ -245,7 +264,7 @@ fn chords_agree_with_the_integral() {
     for closed in [true, false] {
         let (rest, x) = (neckline(160, 0.0), neckline(160, 0.6));
         let vertices: Vec<u32> = (0..160).collect();
-        let curve = [Polyline { vertices: &vertices, closed }];
+        let curve = [Polyline { vertices: &vertices, closed, weight: 1.0 }];
         let [c, t] = by_integration(&rest, &x, closed, 0.06);
         let (curvature, torsion) = (Curvature::new(&rest, curve, 0.06), Torsion::new(&rest, curve, 0.06));
         assert!((value(&curvature, &x) / c - 1.0).abs() < 0.02, "{} {c}", value(&curvature, &x));
@@ -277,7 +296,7 @@ fn chords_have_exact_derivatives_and_cost_similarities_nothing() {
         for scale in [1e-2, 1.0, 1e2] {
             let rest: Vec<DVec3> = ring(n, &mut random).iter().map(|&p| p * scale).collect();
             let vertices: Vec<u32> = (0..n).collect();
-            let curve = [Polyline { vertices: &vertices, closed }];
+            let curve = [Polyline { vertices: &vertices, closed, weight: 1.0 }];
             let x = shaken(&rest, 0.1 * scale, &mut random);
             let alike = similar(&rest, 3.0, &mut random);
             for chord in [0.2 * scale, 0.7 * scale] {
@@ -327,7 +346,7 @@ fn chords_on_degenerate_curves_are_finite() {
         [(&rest, (0..12).collect::<Vec<u32>>()), (&points, (0..12).collect()), (&rest, vec![0, 5, 7, 5])]
     {
         for closed in [true, false] {
-            let curve = [Polyline { vertices: &vertices, closed }];
+            let curve = [Polyline { vertices: &vertices, closed, weight: 1.0 }];
             for energy in [&Curvature::new(rest, curve, 0.3) as &dyn Energy, &Torsion::new(rest, curve, 0.3)] {
                 let d = dense(energy, rest, 0.0);
                 assert!(value(energy, rest) < 1e-20);

@@ -43,6 +43,23 @@ fn agrees_with_the_definition() {
 }
 
 #[test]
+fn a_factor_multiplies_the_cost_of_its_constraint() {
+    let mut random = Random::new(27);
+    let rest: Vec<DVec3> = (0..2).map(|_| random.vector()).collect();
+    let x = shaken(&rest, 0.5, &mut random);
+    let axes = axes(&mut random);
+    let of = |factors: [f64; 2]| {
+        let constraints = [(0, 0, factors[0]), (1, 1, factors[1])];
+        value(&Position::weighted(&rest, &constraints, axes.clone(), &[0.7, 0.4]), &x, 0.3)
+    };
+    let [first, second] = [of([1.0, 0.0]), of([0.0, 1.0])];
+    assert!(first > 0.0 && second > 0.0);
+    assert!((of([2.5, 0.1]) - (2.5 * first + 0.1 * second)).abs() < 1e-12);
+    let plain = Position::new(&rest, &[(0, 0), (1, 1)], axes.clone(), &[0.7, 0.4]);
+    assert_eq!(value(&plain, &x, 0.3), of([1.0, 1.0]));
+}
+
+#[test]
 fn gradient_is_exact_and_hessian_semidefinite() {
     let mut random = Random::new(22);
     for _ in 0..10 {

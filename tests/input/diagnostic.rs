@@ -75,8 +75,8 @@ fn every_sentence_is_made_of_its_data() {
         (
             Diagnostic::RimsNotFound { triangles: 240, triangle: 12, bone: Bone { index: 3, joints: [4, 5] } },
             "garment: the piece of 240 triangles with triangle 12 is closed, around the bone between joints 4 and 5, and no cuff, \
-             hem or collar of it was found; nothing keeps its openings in their places along the bones; model it without its \
-             inner side, or leave its openings open"
+             hem or collar of it was found; nothing keeps its openings in their places along the bones; name them with \
+             add_curve, or model it without its inner side"
                 .into(),
         ),
         (

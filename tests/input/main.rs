@@ -3,6 +3,7 @@
 mod body;
 mod buffer;
 mod coordinate_system;
+mod curve;
 mod diagnostic;
 mod placement;
 mod skeleton;

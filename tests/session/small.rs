@@ -126,6 +126,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         fit_weights: None,
         pins: &[],
         rigid_groups: &[],
+        curves: &[],
         offset: 0.0,
         coordinate_error: 0.0,
     };

@@ -93,6 +93,7 @@ impl Case {
             fit_weights: None,
             pins: &[],
             rigid_groups: &[],
+            curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
         };

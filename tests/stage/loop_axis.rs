@@ -3,7 +3,7 @@
 use bespoke::energy::position::MovingAxis;
 use bespoke::geometry::mesh::{BoundaryLoop, Topology};
 use bespoke::input::skeleton::Skeleton;
-use bespoke::stage::setup::loop_axis::{LoopAxis, choose_loop_axes};
+use bespoke::stage::setup::loop_axis::{LoopAxis, choose_loop_axes, nearest_bone_axis};
 use glam::DVec3;
 
 use testing::obj::{assets, read_mesh, read_skeleton};
@@ -160,6 +160,27 @@ fn without_a_loop_or_a_bone_there_is_no_guide() {
     // A single point and a line are loops of a sort.
     assert!(choose(&[DVec3::Z], &person(), &person()).is_some());
     assert!(choose(&[DVec3::Z, DVec3::X], &person(), &person()).is_some());
+}
+
+#[test]
+fn a_point_follows_the_nearest_bone() {
+    let (source, mut target) = (person(), person());
+    target.joints.iter_mut().for_each(|p| *p *= 1.5);
+    let at = |x: f64, z: f64| nearest_bone_axis(DVec3::new(x, 0.05, z), &source, &target);
+    // Shin, thigh and spine, each whichever way its bone runs.
+    for (x, z, joints) in [(0.12, 0.3, [10, 11]), (-0.12, 0.7, [13, 12]), (0.02, 1.3, [1, 2])] {
+        let (bone, axis) = at(x, z).unwrap();
+        assert_eq!(source.bones[bone as usize], joints);
+        assert_eq!(axis.start, joints.map(|joint| source.joints[joint as usize]));
+        assert_eq!(axis.end, joints.map(|joint| target.joints[joint as usize]));
+    }
+    // Where that bone is a point on the target, the next one.
+    target.joints[11] = target.joints[10];
+    assert_ne!(
+        source.bones[nearest_bone_axis(DVec3::new(0.12, 0.05, 0.3), &source, &target).unwrap().0 as usize],
+        [10, 11]
+    );
+    assert_eq!(nearest_bone_axis(DVec3::ZERO, &Skeleton::default(), &Skeleton::default()), None);
 }
 
 /// The bones for the loops of a published garment, as pairs of joints, sorted.

@@ -116,6 +116,13 @@ namespace Bespoke
         internal static extern Status bespoke_session_clear_rigid_groups(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_curve(
+            SessionHandle session, NativeView* vertices, uint closed, double curveWeight, double positionWeight);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_curves(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_add_layer(
             SessionHandle session, NativeView* positions, NativeView* triangles);
 

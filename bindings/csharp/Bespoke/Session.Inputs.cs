@@ -270,6 +270,37 @@ namespace Bespoke
         }
 
         /// <summary>
+        /// Optional: a curve along edges of the garment, such as a neckline, a seam line or the rim of a lined sleeve, that
+        /// keeps its shape and its place along the bones. Each call adds a curve; they are numbered from 0. One that runs
+        /// through the vertices of a boundary curve takes its place.
+        /// </summary>
+        /// <param name="vertices">Garment vertices, from 0, in the order of the curve, each once.</param>
+        /// <param name="closed">Whether the last is joined to the first.</param>
+        /// <param name="curveWeight">Factor on <see cref="Options.CurvatureWeight"/> and
+        /// <see cref="Options.TorsionWeight"/>, up to 1e6: 1 as for a boundary curve, 0 for none.</param>
+        /// <param name="positionWeight">Factor on <see cref="Options.PositionWeight"/>. A closed curve keeps its place along
+        /// the bone that goes through it, each vertex of an open one along the bone nearest to it.</param>
+        /// <exception cref="BespokeException">InvalidArgument (a vertex that the garment does not have, and two in a row
+        /// that no edge joins, are found by <see cref="Prepare"/>), InvalidState, Busy, Internal.</exception>
+        public unsafe void AddCurve(IndexView vertices, bool closed, double curveWeight = 1, double positionWeight = 1)
+        {
+            fixed (byte* v = &MemoryMarshal.GetReference(vertices.Bytes))
+            {
+                NativeView indices = vertices.Pinned(v, 1, "curve");
+                vertices.RefuseNegative(1, Status.InvalidArgument, "curve", "element");
+                Check(Native.bespoke_session_add_curve(
+                    handle, &indices, closed ? 1u : 0u, curveWeight, positionWeight));
+            }
+        }
+
+        /// <summary>Removes all curves that were added.</summary>
+        /// <exception cref="BespokeException">InvalidState, Busy, Internal.</exception>
+        public void ClearCurves()
+        {
+            Check(Native.bespoke_session_clear_curves(handle));
+        }
+
+        /// <summary>
         /// Optional: what each triangle of the avatar is to the garment. Without it, or with
         /// <see cref="PartRole.Automatic"/>, pieces that are no part of the body are left out with a diagnostic, and all else
         /// is body.

@@ -73,6 +73,19 @@ pub fn choose_loop_axes(
         .collect()
 }
 
+/// The bone nearest to `p` in the source skeleton, and its axis; none where there is only what is too short to follow from there.
+pub fn nearest_bone_axis(p: DVec3, source: &Skeleton, target: &Skeleton) -> Option<(u32, MovingAxis)> {
+    let nearest = source.bones.iter().zip(0u32..).filter_map(|(bone, index)| {
+        let ends = |skeleton: &Skeleton| bone.map(|joint| skeleton.joints[joint as usize]);
+        let axis = MovingAxis { start: ends(source), end: ends(target) };
+        let [a, b] = axis.start;
+        let distance = closest_on_segment(p, a, b - a).distance(p);
+        let length = a.distance(b).min(axis.end[0].distance(axis.end[1]));
+        (length > 0.0 && length > STUB * distance).then_some((distance, index, axis))
+    });
+    nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, index, axis)| (index, axis))
+}
+
 /// A loop as a hole to look through.
 struct Opening {
     centre: DVec3,

@@ -5,6 +5,7 @@ pub mod cap_motion;
 pub mod carried_pieces;
 pub mod carried_places;
 pub mod contact_distances;
+pub mod curves;
 pub mod fit_region;
 pub mod hanging_pieces;
 pub mod layer_skin;

@@ -15,13 +15,14 @@ use super::layer_skin::skin_with_layers;
 use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
-use super::shape::{HeldPieces, Shape, rigid};
+use super::shape::{Asked, HeldPieces, Shape, rigid};
 use super::source_body::SourceBody;
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
-use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::input::body::Body;
+use crate::input::curve::WeldedCurve;
 use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
@@ -64,6 +65,8 @@ pub struct Inputs<'a> {
     pub pins: &'a [PinRequest],
     /// Lists of welded vertices that stay rigid, each vertex in one at most.
     pub rigid_groups: &'a [Vec<u32>],
+    /// Curves that the caller names.
+    pub curves: &'a [WeldedCurve],
     /// The clearance to aim at in addition to the designed one, in the target's unit.
     pub offset: f64,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's unit.
@@ -118,7 +121,7 @@ impl Problem {
     /// Normalises, projects the avatar, and sets up the shape terms. Adds to `diagnostics`, in the caller's indices.
     ///
     /// # Errors
-    /// `InvalidSkeleton` for a skeleton without size, `InvalidArgument` for an offset beyond it, `InvalidMesh` where the
+    /// `InvalidSkeleton` for a skeleton without size, `InvalidArgument` for an offset beyond it and a curve along no edges, `InvalidMesh` where the
     /// coordinates of the result are too coarse, `NotEnclosed` where the garment does not enclose the skeleton, or
     /// the shrunk avatar penetrates it and no path around it was found, `Cancelled`.
     pub fn new(
@@ -194,9 +197,11 @@ impl Problem {
             if options.strict { None } else { begin_apart(garment, &designed_intersections, &projected, cancel)? };
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
-        let asked: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
+        let pins: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
         let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
-        let (shape, curves) = Shape::new(garment, source, target, &asked, inputs.rigid_groups, &held, options);
+        check_curves(inputs.curves, garment)?;
+        let asked = Asked { pins: &pins, rigid_groups: inputs.rigid_groups, curves: inputs.curves };
+        let (shape, curves) = Shape::new(garment, source, target, &asked, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
         diagnostics.extend(curves.near.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
@@ -367,6 +372,15 @@ impl Normalised {
         garment.triangles = triangles;
         (Arc::new(weld.without(&removed)), motions)
     }
+}
+
+/// Refuses curves that leave the edges of the garment, which has no caps any more.
+fn check_curves(curves: &[WeldedCurve], garment: &TriangleMesh) -> Result<()> {
+    if curves.is_empty() {
+        return Ok(());
+    }
+    let edges = Topology::new(garment.positions.len(), &garment.triangles).edges;
+    curves.iter().enumerate().try_for_each(|(name, curve)| curve.check_edges(name, &edges))
 }
 
 /// Says why what closes the garment at a bone was not taken for a cap.

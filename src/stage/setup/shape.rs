@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::carried_places::CarriedPlaces;
-use super::loop_axis::choose_loop_axes;
+use super::curves::HeldCurves;
 use super::loose_pieces::LoosePieces;
 use super::near_borders::NearBorders;
 use super::pin_targets::{self, PinRequest};
@@ -13,11 +13,12 @@ use super::shell_rims::ShellRims;
 use crate::energy::attachment::{Attachment, SizeHold};
 use crate::energy::curve::{Curvature, Torsion};
 use crate::energy::pin::Pins;
-use crate::energy::position::{MovingAxis, Position};
+use crate::energy::position::Position;
 use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
-use crate::geometry::mesh::{BoundaryLoop, Topology, TriangleMesh};
+use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::geometry::sliver_caps::without_caps;
+use crate::input::curve::WeldedCurve;
 use crate::input::skeleton::Skeleton;
 use crate::options::Options;
 
@@ -31,7 +32,7 @@ pub struct Shape {
     pub borders: Attachment,
     /// Carried pieces.
     pub carry: Pins,
-    /// Curvature of the boundary curves (Eq. 5) and of the rims of shells.
+    /// Curvature (Eq. 5) of the boundary curves, the rims of shells and the curves that the caller names.
     pub curvature: Curvature,
     /// Torsion of the same curves.
     pub torsion: Torsion,
@@ -49,6 +50,16 @@ pub struct Curves {
     pub near: NearBorders,
     /// The rims of its shells.
     pub rims: ShellRims,
+}
+
+/// What the caller asks of a garment's vertices.
+pub struct Asked<'a> {
+    /// Pins, at most one a vertex.
+    pub pins: &'a [PinRequest],
+    /// Lists of vertices that stay rigid, each vertex in one at most.
+    pub rigid_groups: &'a [Vec<u32>],
+    /// Curves along edges.
+    pub curves: &'a [WeldedCurve],
 }
 
 /// Pieces of a garment that have their place from something else than the bones inside of them.
@@ -71,14 +82,12 @@ impl HeldPieces<'_> {
 
 impl Shape {
     /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that something
-    /// else holds; the borders that are held to others, and the rims of shells, are found. `pins` has at most one entry a vertex, `rigid_groups` each
-    /// vertex in one group at most.
+    /// else holds; the borders that are held to others, and the rims of shells, are found.
     pub fn new(
         garment: &TriangleMesh,
         source: &Skeleton,
         target: &Skeleton,
-        pins: &[PinRequest],
-        rigid_groups: &[Vec<u32>],
+        asked: &Asked<'_>,
         held: &HeldPieces<'_>,
         options: &Options,
     ) -> (Self, Curves) {
@@ -89,7 +98,7 @@ impl Shape {
         held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         let near = NearBorders::find(rest, triangles, &topology, &is_held);
         let rims = ShellRims::find(garment, &topology, &is_held, source);
-        let curves = || topology.loops.iter().chain(&rims.loops);
+        let curves = HeldCurves::new(topology.loops.iter().chain(&rims.loops), asked.curves);
         let whole = without_caps(rest, triangles);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
@@ -103,11 +112,11 @@ impl Shape {
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
             borders: Attachment::of_borders(rest, &near.holds),
             carry: held.carried.term(),
-            curvature: Curvature::new(rest, curves(), options.curve_chord),
-            torsion: Torsion::new(rest, curves(), options.curve_chord),
-            position: position(garment, &topology, &curves().cloned().collect::<Vec<_>>(), &is_held, source, target),
-            pins: Pins::new(pin_targets::resolve(rest, triangles, pins, source, target)),
-            rigid: rigid(rest, rigid_groups, held.carried),
+            curvature: Curvature::new(rest, curves.polylines(), options.curve_chord),
+            torsion: Torsion::new(rest, curves.polylines(), options.curve_chord),
+            position: curves.position(rest, &topology, &is_held, source, target),
+            pins: Pins::new(pin_targets::resolve(rest, triangles, asked.pins, source, target)),
+            rigid: rigid(rest, asked.rigid_groups, held.carried),
         };
         (shape, Curves { near, rims })
     }
@@ -127,28 +136,4 @@ pub(super) fn rigid(rest: &[DVec3], groups: &[Vec<u32>], carried: &CarriedPlaces
         groups.push(vertices.to_vec());
     }
     Rigid::new(&rest, &groups)
-}
-
-/// The position term of those of `curves` that follow bones.
-fn position(
-    garment: &TriangleMesh,
-    topology: &Topology,
-    curves: &[BoundaryLoop],
-    is_held: &[bool],
-    source: &Skeleton,
-    target: &Skeleton,
-) -> Position {
-    let rest = &garment.positions;
-    let mut axes: Vec<MovingAxis> = Vec::new();
-    let mut constraints = Vec::new();
-    for (curve, axis) in curves.iter().zip(choose_loop_axes(rest, curves, source, target)) {
-        // A piece that is held to another one, such as a button, or carried, has no place of its own along a bone.
-        if let Some(axis) = axis
-            && !is_held[curve.vertices[0] as usize]
-        {
-            constraints.extend(curve.vertices.iter().map(|&v| (v, axes.len() as u32)));
-            axes.push(axis.axis);
-        }
-    }
-    Position::new(rest, &constraints, axes, &topology.mean_edge_lengths(rest))
 }

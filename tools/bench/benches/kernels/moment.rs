@@ -54,6 +54,7 @@ impl Moment {
             fit_weights: Some(&fit_weights),
             pins: &[],
             rigid_groups: &[],
+            curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
         };

@@ -35,7 +35,7 @@ pub fn run(bytes: &[u8]) {
         sample(&caller);
     }
     for _ in 0..source.between(1, 12) {
-        match source.below(17) {
+        match source.below(18) {
             0 => pair(&caller, source, "set_garment", bespoke_session_set_garment, 3),
             1 => pair(&caller, source, "set_target_avatar", bespoke_session_set_target_avatar, 3),
             2 => pair(&caller, source, "set_source_avatar", bespoke_session_set_source_avatar, 3),
@@ -52,6 +52,7 @@ pub fn run(bytes: &[u8]) {
             13 => output(&caller, source, bespoke_session_read_avatar_vertices),
             14 => filled_structs(&caller, source),
             15 => single(&caller, source, "add_rigid_group", bespoke_session_add_rigid_group, false),
+            16 => single(&caller, source, "add_curve", add_curve, false),
             _ => damaged_pair(&caller, source),
         }
     }
@@ -209,6 +210,15 @@ fn single(caller: &Caller, source: &mut Source, name: &str, set: SetSingle, is_f
         return;
     }
     any.check(name, status);
+}
+
+/// An open curve with the weights of a boundary curve.
+///
+/// # Safety
+/// As for [`bespoke_session_add_curve`].
+unsafe extern "C" fn add_curve(session: *mut BespokeSession, vertices: *const BespokeView) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { bespoke_session_add_curve(session, vertices, 0, 1.0, 1.0) }
 }
 
 fn dense_skin(caller: &Caller, source: &mut Source) {

@@ -236,7 +236,7 @@ impl Program {
         let is_double = source.one_in(2);
         // SAFETY: the session is null or alive, the views tell the truth.
         let status = unsafe {
-            match source.below(9) {
+            match source.below(11) {
                 0 => {
                     let rows = Array::floats(&numbers, vertices, 0, is_double);
                     let view = rows.view();
@@ -279,7 +279,18 @@ impl Program {
                     let triangles = Array::indices(&layer.triangles, 3, 0, true);
                     bespoke_session_add_layer(session, &points.view(), &triangles.view())
                 }
-                _ => bespoke_session_clear_layers(session),
+                8 => bespoke_session_clear_layers(session),
+                9 => {
+                    // Mostly a ring of the garment's tube, or a part of it.
+                    let (first, count) = (source.below(24) as u32, source.between(0, 8) as u32);
+                    let vertices: Vec<u32> = if source.one_in(4) { indices } else { (first..first + count).collect() };
+                    let weight = |source: &mut Source| if source.one_in(8) { source.number() } else { 1.0 };
+                    let view = Array::indices(&vertices, 1, 0, is_double);
+                    let closed = u32::from(source.byte() % 3);
+                    let weights = [weight(source), weight(source)];
+                    bespoke_session_add_curve(session, &view.view(), closed, weights[0], weights[1])
+                }
+                _ => bespoke_session_clear_curves(session),
             }
         };
         // SAFETY: the session is null or alive.

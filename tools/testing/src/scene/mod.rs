@@ -197,6 +197,7 @@ impl Scene {
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &[],
                 rigid_groups: &[],
+                curves: &[],
                 offset: 0.0,
                 coordinate_error: 0.0,
             },
