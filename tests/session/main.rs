@@ -18,6 +18,7 @@ mod layers;
 mod memory;
 mod plausibility;
 mod profile;
+mod rigs;
 mod shell_rims;
 mod shifted;
 mod small;

@@ -1,0 +1,207 @@
+//! Characters by rig alone: whatever their joints are called, whichever they have, and whatever pose they stand in.
+
+use std::sync::LazyLock;
+
+use bespoke::control::Stage;
+use bespoke::error::ErrorKind;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::rig::{Rig, RigJoint};
+use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
+use bespoke::options::Options;
+use bespoke::rig::joint_map::{JointMap, Reason};
+use bespoke::session::{Budget, Precision, Session};
+use closet::avatars::Avatar;
+use closet::rigs::{Body, Character, Naming, Pose, Role, SIDES, character, y_up};
+use closet::{Sample, garments};
+use glam::DMat4;
+
+static MANNEQUIN: LazyLock<Sample> = LazyLock::new(|| Body::Mannequin.model());
+static SLIM: LazyLock<Sample> = LazyLock::new(|| Body::Avatar(Avatar::Slim).model());
+static VEST: LazyLock<Sample> = LazyLock::new(|| garments::vest(2.5));
+
+fn mannequin(naming: Naming) -> Character {
+    character(&MANNEQUIN, naming).placed(y_up())
+}
+
+fn slim(naming: Naming) -> Character {
+    character(&SLIM, naming).placed(y_up())
+}
+
+/// The vest on the mannequin, on its rig.
+fn vest(source: &Character) -> Character {
+    let frame = y_up();
+    let mut mesh = VEST.mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p = frame.transform_point3(*p));
+    source.wears(&mesh)
+}
+
+fn rig(character: &Character) -> Rig {
+    let joint = |joint: &closet::rigs::Joint| RigJoint {
+        name: joint.name.clone(),
+        parent: joint.parent.map(|parent| parent as u32),
+        bind: DMat4::from(joint.bind),
+    };
+    Rig { joints: character.joints.iter().map(joint).collect() }
+}
+
+fn skin(character: &Character) -> SkinWeights {
+    let row = |row: &Vec<(usize, f64)>| row.iter().map(|&(joint, weight)| (joint as u32, weight)).collect();
+    SkinWeights::from_rows(character.joints.len(), character.influences.iter().map(row))
+}
+
+fn mesh(character: &Character) -> TriangleMesh {
+    TriangleMesh { positions: character.mesh.positions.clone(), triangles: character.mesh.triangles.clone() }
+}
+
+/// A garment that the source wears on its way to the target, both by their rigs.
+fn session(garment: &Character, source: &Character, target: &Character) -> Session {
+    let mut session = Session::new();
+    session.set_options(Options { threads: 2, voxel_size: 0.04, ..Options::default() }).unwrap();
+    session.set_garment(mesh(garment), Precision::F32).unwrap();
+    session.set_source_rig(rig(source)).unwrap();
+    session.set_target_avatar(mesh(target)).unwrap();
+    session.set_target_rig(rig(target)).unwrap();
+    session.set_target_skin(skin(target)).unwrap();
+    session
+}
+
+/// The map from one to the other, by their rigs alone.
+fn map(source: &Character, target: &Character) -> JointMap {
+    let mut session = Session::new();
+    session.set_source_rig(rig(source)).unwrap();
+    session.set_target_rig(rig(target)).unwrap();
+    session.joint_map().unwrap()
+}
+
+#[track_caller]
+fn dressed(session: &mut Session, what: &str) {
+    let outcome = session.run();
+    assert!(matches!(outcome, Ok(Stage::Done)), "{what}: {outcome:?}");
+    for precision in [Precision::F32, Precision::F64] {
+        assert!(session.verify(precision).unwrap().is_clean(), "{what}");
+    }
+}
+
+/// What limbs and head are made of.
+fn limbs() -> Vec<Role> {
+    let limb =
+        |side| [Role::UpperArm(side), Role::LowerArm(side), Role::Thigh(side), Role::Calf(side), Role::Foot(side)];
+    SIDES.into_iter().flat_map(limb).chain([Role::Head]).collect()
+}
+
+#[test]
+fn limbs_correspond_whatever_they_are_called_and_controls_to_nothing() {
+    let source = mannequin(Naming::Mixamo);
+    for naming in Naming::ALL {
+        for (pose, directions) in [("bind", Pose::BIND), ("arms-down", Pose::ARMS_DOWN)] {
+            let target = slim(naming).posed(&directions);
+            let map = map(&source, &target);
+            let what = format!("{} in {pose}", naming.word());
+            for (joint, mapped) in source.joints.iter().zip(&map.joints) {
+                let to = mapped.target.map(|joint| target.joints[joint as usize].role);
+                if limbs().contains(&joint.role) {
+                    match naming {
+                        // By structure the side is sure, and where along a limb a joint is is a guess that is told as one.
+                        Naming::Unnamed => {
+                            assert_eq!(to.map(Role::side), Some(joint.role.side()), "{what}: {}", joint.name);
+                            assert!(mapped.confidence < 0.75, "{what}: {mapped:?}");
+                        }
+                        _ => assert_eq!(to, Some(joint.role), "{what}: {}", joint.name),
+                    }
+                    assert!(mapped.confidence > 0.3 && mapped.part.is_some(), "{what}: {mapped:?}");
+                }
+                assert!(!to.is_some_and(Role::is_control), "{what}: {} to {to:?}", joint.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_vest_by_rig_alone_on_other_namings() {
+    let source = mannequin(Naming::Mixamo);
+    let garment = vest(&source);
+    for naming in [Naming::Unreal, Naming::Unnamed] {
+        dressed(&mut session(&garment, &source, &slim(naming)), naming.word());
+    }
+}
+
+#[test]
+fn a_rig_beside_a_skeleton() {
+    let source = mannequin(Naming::Rigify);
+    let garment = vest(&source);
+    let mut session = session(&garment, &source, &slim(Naming::Vrm));
+    let frame = y_up();
+    let joints = MANNEQUIN.skeleton.joints.iter().map(|&p| frame.transform_point3(p)).collect();
+    session.set_source_skeleton(Skeleton { joints, bones: closet::skeleton::BONES.to_vec() }).unwrap();
+    dressed(&mut session, "a skeleton beside a rig");
+}
+
+#[test]
+fn pairs_of_the_caller_win() {
+    let (source, target) = (mannequin(Naming::Mixamo), slim(Naming::Vrm));
+    let at = |character: &Character, role| {
+        character.joints.iter().position(|joint| joint.role == role).expect("it has one") as u32
+    };
+    let mut session = Session::new();
+    session.set_source_rig(rig(&source)).unwrap();
+    session.set_target_rig(rig(&target)).unwrap();
+    let [left, right] = SIDES.map(Role::Foot);
+    let pairs = vec![(at(&source, left), Some(at(&target, right))), (at(&source, right), None)];
+    session.set_joint_pairs(pairs).unwrap();
+    let map = session.joint_map().unwrap();
+    let [first, second] = [left, right].map(|role| map.joints[at(&source, role) as usize]);
+    assert_eq!((first.target, first.reason), (Some(at(&target, right)), Reason::Caller));
+    assert_eq!((second.target, second.reason), (None, Reason::Caller));
+}
+
+#[test]
+fn every_pose_ends_in_the_targets_own() {
+    let (body, other) = (mannequin(Naming::Mixamo), slim(Naming::Unreal));
+    let worn = vest(&body);
+    let mut reposed = 0;
+    for (source_pose, target_pose) in [(Pose::A, Pose::T), (Pose::T, Pose::ARMS_DOWN), (Pose::ARMS_DOWN, Pose::T)] {
+        let motions = body.motions(&source_pose);
+        let (source, garment) = (body.moved(&motions), worn.moved(&motions));
+        let target = other.posed(&target_pose);
+        let mut session = session(&garment, &source, &target);
+        session.prepare().unwrap();
+        let mut was_reposed = false;
+        loop {
+            let stage = session.step(Budget { iterations: 4, ..Budget::default() }).unwrap();
+            was_reposed |= stage == Stage::Repose;
+            if stage == Stage::Done {
+                break;
+            }
+        }
+        reposed += usize::from(was_reposed);
+        assert!(session.verify(Precision::F32).unwrap().is_clean());
+        let apart = session
+            .avatar_positions()
+            .unwrap()
+            .iter()
+            .zip(&target.mesh.positions)
+            .map(|(p, q)| p.distance(*q))
+            .fold(0.0, f64::max);
+        assert!(apart < 1e-5, "the avatar ends {apart} from where it was given");
+    }
+    assert!((1..3).contains(&reposed), "small turns need nothing, large ones a pose: {reposed}");
+}
+
+#[test]
+fn a_cancel_on_the_way_to_the_targets_pose() {
+    let body = mannequin(Naming::Mixamo);
+    let motions = body.motions(&Pose::T);
+    let (source, garment) = (body.moved(&motions), vest(&body).moved(&motions));
+    let mut session = session(&garment, &source, &slim(Naming::Vrm).posed(&Pose::ARMS_DOWN));
+    session.prepare().unwrap();
+    while session.step(Budget { iterations: 1, ..Budget::default() }).unwrap() != Stage::Repose {
+        assert_ne!(session.stage(), Stage::Done, "it went without");
+    }
+    session.control().cancel();
+    let error = session.run().unwrap_err();
+    assert_eq!((error.kind, session.stage()), (ErrorKind::Cancelled, Stage::Cancelled));
+    assert!(session.garment_positions().unwrap().iter().all(|p| p.is_finite()));
+    session.reset();
+    dressed(&mut session, "after the cancel");
+}
