@@ -199,8 +199,9 @@ impl From<&Element> for BespokeElement {
     }
 }
 
-impl From<&Diagnostic> for BespokeDiagnostic {
-    fn from(diagnostic: &Diagnostic) -> Self {
+impl BespokeDiagnostic {
+    /// `text` is what it says.
+    fn new(diagnostic: &Diagnostic, text: &str) -> Self {
         let kind = match diagnostic.kind() {
             DiagnosticKind::SplitVertices => BespokeDiagnosticKind::SplitVertices,
             DiagnosticKind::DuplicateTriangle => BespokeDiagnosticKind::DuplicateTriangle,
@@ -244,8 +245,7 @@ impl From<&Diagnostic> for BespokeDiagnostic {
         let mut elements = [BespokeElement::default(); BESPOKE_MAX_ELEMENTS];
         elements.iter_mut().zip(named).for_each(|(to, from)| *to = from.into());
         let mut message = [0; BESPOKE_MESSAGE_SIZE];
-        let text = diagnostic.to_string();
-        let text = text::cut(&text, BESPOKE_MESSAGE_SIZE - 1);
+        let text = text::cut(text, BESPOKE_MESSAGE_SIZE - 1);
         message.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
         Self {
             kind: kind as u32,
@@ -284,7 +284,7 @@ pub unsafe extern "C" fn bespoke_session_read_diagnostics(
                 count.write(found.len());
             }
             for (k, diagnostic) in found.iter().take(capacity).enumerate() {
-                diagnostics.add(k).write(diagnostic.into());
+                diagnostics.add(k).write(BespokeDiagnostic::new(diagnostic, &session.sentence(diagnostic)));
             }
             Ok(())
         })

@@ -102,6 +102,15 @@ impl CommonSkeleton {
         Ok(Self { joints, source, target, owner, landmarks: [on_source, on_target] })
     }
 
+    /// What its joints are in messages: "left knee", or the names that pairs have in the source rig.
+    pub fn names(&self, source: &Rig) -> Vec<String> {
+        let name = |joint: &CommonJoint| match *joint {
+            CommonJoint::Landmark(landmark) => landmark.name().to_string(),
+            CommonJoint::Pair(joint, _) => source.called(joint as usize),
+        };
+        self.joints.iter().map(name).collect()
+    }
+
     /// The target skeleton after these motions of the joints of the target rig.
     pub fn posed_target(&self, posing: &Posing, motions: &[DAffine3]) -> Skeleton {
         let landmarks = posing.moved_landmarks(motions, &self.landmarks[1]);

@@ -12,3 +12,4 @@ pub mod posing;
 pub mod reading;
 pub mod structure;
 pub mod weights;
+pub mod words;

@@ -37,6 +37,7 @@ pub use crate::input::precision::Precision;
 pub use crate::options::Options;
 use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
+pub use crate::rig::words::with_names;
 use context::Context;
 #[doc(hidden)]
 pub use fault::Fault;
@@ -79,6 +80,8 @@ pub struct Session {
     other_precision: Option<(Precision, Verification)>,
     /// The skin weights of the result, once they were asked for.
     skin: OnceLock<Arc<GarmentSkin>>,
+    /// The joints of the common skeleton of two rigs, once something is said of them.
+    joint_names: OnceLock<Option<Vec<String>>>,
     panics: Arc<PanicLog>,
     fault: Option<Fault>,
     /// For tests: more threads than cores are not refused.
@@ -116,6 +119,7 @@ impl Session {
             wanted if self.crowded => wanted,
             wanted => wanted.min(cores),
         };
+        self.joint_names = OnceLock::new();
         let inputs = self.inputs.clone();
         let context = Context { stop: Cancel::new(), panics: self.panics.clone(), fault: self.fault };
         let stop = context.stop.clone();
@@ -136,7 +140,7 @@ impl Session {
             Err(error) if error.kind == ErrorKind::Cancelled => return Err(self.answer(error)),
             Err(error) => {
                 self.pool = None;
-                return Err(error);
+                return Err(self.worded(error));
             }
         };
         self.report = run.report.clone();
@@ -181,6 +185,7 @@ impl Session {
                 ErrorKind::ImplausibleResult => Stage::Done,
                 _ => Stage::Failed,
             });
+            let error = self.worded(error);
             self.answer(error)
         })
     }
@@ -283,6 +288,30 @@ impl Session {
     /// stalled; in the caller's indices.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
+    }
+
+    /// A diagnostic in words: of two rigs, it names the joints of their common skeleton.
+    pub fn sentence(&self, diagnostic: &Diagnostic) -> String {
+        self.in_words(diagnostic.to_string())
+    }
+
+    /// A message with the joints of the common skeleton by their names, where rigs were set.
+    fn in_words(&self, message: String) -> String {
+        match self.joint_names.get_or_init(|| self.inputs.joint_names()) {
+            Some(names) => with_names(&message, names),
+            None => message,
+        }
+    }
+
+    /// An error about the skeletons in words.
+    fn worded(&self, error: Error) -> Error {
+        use ErrorKind::{ImplausibleResult, InflationStalled, NotEnclosed};
+        match error.kind {
+            NotEnclosed | InflationStalled | ImplausibleResult => {
+                Error { message: self.in_words(error.message), ..error }
+            }
+            _ => error,
+        }
     }
 
     /// Where the session is.

@@ -148,6 +148,16 @@ impl Inputs {
         })
     }
 
+    /// What the joints of the common skeleton of two rigs are called; none where skeletons were set.
+    pub(super) fn joint_names(&self) -> Option<Vec<String>> {
+        if self.rigs.source.is_none() && self.rigs.target.is_none() {
+            return None;
+        }
+        let [source, target] = self.posed_rigs().ok()?;
+        let map = JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], &self.rigs.pairs).ok()?;
+        Some(CommonSkeleton::new(source.character(), target.character(), &map).ok()?.names(&source.rig))
+    }
+
     /// The way of the target from the source's pose, where that is so different that the inflation could not take the garment
     /// along.
     fn way(&self, target: &PosedRig, reading: &Reading, common: &Arc<CommonSkeleton>) -> Result<Option<Way>> {
