@@ -63,6 +63,10 @@ pub enum BespokeDiagnosticKind {
     /// root on the floor is. The bone is named; the distance is how far the body goes on, or how far the joint is off. It is
     /// taken to lie where the message says, unless the option strict is set.
     JointMisplaced = 18,
+    /// The target stands in another pose than the garment was designed in, and the garment does not let it go from that pose
+    /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
+    /// read with bespoke_session_read_pose_transforms.
+    PoseBlocked = 30,
     /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
     /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
     JointsUnsure = 33,
@@ -221,6 +225,7 @@ impl BespokeDiagnostic {
             DiagnosticKind::FacingMismatch => BespokeDiagnosticKind::FacingMismatch,
             DiagnosticKind::SidesSwapped => BespokeDiagnosticKind::SidesSwapped,
             DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
+            DiagnosticKind::PoseBlocked => BespokeDiagnosticKind::PoseBlocked,
             DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,

@@ -1,6 +1,6 @@
 //! What makes a result move: skin weights on the target rig, and the joints that the garment brings along.
 
-use glam::DMat4;
+use glam::{DAffine3, DMat4};
 
 use crate::capi::rigs::{BESPOKE_NO_JOINT, BESPOKE_TRANSFORM_SIZE};
 use crate::capi::session::{BespokeSession, call};
@@ -110,6 +110,41 @@ pub unsafe extern "C" fn bespoke_session_read_added_joints(
             }
             for (k, joint) in added.iter().take(capacity).enumerate() {
                 joints.add(k).write_unaligned(joint.into());
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Writes how each joint of the target rig moves from its bind pose to the pose that the result is in: 4 x 4 numbers each,
+/// column after column, to be multiplied from the left. They are all the identity, but where the diagnostic POSE_BLOCKED says
+/// that the result is in the pose of the design: there, garment and avatar that are read are in that pose.
+///
+/// `transforms`: room for `capacity` times BESPOKE_TRANSFORM_SIZE numbers; the first that fit are written. May be null where
+/// `capacity` is 0. `*count`, unless null: joints of the target rig. State: DONE, with a target rig. Errors: INVALID_ARGUMENT
+/// (null with a capacity), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_read_pose_transforms(
+    session: *const BespokeSession,
+    transforms: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller, who vouches for room for `capacity` transforms and for one number.
+    unsafe {
+        call(session, |session| {
+            if transforms.is_null() && capacity > 0 {
+                return invalid(format!("pose transforms: the pointer is null, with room for {capacity}"));
+            }
+            let joints = session.target_joint_count()?;
+            if !count.is_null() {
+                count.write(joints);
+            }
+            for joint in 0..joints.min(capacity) {
+                let motion = session.pose_transforms().map_or(DAffine3::IDENTITY, |motions| motions[joint]);
+                for (k, number) in DMat4::from(motion).to_cols_array().into_iter().enumerate() {
+                    transforms.add(joint * BESPOKE_TRANSFORM_SIZE + k).write_unaligned(number);
+                }
             }
             Ok(())
         })

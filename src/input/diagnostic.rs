@@ -42,6 +42,8 @@ pub enum DiagnosticKind {
     JointMisplaced,
     /// Joints of a rig whose part of the body is a guess.
     JointsUnsure,
+    /// The body could not be taken from the pose of the design to its own.
+    PoseBlocked,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
     /// A connected piece of the avatar's mesh that is no part of the body.
@@ -399,6 +401,14 @@ pub enum Diagnostic {
         place: Option<[f64; 3]>,
         /// The joint is taken to lie there.
         mended: bool,
+    },
+    /// The body stands in another pose than the garment was designed in, and the garment does not let it go from that pose to
+    /// its own: the result is in the pose of the design.
+    PoseBlocked {
+        /// How far it went, from 0 to 1.
+        share: f64,
+        /// The joints of the common skeleton whose parts the garment is between, at most two.
+        joints: Vec<u32>,
     },
     /// Which joints of the rigs are these places of the body is a guess.
     JointsUnsure {

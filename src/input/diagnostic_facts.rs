@@ -29,6 +29,7 @@ impl Diagnostic {
             Self::InflationHeld { .. } | Self::InflationSqueezed { .. } => DiagnosticKind::InflationBlocked,
             Self::EndWithoutBone { .. } | Self::JointMisplaced { .. } => DiagnosticKind::JointMisplaced,
             Self::JointsUnsure { .. } => DiagnosticKind::JointsUnsure,
+            Self::PoseBlocked { .. } => DiagnosticKind::PoseBlocked,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -81,6 +82,7 @@ impl Diagnostic {
             | Self::SidesSwapped { sure: false, .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
+            | Self::PoseBlocked { .. }
             | Self::ResultSelfIntersection { .. }
             | Self::ResultIntersection { .. }
             | Self::InflationHeld { .. }
@@ -152,6 +154,7 @@ impl Diagnostic {
             Self::PieceResized { triangle: t, .. } => vec![triangle(t)],
             Self::CoarseCoordinates { .. }
             | Self::JointsUnsure { .. }
+            | Self::PoseBlocked { .. }
             | Self::SettingsAdjusted { .. }
             | Self::NotConverged { .. }
             | Self::UnitMismatch { .. }

@@ -229,6 +229,20 @@ impl Display for Diagnostic {
                     _ => Ok(()),
                 }
             }
+            Self::PoseBlocked { share, joints } => {
+                write!(
+                    f,
+                    "target avatar: it stands in another pose than the garment was designed in, and the garment lets it go only \
+                     {:.0} % of the way from that pose to its own",
+                    100.0 * share
+                )?;
+                match joints[..] {
+                    [a, b] => write!(f, ": what belongs to joint {a} and to joint {b} is in the way of each other")?,
+                    [a] => write!(f, ": what belongs to joint {a} is in the way")?,
+                    _ => {}
+                }
+                write!(f, "; the result is in the pose of the design; give the avatar in a pose nearer to it")
+            }
             Self::JointsUnsure { places } => write!(
                 f,
                 "which joints of the two rigs are {} is a guess: the names do not say it; look at the joint map, and say \

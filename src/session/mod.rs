@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
@@ -80,6 +80,8 @@ pub struct Session {
     other_precision: Option<(Precision, Verification)>,
     /// The skin weights of the result, once they were asked for.
     skin: OnceLock<Arc<GarmentSkin>>,
+    /// How each joint of the target rig moves into the pose that the result is in, where that is not its own.
+    pose: Option<Vec<DAffine3>>,
     /// The joints of the common skeleton of two rigs, once something is said of them.
     joint_names: OnceLock<Option<Vec<String>>>,
     panics: Arc<PanicLog>,
@@ -269,6 +271,15 @@ impl Session {
             self.diagnostics.push(Diagnostic::NotConverged { iterations: self.report.fit.iterations });
         }
         self.compare_with_design()?;
+        if let Some((blocked, motions)) = self.run.as_mut().and_then(|run| run.blocked.take()) {
+            self.pose = Some(motions);
+            let said = blocked.to_string();
+            self.diagnostics.push(blocked);
+            return Err(Error::new(
+                ErrorKind::ImplausibleResult,
+                format!("the garment is verified and can be read, but not in the avatar's own pose: {said}"),
+            ));
+        }
         self.enter(Stage::Done);
         Ok(Stage::Done)
     }
@@ -381,6 +392,12 @@ impl Session {
         }
     }
 
+    /// How each joint of the target rig moves from its bind pose to the pose that the result is in, in the target coordinate
+    /// system; none where that is the bind pose, as in all but what the diagnostic `PoseBlocked` is about.
+    pub fn pose_transforms(&self) -> Option<&[DAffine3]> {
+        self.pose.as_deref()
+    }
+
     /// How much each garment triangle is distorted now, in the caller's order: the mean of Eq. 2 over its hinges, without
     /// their weights, in the form that is free for any similarity, over the ratio of the garment's whole area now to that of
     /// the design. No unit; 0 for any similarity of the garment as a whole. Of triangles in one place, all get the same;
@@ -438,6 +455,7 @@ impl Session {
         self.diagnostics.clear();
         self.other_precision = None;
         self.skin = OnceLock::new();
+        self.pose = None;
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);
         self.enter(Stage::Setup);

@@ -1,15 +1,17 @@
 //! REPOSE in a run: the problem in the source's pose is left for that in the target's own, piece by piece.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
 
-use super::reposing::Reposing;
+use super::reposing::{Posed, Reposing};
 use super::run::{Run, Step};
 use crate::contact::Configuration;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
-use crate::solver::newton::{Model, Newton};
+use crate::sdf::{Field, FieldOptions};
+use crate::solver::newton::{Model, Newton, State};
 use crate::stage::repose::Repose;
 use crate::verify::intersections_with_cancel;
 
@@ -18,6 +20,8 @@ impl Run {
     pub(super) fn begin_repose(&mut self, mut reposing: Box<Reposing>) -> Result<()> {
         let clock = Instant::now();
         let (from, to) = (self.problem.target_normalization, reposing.problem.target_normalization);
+        reposing.posed =
+            Some(Posed { problem: self.problem.clone(), body: self.body.clone(), x: self.state.x.clone() });
         self.state.x.iter_mut().for_each(|x| *x = to.normalise(from.restore(*x)));
         let system = &self.target_coordinate_system;
         let body = TriangleMesh {
@@ -56,25 +60,22 @@ impl Run {
     /// One iteration of the way. True at its end.
     ///
     /// # Errors
-    /// `InflationStalled` where the garment does not let the body pass, `Internal` where a piece ends with an intersection.
+    /// `Internal` where a piece ends with an intersection.
     pub(super) fn iterate_repose(&mut self, mut reposing: Box<Reposing>) -> Result<bool> {
         reposing.iterations += 1;
         let Some(step) = &mut reposing.step else { return Ok(true) };
         let ended = step.iterate(&mut self.objective, &mut self.newton, &mut self.state);
-        let ended = match ended {
-            Err(error) if error.kind == ErrorKind::InflationStalled => Err(reposing.blocked(&self.state)),
-            ended => ended,
-        };
         match ended {
             Ok(true) => {}
             Ok(false) => {
                 self.step = Step::Repose(reposing);
                 return Ok(false);
             }
-            Err(error) => {
-                self.step = Step::Repose(reposing);
-                return Err(error);
+            Err(error) if error.kind == ErrorKind::InflationStalled => {
+                self.stay_posed(*reposing)?;
+                return Ok(true);
             }
+            Err(error) => return Err(error),
         }
         self.verify_piece(&reposing)?;
         reposing.piece += 1;
@@ -84,6 +85,26 @@ impl Run {
         }
         self.step = Step::Repose(reposing);
         Ok(true)
+    }
+
+    /// Where the garment does not let the body pass, goes back to the problem in the source's pose: the fit is done there.
+    fn stay_posed(&mut self, mut reposing: Reposing) -> Result<()> {
+        self.blocked = Some((reposing.blocked(&self.objective.contact, &self.state), reposing.motions()));
+        let Some(Posed { problem, body, x }) = reposing.posed.take() else {
+            return Err(Error::new(ErrorKind::Internal, "the source's pose is forgotten"));
+        };
+        (self.problem, self.body) = (problem, body);
+        self.state = State { x, t: 1.0 };
+        // Only what intersected there is exempt there; the fit inherits it.
+        let stop = &self.context.stop;
+        let mut objective = self.problem.another_inflation_at(&self.state, &self.options, stop);
+        objective.contact.initialise(self.state.configuration(), &self.initial_intersections);
+        self.objective = objective;
+        let options = FieldOptions { voxel: self.options.voxel_size, threads: self.report.threads as u32 };
+        let clock = Instant::now();
+        let field = Field::build(&self.problem.fitted, options, stop)?;
+        self.distance = Some((Arc::new(field), clock.elapsed().as_secs_f64()));
+        Ok(())
     }
 
     /// The avatar's vertices in its caller's coordinates, while it is on the way.

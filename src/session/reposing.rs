@@ -2,26 +2,37 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use super::way::Way;
 use crate::contact::{Avatar, Surface};
 use crate::control::Cancel;
-use crate::error::{Error, ErrorKind};
 use crate::geometry::closest_point::{ClosestPoint, barycentric};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::coordinate_system::CoordinateSystem;
+use crate::input::diagnostic::Diagnostic;
 use crate::input::skin::SkinWeights;
 use crate::options::Options;
 use crate::solver::newton::State;
+use crate::stage::contact_guard::ContactGuard;
 use crate::stage::objective::Objective;
 use crate::stage::repose::Repose;
 use crate::stage::setup::problem::{Problem, collapse_unused};
 
 /// No joint turns by more than this many degrees in a piece: each vertex goes straight where it should go along an arc.
 const PIECE: f64 = 12.0;
+
+/// What is at most so many times as far from the garment as the nearest holds it.
+const HOLDING: f64 = 4.0;
+
+/// The problem in the source's pose with the garment as the inflation left it, to which a run returns where the way is closed.
+pub(super) struct Posed {
+    pub(super) problem: Arc<Problem>,
+    pub(super) body: Arc<Body>,
+    pub(super) x: Vec<DVec3>,
+}
 
 /// The problem in the target's own pose, and the way there.
 pub(super) struct Reposing {
@@ -36,6 +47,8 @@ pub(super) struct Reposing {
     pub(super) step: Option<Repose>,
     /// Iterations so far.
     pub(super) iterations: u32,
+    /// What was left behind.
+    pub(super) posed: Option<Posed>,
 }
 
 impl Reposing {
@@ -50,6 +63,7 @@ impl Reposing {
             piece: 0,
             step: None,
             iterations: 0,
+            posed: None,
         }
     }
 
@@ -125,17 +139,26 @@ impl Reposing {
 }
 
 impl Reposing {
-    /// Why there is no result.
-    pub(super) fn blocked(&self, state: &State) -> Error {
-        let done = (f64::from(self.piece) + state.t) / f64::from(self.pieces);
-        Error::new(
-            ErrorKind::InflationStalled,
-            format!(
-                "the avatar stands in another pose than the garment was designed in, and the garment does not let it go all the \
-                 way from that pose to its own: at {:.0} % of the way it is held; give the avatar in a pose nearer to the \
-                 design's",
-                100.0 * done
-            ),
-        )
+    /// What closes the way where the garment at `state` does not let the body pass: the places of the body that it is nearest
+    /// to.
+    pub(super) fn blocked(&self, contact: &ContactGuard, state: &State) -> Diagnostic {
+        let at = state.configuration();
+        let nearest = contact.activity(at).min_distance_avatar;
+        let near = contact.avatar_vertices_nearer_than(HOLDING * nearest, at);
+        let owner = |&v: &u32| self.way.common.owner[self.way.skin.dominant_joint(v as usize)? as usize];
+        let mut counts = vec![0usize; self.way.common.joints.len()];
+        near.iter().filter_map(owner).for_each(|joint| counts[joint as usize] += 1);
+        let mut joints: Vec<u32> = (0..counts.len() as u32).filter(|&joint| counts[joint as usize] > 0).collect();
+        joints.sort_by_key(|&joint| std::cmp::Reverse(counts[joint as usize]));
+        joints.truncate(2);
+        let share = (f64::from(self.piece) + state.t) / f64::from(self.pieces);
+        Diagnostic::PoseBlocked { share, joints }
+    }
+
+    /// How each joint of the target rig moves from its bind pose to that in which the garment is solved, in the caller's
+    /// coordinates.
+    pub(super) fn motions(&self) -> Vec<DAffine3> {
+        let map = self.way.system.affine_to_internal();
+        self.way.posing.motions(1.0).iter().map(|motion| map.inverse() * *motion * map).collect()
     }
 }

@@ -8,6 +8,7 @@ use super::Session;
 use super::inputs::{Inputs, check_skin, mesh_to_internal, missing};
 use super::rig_inputs::Skeletons;
 use super::way::Way;
+use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
@@ -80,6 +81,21 @@ impl Session {
         self.setting("the joint pairs")?;
         self.inputs.rigs.pairs = pairs.into();
         Ok(())
+    }
+
+    /// Joints of the target rig.
+    ///
+    /// # Errors
+    /// `InvalidState` before the end, or without a target rig.
+    pub fn target_joint_count(&self) -> Result<usize> {
+        match (&self.inputs.rigs.target, self.stage()) {
+            (Some(rig), Stage::Done) => Ok(rig.joints.len()),
+            (None, _) => Err(Error::new(
+                ErrorKind::InvalidState,
+                "the target rig is missing: call set_target_rig before prepare",
+            )),
+            _ => Err(Error::new(ErrorKind::InvalidState, "there is no result yet; run the session to its end first")),
+        }
     }
 
     /// Which joint of the target rig corresponds to each joint of the source rig, by what has been set so far.

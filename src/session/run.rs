@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use glam::DAffine3;
+
 use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
@@ -45,6 +47,8 @@ pub(super) struct Run {
     pub(super) attempts: Attempts,
     /// The way to the target's own pose, where that begins after the inflation.
     reposing: Option<Box<Reposing>>,
+    /// What closed that way, and how each joint of the target rig moves into the pose in which the garment stays.
+    pub(super) blocked: Option<(Diagnostic, Vec<DAffine3>)>,
     /// Where an earlier attempt came farthest.
     pub(super) farthest: Option<Box<(Objective, State)>>,
     field: FieldTask,
@@ -63,7 +67,7 @@ pub(super) struct Run {
     /// Bytes of the distance field, as estimated.
     expected: u64,
     /// The distance field and the seconds that it took, once it is there.
-    distance: Option<(Arc<Field>, f64)>,
+    pub(super) distance: Option<(Arc<Field>, f64)>,
     /// What the result falls short of, or what holds the garment where there is none.
     pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
@@ -129,6 +133,7 @@ impl Run {
             newton,
             step: Step::Inflate(Inflation::default()),
             attempts: Attempts::default(),
+            blocked: None,
             reposing: own.map(|(own, way)| Box::new(Reposing::new(own.problem, own.body, way))),
             farthest: None,
             field,

@@ -9,6 +9,7 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::Diagnostic;
 use crate::options::Options;
+use crate::solver::newton::State;
 
 impl Problem {
     /// The objective of the inflation, the avatar moving with t, with the contacts at t = 0. Its minimum separation is lower
@@ -87,6 +88,13 @@ impl Problem {
         objective.set_contact(settings.inflation_dhat, settings.inflation_barrier_weight);
         let (x, intersections) = self.initial_state(settings.as_designed);
         objective.contact.initialise(Configuration { x, t: 0.0 }, intersections);
+        objective
+    }
+
+    /// The objective at the end of the inflation, at `state`, whose contacts are still to be found.
+    pub fn another_inflation_at(&self, state: &State, options: &Options, cancel: &Cancel) -> Objective {
+        let mut objective = self.growing(options, cancel);
+        objective.contact.rebuild_candidates(state.configuration());
         objective
     }
 

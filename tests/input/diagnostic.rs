@@ -61,6 +61,13 @@ fn every_sentence_is_made_of_its_data() {
             "garment: the loose piece of 7 vertices with triangle 40 is held to the piece beside it, near triangle 11".into(),
         ),
         (
+            Diagnostic::PoseBlocked { share: 0.96, joints: vec![5, 9] },
+            "target avatar: it stands in another pose than the garment was designed in, and the garment lets it go only 96 % of \
+             the way from that pose to its own: what belongs to joint 5 and to joint 9 is in the way of each other; the result \
+             is in the pose of the design; give the avatar in a pose nearer to it"
+                .into(),
+        ),
+        (
             Diagnostic::JointsUnsure { places: vec!["shoulders", "hips", "knees"] },
             "which joints of the two rigs are shoulders, hips and knees is a guess: the names do not say it; look at the joint \
              map, and say which joints correspond, as pairs"
