@@ -314,6 +314,10 @@ enum BespokeDiagnosticKind
   /// root on the floor is. The bone is named; the distance is how far the body goes on, or how far the joint is off. It is
   /// taken to lie where the message says, unless the option strict is set.
   BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED = 18,
+  /// The target stands in another pose than the garment was designed in, and the garment does not let it go from that pose
+  /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
+  /// read with bespoke_session_read_pose_transforms.
+  BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED = 30,
   /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
   /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
   BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE = 33,
@@ -1281,6 +1285,18 @@ BespokeStatus bespoke_session_read_added_joints(const struct BespokeSession *ses
                                                 struct BespokeAddedJoint *joints,
                                                 size_t capacity,
                                                 size_t *count);
+
+/// Writes how each joint of the target rig moves from its bind pose to the pose that the result is in: 4 x 4 numbers each,
+/// column after column, to be multiplied from the left. They are all the identity, but where the diagnostic POSE_BLOCKED says
+/// that the result is in the pose of the design: there, garment and avatar that are read are in that pose.
+///
+/// `transforms`: room for `capacity` times BESPOKE_TRANSFORM_SIZE numbers; the first that fit are written. May be null where
+/// `capacity` is 0. `*count`, unless null: joints of the target rig. State: DONE, with a target rig. Errors: INVALID_ARGUMENT
+/// (null with a capacity), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_pose_transforms(const struct BespokeSession *session,
+                                                   double *transforms,
+                                                   size_t capacity,
+                                                   size_t *count);
 
 /// Writes the diagnostics about the inputs and the result: what prepare found, also where it failed, what holds the
 /// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so

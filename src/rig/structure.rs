@@ -20,6 +20,12 @@ const MOST_JOINTS: usize = 4096;
 const MOST_BRANCHES: usize = 12;
 const MOST_PAIRS: usize = 40;
 const MOST_SEGMENTS: usize = 24;
+/// A joint with so many neighbours is a hand: a forearm and three fingers.
+const FINGERS: usize = 4;
+/// The two bones of a limb are at least this share of the whole way to its tip.
+const LEAST_SHARE: f64 = 0.45;
+/// What a bend within one of them counts, beside the difference of their lengths.
+const BENT: f64 = 2.0;
 
 /// What the structure says of each joint: a part and how sure that is, from 0 to 1. None where the rig is no person.
 pub fn read(places: &[DVec3], parents: &[Option<u32>], used: &[bool]) -> Option<Vec<Option<(BodyPart, f64)>>> {
@@ -318,8 +324,8 @@ impl Person {
 }
 
 /// The three joints of a limb: where it begins, its middle and where hand or foot begin, as places on its `way`. The two
-/// bones between them are the longest two of about the same length; what comes before is a collar bone, and what comes
-/// after a hand or a foot.
+/// bones between them are straight and of about the same length; what comes before is a collar bone, and what comes after
+/// a hand, from which fingers branch off, or a foot.
 fn segments(tree: &Tree<'_>, way: &[u32]) -> [Option<usize>; 3] {
     let mut along = vec![0.0];
     for pair in way.windows(2) {
@@ -333,13 +339,19 @@ fn segments(tree: &Tree<'_>, way: &[u32]) -> [Option<usize>; 3] {
         2 => return [Some(0), Some(1), None],
         _ => {}
     }
+    let has_fingers = |&k: &usize| tree.neighbours[way[k] as usize].len() >= FINGERS;
+    let hand = (2..count).find(has_fingers);
     let mut best = (f64::INFINITY, [0, 1, 2]);
     for a in 0..count - 2 {
         for b in a + 1..count - 1 {
             for c in b + 1..count {
                 let (upper, lower) = (along[b] - along[a], along[c] - along[b]);
-                let cost = (upper - lower).abs() / (upper + lower).max(f64::MIN_POSITIVE)
-                    - (upper + lower) / total.max(f64::MIN_POSITIVE);
+                let both = upper + lower;
+                if hand.is_some_and(|hand| hand != c) || both < LEAST_SHARE * total {
+                    continue;
+                }
+                let straight = tree.length(way[a], way[b]) + tree.length(way[b], way[c]);
+                let cost = ((upper - lower).abs() + BENT * (both - straight)) / both.max(f64::MIN_POSITIVE);
                 if cost < best.0 - 1e-9 {
                     best = (cost, [a, b, c]);
                 }

@@ -14,6 +14,10 @@ use crate::input::skin::SkinWeights;
 use crate::rig::joint_map::{JointMap, MappedJoint, Reason};
 use crate::rig::weights::own_joints::{AddedJoint, SourceRig, keep_own};
 use crate::rig::weights::{TransferOptions, limited, move_as_one, transfer};
+use crate::stage::setup::loose_pieces::LoosePieces;
+
+/// A loose piece whose longest side is below this, in the normalised space, moves as one; a belt does not.
+const BUTTON: f64 = 0.15;
 
 /// What makes a result move.
 #[derive(Debug)]
@@ -92,9 +96,7 @@ impl Snapshot {
         };
         let garment = TriangleMesh { positions: self.x.clone(), triangles: problem.triangles.clone() };
         let transferred = transfer(&garment, &body, body_skin, &TransferOptions::default(), cancel)?;
-        let stiff = problem.carried.stiff().map(|(vertices, _)| vertices.to_vec());
-        let groups: Vec<Vec<u32>> = problem.callers_groups.iter().cloned().chain(stiff).collect();
-        let mut weights = move_as_one(&transferred, &groups)?;
+        let mut weights = transferred;
         let mut added = Vec::new();
         if let Some(own) = inputs.garment_skin() {
             // Of the vertices in one place, the first speaks.
@@ -105,9 +107,28 @@ impl Snapshot {
             let from_internal = self.coordinate_system().affine_to_internal().inverse();
             added.iter_mut().for_each(|joint| joint.bind = from_internal * joint.bind);
         }
+        let weights = move_as_one(&weights, &self.stiff_groups())?;
         let rows: Vec<usize> = problem.weld.scatter(&(0..self.x.len()).collect::<Vec<_>>());
         let rows = rows.into_iter().map(|welded| weights.weights(welded).to_vec());
         Ok(GarmentSkin { weights: SkinWeights::from_rows(weights.joint_count(), rows), added })
+    }
+
+    /// What moves as one: the caller's rigid groups, carried pieces that are stiff, and small loose pieces such as buttons.
+    fn stiff_groups(&self) -> Vec<Vec<u32>> {
+        let problem = &self.problem;
+        let stiff = problem.carried.stiff().map(|(vertices, _)| vertices.to_vec());
+        let mut groups: Vec<Vec<u32>> = problem.callers_groups.iter().cloned().chain(stiff).collect();
+        let mut is_grouped = vec![false; problem.rest.len()];
+        groups.iter().flatten().for_each(|&v| is_grouped[v as usize] = true);
+        for piece in LoosePieces::find(&problem.rest, &problem.triangles).pieces {
+            let points = || piece.vertices.iter().map(|&v| problem.rest[v as usize]);
+            let (low, high) = (points().reduce(DVec3::min), points().reduce(DVec3::max));
+            let side = high.zip(low).map_or(0.0, |(high, low)| (high - low).max_element());
+            if side < BUTTON && !piece.vertices.iter().any(|&v| is_grouped[v as usize]) {
+                groups.push(piece.vertices);
+            }
+        }
+        groups
     }
 
     /// The garment's own joints, in the internal coordinate system.

@@ -1,9 +1,12 @@
 //! Rigs of real characters.
 
 mod blend;
+mod joint_map;
 mod large;
 mod limbs;
 mod names;
 mod own_joints;
+mod posing;
 mod weights;
 mod weights_random;
+mod words;

@@ -264,6 +264,13 @@ namespace Bespoke
         JointMisplaced = 18,
 
         /// <summary>
+        /// The target stands in another pose than the garment was designed in, and the garment does not let it go from
+        /// that pose to its own, because parts of it, which are named, meet: the result is in the pose of the design,
+        /// whose transforms are read with <c>Session.ReadPoseTransforms</c>.
+        /// </summary>
+        PoseBlocked = 30,
+
+        /// <summary>
         /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say
         /// it: <c>Session.ReadJointMap</c> shows it and <c>Session.SetJointPairs</c> mends it.
         /// </summary>

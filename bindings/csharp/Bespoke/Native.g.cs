@@ -198,6 +198,10 @@ namespace Bespoke
             SessionHandle session, NativeAddedJoint* joints, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_pose_transforms(
+            SessionHandle session, double* transforms, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_diagnostics(
             SessionHandle session, NativeDiagnostic* diagnostics, UIntPtr capacity, UIntPtr* count);
     }

@@ -1,0 +1,100 @@
+//! A body posed like another, and back.
+
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::rig::{Rig, RigJoint};
+use bespoke::input::skin::SkinWeights;
+use bespoke::rig::body_part::Side;
+use bespoke::rig::landmark::Landmark;
+use bespoke::rig::places::{Character, index, places};
+use bespoke::rig::posing::Posing;
+use bespoke::rig::reading::Reading;
+use glam::{DMat4, DVec3};
+
+/// A person whose arms are turned down from the horizontal by so many degrees.
+fn person(degrees: f64) -> Rig {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let mut joints = Vec::new();
+    let mut add = |name: &str, parent: Option<u32>, place: DVec3| {
+        joints.push(RigJoint { name: name.into(), parent, bind: DMat4::from_translation(place) });
+        joints.len() as u32 - 1
+    };
+    let hips = add("Hips", None, DVec3::new(0.0, 1.0, 0.0));
+    let spine = add("Spine", Some(hips), DVec3::new(0.0, 1.2, 0.0));
+    let neck = add("Neck", Some(spine), DVec3::new(0.0, 1.5, 0.0));
+    add("Head", Some(neck), DVec3::new(0.0, 1.6, 0.0));
+    for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
+        let from = DVec3::new(0.2 * x, 1.4, 0.0);
+        let along = DVec3::new(cos * x, -sin, 0.0);
+        let arm = add(&format!("{side}Arm"), Some(spine), from);
+        let fore = add(&format!("{side}ForeArm"), Some(arm), from + 0.3 * along);
+        add(&format!("{side}Hand"), Some(fore), from + 0.6 * along);
+        let leg = add(&format!("{side}UpLeg"), Some(hips), DVec3::new(0.1 * x, 0.95, 0.0));
+        let shin = add(&format!("{side}Leg"), Some(leg), DVec3::new(0.1 * x, 0.5, 0.0));
+        add(&format!("{side}Foot"), Some(shin), DVec3::new(0.1 * x, 0.1, 0.0));
+    }
+    Rig { joints }
+}
+
+/// A vertex at each joint, which moves it alone.
+fn body(rig: &Rig) -> (TriangleMesh, SkinWeights) {
+    let count = rig.joints.len() as u32;
+    let positions = (0..count).map(|joint| rig.place(joint)).collect();
+    let triangles = (0..count - 2).map(|v| [v, v + 1, v + 2]).collect();
+    let skin = SkinWeights::from_rows(count as usize, (0..count).map(|joint| vec![(joint, 1.0)]));
+    (TriangleMesh { positions, triangles }, skin)
+}
+
+fn posing(own: &Rig, other: &Rig) -> Option<(Posing, [Option<DVec3>; 16])> {
+    let (mesh, skin) = body(own);
+    let character = Character { rig: own, body: Some(&mesh), skin: Some(&skin) };
+    let reading = Reading::new(own, Some(&skin));
+    let order = own.parents_first("rig").expect("a tree");
+    let here = places(character, &reading, &order);
+    let (mesh, skin) = body(other);
+    let character = Character { rig: other, body: Some(&mesh), skin: Some(&skin) };
+    let reading_of_other = Reading::new(other, Some(&skin));
+    let there = places(character, &reading_of_other, &other.parents_first("rig").expect("a tree"));
+    let (mesh, skin) = body(own);
+    let character = Character { rig: own, body: Some(&mesh), skin: Some(&skin) };
+    Posing::new(character, &reading, &order, &here, &there).map(|posing| (posing, there))
+}
+
+#[test]
+fn limbs_take_the_directions_of_the_others() {
+    let (own, other) = (person(80.0), person(0.0));
+    let (posing, there) = posing(&own, &other).expect("80 degrees are far");
+    let (mesh, skin) = body(&own);
+    let moved = posing.moved(&posing.motions(1.0), &skin, &mesh.positions);
+    for side in Side::BOTH {
+        let wrist = there[index(Landmark::Wrist(side))].expect("a wrist");
+        let nearest = moved.iter().map(|p| p.distance(wrist)).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-12, "{side:?} wrist is off by {nearest}");
+    }
+    assert!((posing.largest_turn().to_degrees() - 80.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_own_pose_is_the_end_of_the_way() {
+    let own = person(80.0);
+    let (posing, _) = posing(&own, &person(0.0)).expect("80 degrees are far");
+    let (mesh, skin) = body(&own);
+    let moved = posing.moved(&posing.motions(0.0), &skin, &mesh.positions);
+    assert!(moved.iter().zip(&mesh.positions).all(|(p, q)| p.distance(*q) < 1e-15));
+    // Half-way, lengths are kept: every motion is rigid.
+    for motion in posing.motions(0.5) {
+        assert!((motion.matrix3.determinant() - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn an_a_pose_needs_no_way() {
+    assert!(posing(&person(45.0), &person(0.0)).is_none());
+    assert!(posing(&person(45.0), &person(80.0)).is_none());
+}
+
+#[test]
+fn where_a_body_faces_does_not_matter() {
+    let own = person(80.0).mapped(DMat4::from_rotation_y(2.0));
+    let (posing, _) = posing(&own, &person(0.0)).expect("80 degrees are far");
+    assert!((posing.largest_turn().to_degrees() - 80.0).abs() < 1e-9);
+}
