@@ -30,6 +30,7 @@
 
 #include "bespoke.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -974,6 +975,28 @@ struct MappedJoint {
     std::string part;
 };
 
+/// Skin weights of a result: Session::read_garment_skin_influences.
+struct GarmentSkin {
+    /// Joints a vertex.
+    std::size_t influences;
+    /// Joints of the target rig and added joints together.
+    std::size_t joint_count;
+    /// `influences` joints for each vertex of the garment, the one with the largest weight first.
+    std::vector<std::uint32_t> joints;
+    /// As many weights, of sum 1 for each vertex.
+    std::vector<float> weights;
+};
+
+/// A joint of the garment's own: BespokeAddedJoint.
+struct AddedJoint {
+    /// The joint of the source rig that it is.
+    std::uint32_t source;
+    /// A joint of the target rig, or an added one, which are numbered on from there; none for a root.
+    std::optional<std::uint32_t> parent;
+    /// Its bind transform in the coordinate system of the target, as in Joint.
+    std::array<double, BESPOKE_TRANSFORM_SIZE> bind;
+};
+
 /// A diagnostic about the inputs or the result: BespokeDiagnostic.
 struct Diagnostic {
     DiagnosticKind kind;
@@ -1551,6 +1574,65 @@ public:
             joints.push_back(std::move(to));
         }
         return joints;
+    }
+
+    /// Skin weights of the result on the target rig, with so many joints a vertex; after the end.
+    Result<GarmentSkin> read_garment_skin_influences(std::size_t influences) const {
+        std::size_t vertices = 0;
+        const BespokeBuffer nowhere{nullptr, 0, 0, BESPOKE_COMPONENT_F64};
+        const auto counted = call(bespoke_session_read_garment_vertices, &nowhere, &vertices);
+        // Of a result that is good in the other precision only, there are as many.
+        if (!counted && counted.error().status() != Status::not_verified) return counted.error();
+        GarmentSkin skin{influences, 0, {}, {}};
+        // Never empty, so that no influences at all are refused by the library, with its own words.
+        skin.joints.resize(vertices * influences + 1);
+        skin.weights.resize(vertices * influences + 1);
+        const auto done = call(bespoke_session_read_garment_skin_influences, influences, skin.joints.data(),
+                               skin.weights.data(), vertices, &skin.joint_count);
+        if (!done) return done.error();
+        skin.joints.pop_back();
+        skin.weights.pop_back();
+        return skin;
+    }
+
+    /// The garment's own joints, in the order of their numbers, which follow on those of the target rig; after the end.
+    Result<std::vector<AddedJoint>> read_added_joints() const {
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_added_joints, nullptr, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<BespokeAddedJoint> read(count);
+        if (const auto done = call(bespoke_session_read_added_joints, read.data(), read.size(), &count); !done) {
+            return done.error();
+        }
+        if (count < read.size()) read.resize(count);
+        std::vector<AddedJoint> joints;
+        joints.reserve(read.size());
+        for (const BespokeAddedJoint &from : read) {
+            AddedJoint to{from.source, {}, {}};
+            if (from.parent != BESPOKE_NO_JOINT) to.parent = from.parent;
+            std::copy(std::begin(from.bind), std::end(from.bind), to.bind.begin());
+            joints.push_back(to);
+        }
+        return joints;
+    }
+
+    /// How each joint of the target rig moves from its bind pose to the pose that the result is in; after the end. All are the
+    /// identity but where the diagnostic pose_blocked is.
+    Result<std::vector<std::array<double, BESPOKE_TRANSFORM_SIZE>>> read_pose_transforms() const {
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_pose_transforms, nullptr, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<double> read(count * BESPOKE_TRANSFORM_SIZE);
+        if (const auto done = call(bespoke_session_read_pose_transforms, read.data(), count, &count); !done) {
+            return done.error();
+        }
+        std::vector<std::array<double, BESPOKE_TRANSFORM_SIZE>> transforms(read.size() / BESPOKE_TRANSFORM_SIZE);
+        for (std::size_t k = 0; k < read.size(); k++) {
+            transforms[k / BESPOKE_TRANSFORM_SIZE][k % BESPOKE_TRANSFORM_SIZE] = read[k];
+        }
+        return transforms;
     }
 
     /// The session's measurements so far.

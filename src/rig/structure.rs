@@ -22,6 +22,8 @@ const MOST_PAIRS: usize = 40;
 const MOST_SEGMENTS: usize = 24;
 /// A joint with so many neighbours is a hand: a forearm and three fingers.
 const FINGERS: usize = 4;
+/// A joint nearer to the trunk's axis than this share of what lies beyond it is that of a collar bone.
+const BREASTBONE: f64 = 0.12;
 /// The two bones of a limb are at least this share of the whole way to its tip.
 const LEAST_SHARE: f64 = 0.45;
 /// What a bend within one of them counts, beside the difference of their lengths.
@@ -240,7 +242,11 @@ impl Person {
         let mut parts = vec![None; tree.places.len()];
         let up = self.up(tree);
         let legs = [0, 1].map(|k| segments(tree, &self.legs.pair[k].way));
-        let arms = [0, 1].map(|k| segments(tree, &self.arms.pair[k].way));
+        let arms = [0, 1].map(|k| {
+            let way = &self.arms.pair[k].way;
+            let first = usize::from(self.begins_with_collar(tree, up, way));
+            segments(tree, &way[first..]).map(|at| at.map(|at| at + first))
+        });
         let (left_leg, leg_sure) = self.left(tree, up, &self.legs, &legs);
         let (left_arm, arm_sure) = self.left(tree, up, &self.arms, &legs);
         for (k, &joint) in self.trunk.iter().enumerate() {
@@ -274,6 +280,14 @@ impl Person {
         }
         self.read_head(tree, up, &arms, &mut parts);
         parts
+    }
+
+    /// Whether an arm begins with a collar bone, whose joint is beside the breastbone.
+    fn begins_with_collar(&self, tree: &Tree<'_>, up: DVec3, way: &[u32]) -> bool {
+        let Some((&first, rest)) = way.split_first().filter(|(_, rest)| rest.len() >= 3) else { return false };
+        let from = tree.places[first as usize] - tree.places[self.arms.joint as usize];
+        let reach = tree.length(first, rest[rest.len() - 1]);
+        (from - from.dot(up) * up).length() < BREASTBONE * reach
     }
 
     /// Neck, head and its top, from how many joints there are, and whether the arms leave from below the shoulders, at the

@@ -55,6 +55,8 @@ internal static class Rigs
         using (Session session = new Session())
         {
             Check.Throws<ArgumentNullException>(() => session.SetSourceRig(null));
+            Check.Refused(Status.InvalidState, () => session.ReadAddedJoints(), "result");
+            Check.Refused(Status.InvalidState, () => session.ReadPoseTransforms(), "target rig");
             Check.Throws<ArgumentNullException>(() => session.SetSourceRig(new Joint[1]));
             Check.Refused(Status.InvalidSkeleton, () => session.SetTargetRig(new Joint[0]), "target rig");
             Changed(session, joint => joint.Bind = null, Status.InvalidArgument, "joint 2", "none");

@@ -1,4 +1,7 @@
 // Joints of a rig, and what corresponds to them in another.
+using System;
+using System.Runtime.InteropServices;
+
 namespace Bespoke
 {
     /// <summary>A joint of a rig.</summary>
@@ -53,5 +56,30 @@ namespace Bespoke
 
         /// <summary>The part of the body, such as "left upper arm"; empty where it is none.</summary>
         public string Part { get; }
+    }
+
+    /// <summary>A joint of the garment's own, which follows on those of the target rig.</summary>
+    public sealed class AddedJoint
+    {
+        internal unsafe AddedJoint(NativeAddedJoint* native)
+        {
+            Source = checked((int)native->source);
+            Parent = native->parent == NativeConstants.NoJoint ? (int?)null : checked((int)native->parent);
+            Bind = new double[NativeConstants.TransformSize];
+            Marshal.Copy((IntPtr)native->bind, Bind, 0, NativeConstants.TransformSize);
+        }
+
+        /// <summary>The joint of the source rig that it is.</summary>
+        public int Source { get; }
+
+        /// <summary>
+        /// A joint of the target rig, or an added one, which are numbered on from there; null for a root.
+        /// </summary>
+        public int? Parent { get; }
+
+        /// <summary>
+        /// Its bind transform in the coordinate system of the target, as in <see cref="Joint.Bind"/>.
+        /// </summary>
+        public double[] Bind { get; }
     }
 }

@@ -114,6 +114,74 @@ namespace Bespoke
             }
         }
 
+        /// <summary>
+        /// Skin weights of the result on the joints of the target rig, or of the target skeleton where no rig was set:
+        /// those of the body beneath, smoothly continued where the garment stands off. Vertices of a rigid group have
+        /// the same. State: Done, with skin weights of the target avatar set.
+        /// </summary>
+        /// <param name="influences">Joints of a vertex, such as 4 or 8.</param>
+        /// <param name="joints">For each garment vertex, as many joints, that with the largest weight first.</param>
+        /// <param name="weights">For each garment vertex, as many weights, of sum 1.</param>
+        /// <returns>Joints of the target rig and added joints together.</returns>
+        /// <exception cref="BespokeException">InvalidState, InvalidWeights, Cancelled, Busy, Internal.</exception>
+        public unsafe int ReadGarmentSkinInfluences(int influences, out uint[] joints, out float[] weights)
+        {
+            AtLeastOne(influences, nameof(influences));
+            int vertices = GarmentVertexCount;
+            joints = new uint[checked(vertices * influences)];
+            weights = new float[joints.Length];
+            UIntPtr count;
+            fixed (uint* j = joints)
+            fixed (float* w = weights)
+            {
+                Check(Native.bespoke_session_read_garment_skin_influences(
+                    handle, (UIntPtr)(uint)influences, j, w, (UIntPtr)(uint)vertices, &count));
+            }
+            return checked((int)count);
+        }
+
+        /// <summary>
+        /// The garment's own joints, such as those of a skirt or a cape, in the order of their numbers, which follow on
+        /// those of the target rig. State: Done, with skin weights of the target avatar set.
+        /// </summary>
+        /// <returns>The joints.</returns>
+        /// <exception cref="BespokeException">InvalidState, InvalidWeights, Cancelled, Busy, Internal.</exception>
+        public unsafe AddedJoint[] ReadAddedJoints()
+        {
+            UIntPtr count;
+            Check(Native.bespoke_session_read_added_joints(handle, null, UIntPtr.Zero, &count));
+            NativeAddedJoint[] native = new NativeAddedJoint[checked((int)count)];
+            fixed (NativeAddedJoint* first = native)
+            {
+                Check(Native.bespoke_session_read_added_joints(handle, first, (UIntPtr)(uint)native.Length, &count));
+                AddedJoint[] joints = new AddedJoint[Math.Min(native.Length, checked((int)count))];
+                for (int k = 0; k < joints.Length; k++)
+                {
+                    joints[k] = new AddedJoint(first + k);
+                }
+                return joints;
+            }
+        }
+
+        /// <summary>
+        /// How each joint of the target rig moves from its bind pose to the pose that the result is in: 16 numbers each,
+        /// column after column, all of them the identity but where there is a diagnostic PoseBlocked. State: Done, with a
+        /// target rig.
+        /// </summary>
+        /// <returns>The numbers, joint after joint.</returns>
+        /// <exception cref="BespokeException">InvalidState, Busy, Internal.</exception>
+        public unsafe double[] ReadPoseTransforms()
+        {
+            UIntPtr count;
+            Check(Native.bespoke_session_read_pose_transforms(handle, null, UIntPtr.Zero, &count));
+            double[] numbers = new double[checked((int)count * NativeConstants.TransformSize)];
+            fixed (double* first = numbers)
+            {
+                Check(Native.bespoke_session_read_pose_transforms(handle, first, count, &count));
+            }
+            return numbers;
+        }
+
         private unsafe void SetARig(SetRig set, IReadOnlyList<Joint> joints, string what)
         {
             NotNull(joints, nameof(joints));
