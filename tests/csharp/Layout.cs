@@ -35,6 +35,7 @@ internal static class Layout
             { "BespokeView", sizeof(NativeView) },
             { "BespokeBuffer", sizeof(NativeBuffer) },
             { "BespokeJoint", sizeof(NativeJoint) },
+            { "BespokeAddedJoint", sizeof(NativeAddedJoint) },
             { "BespokeMappedJoint", sizeof(NativeMappedJoint) },
             { "BespokeCoordinateSystem", sizeof(NativeCoordinateSystem) },
             { "BespokeOptions", sizeof(NativeOptions) },
