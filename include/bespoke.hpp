@@ -30,7 +30,6 @@
 
 #include "bespoke.h"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -1611,7 +1610,7 @@ public:
         for (const BespokeAddedJoint &from : read) {
             AddedJoint to{from.source, {}, {}};
             if (from.parent != BESPOKE_NO_JOINT) to.parent = from.parent;
-            std::copy(std::begin(from.bind), std::end(from.bind), to.bind.begin());
+            for (std::size_t k = 0; k < to.bind.size(); k++) to.bind[k] = from.bind[k];
             joints.push_back(to);
         }
         return joints;
