@@ -179,7 +179,7 @@ internal static class Layout
 
     private static bool Crosses(Type type)
     {
-        return type == typeof(void) || type == typeof(uint) || type == typeof(IntPtr) || type == typeof(UIntPtr) ||
-            type.IsPointer || (type.IsEnum && Enum.GetUnderlyingType(type) == typeof(uint));
+        return type == typeof(void) || type == typeof(uint) || type == typeof(double) || type == typeof(IntPtr) ||
+            type == typeof(UIntPtr) || type.IsPointer || (type.IsEnum && Enum.GetUnderlyingType(type) == typeof(uint));
     }
 }
