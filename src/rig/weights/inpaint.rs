@@ -11,15 +11,13 @@
 //! its distance from the body. A constant costs nothing, so that the weights of all joints sum to 1 as those of the closest
 //! points do. They may come out below 0 or above 1, and are clamped then.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::cholesky::{SymmetricOrdering, factorize_symbolic_cholesky};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, Mat, Par, Side};
+use faer::Mat;
 
+use super::factor::{self, Columns};
 use super::laplacian::{Laplacian, Rule};
 use super::sure::Sure;
 use crate::control::Cancel;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skin::SkinWeights;
 
@@ -79,32 +77,8 @@ impl<'a> System<'a> {
 
     /// One row for each unknown vertex and one column for each joint; none where the system is not well conditioned enough.
     fn solve(&self, cancel: &Cancel) -> Result<Option<Mat<f64>>> {
-        let no_memory = || Error::new(ErrorKind::Internal, "there is no memory for the system of the skin weights");
         let (n, columns) = (self.unknown.len(), self.joints.len());
-        let Columns { start, rows, values } = self.matrix();
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &start, None, &rows);
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, Default::default())
-            .map_err(|_| no_memory())?;
-        cancel.check()?;
-        // One thread, so that the bits do not depend on their number.
-        let par = Par::Seq;
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(par, Default::default());
-        let scratch = scratch.or(symbolic.solve_in_place_scratch::<f64>(columns, par));
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| no_memory())?;
-        let mut factor = vec![0.0; symbolic.len_val()];
-        let factor = symbolic.factorize_numeric_llt::<f64>(
-            &mut factor,
-            SparseColMatRef::new(pattern, &values),
-            Side::Lower,
-            Default::default(),
-            par,
-            MemStack::new(&mut memory),
-            Default::default(),
-        );
-        let Ok(factor) = factor else { return Ok(None) };
-        cancel.check()?;
-        let mut x = self.right_hand_sides();
-        factor.solve_in_place_with_conj(Conj::No, x.as_mut(), par, MemStack::new(&mut memory));
+        let Some(x) = factor::solve(&self.matrix(), &self.right_hand_sides(), cancel)? else { return Ok(None) };
         let error = |i: usize| ((0..columns).map(|k| x[(i, k)]).sum::<f64>() - 1.0).abs();
         // Not at all where one is not a number.
         Ok((0..n).all(|i| error(i) <= WELL_SOLVED).then_some(x))
@@ -188,11 +162,4 @@ impl<'a> System<'a> {
         });
         SkinWeights::from_rows(sure.weights.joint_count(), rows)
     }
-}
-
-/// The lower triangle of a symmetric matrix, column after column.
-struct Columns {
-    start: Vec<u32>,
-    rows: Vec<u32>,
-    values: Vec<f64>,
 }

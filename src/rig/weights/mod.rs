@@ -9,6 +9,7 @@
 //! ([`own_joints`]). Last, the number of influences is limited to what the host takes.
 
 pub mod blend;
+mod factor;
 mod groups;
 mod inpaint;
 mod laplacian;
