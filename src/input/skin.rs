@@ -133,10 +133,21 @@ impl SkinWeights {
         self.ends.push(self.influences.len());
     }
 
-    /// These, and those of further vertices: each lies in a triangle of vertices that are here, at barycentric coordinates,
-    /// or nowhere, and then has no weights.
+    /// These, and after them those of further vertices, as [`Self::at`] has them.
     pub fn extended(&self, places: &[Option<([u32; 3], [f64; 3])>]) -> Self {
         let mut extended = self.clone();
+        let further = self.at(places);
+        let first = extended.influences.len();
+        extended.influences.extend(further.influences);
+        extended.ends.extend(further.ends.iter().map(|end| first + end));
+        extended
+    }
+
+    /// The weights of further vertices: each lies in a triangle of vertices that are here, at barycentric coordinates, or
+    /// nowhere, and then has no weights.
+    pub fn at(&self, places: &[Option<([u32; 3], [f64; 3])>]) -> Self {
+        let mut further =
+            Self { joint_count: self.joint_count, ends: Vec::with_capacity(places.len()), influences: Vec::new() };
         let mut own = Vec::new();
         for place in places {
             own.clear();
@@ -147,21 +158,9 @@ impl SkinWeights {
                 own.extend(weights.iter().map(|&(joint, weight)| (joint, share * weight / sum)));
             }
             own.retain(|&(_, weight)| weight > 0.0);
-            extended.push(&mut own);
+            further.push(&mut own);
         }
-        extended
-    }
-
-    /// The weights of further vertices alone, as in [`Self::extended`].
-    pub fn at(&self, places: &[Option<([u32; 3], [f64; 3])>]) -> Self {
-        let all = self.extended(places);
-        let mut own =
-            Self { joint_count: self.joint_count, ends: Vec::with_capacity(places.len()), influences: Vec::new() };
-        for vertex in self.vertex_count()..all.vertex_count() {
-            own.influences.extend(all.weights(vertex));
-            own.ends.push(own.influences.len());
-        }
-        own
+        further
     }
 
     /// These without weights for `vertices`, which are ascending: the nearest bone decides for them.

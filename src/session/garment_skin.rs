@@ -11,7 +11,7 @@ use crate::control::{Cancel, Cancelled, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skin::SkinWeights;
-use crate::rig::joint_map::{JointMap, MappedJoint, Reason};
+use crate::rig::joint_map::{MappedJoint, Reason};
 use crate::rig::weights::own_joints::{AddedJoint, SourceRig, keep_own};
 use crate::rig::weights::{TransferOptions, limited, move_as_one, transfer};
 use crate::stage::setup::loose_pieces::LoosePieces;
@@ -133,8 +133,9 @@ impl Snapshot {
 
     /// The garment's own joints, in the internal coordinate system.
     fn added_joints(&self, inputs: &Inputs, own: &SkinWeights) -> Result<Vec<AddedJoint>> {
-        let [source, target] = inputs.posed_rigs()?;
-        let map = JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], inputs.joint_pairs())?;
+        let rigs = inputs.posed_rigs()?;
+        let map = inputs.joint_map_of(&rigs)?;
+        let [source, target] = rigs;
         let targets: Vec<Option<u32>> = map.joints.iter().map(counterpart).collect();
         let parents: Vec<Option<u32>> = source.rig.joints.iter().map(|joint| joint.parent).collect();
         let binds: Vec<DAffine3> = source.rig.joints.iter().map(|joint| DAffine3::from_mat4(joint.bind)).collect();

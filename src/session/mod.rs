@@ -37,7 +37,7 @@ pub use crate::input::precision::Precision;
 pub use crate::options::Options;
 use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
-pub use crate::rig::words::with_names;
+use crate::rig::words::with_names;
 use context::Context;
 #[doc(hidden)]
 pub use fault::Fault;

@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 
 use super::way::Way;
 use crate::contact::{Avatar, Surface};
 use crate::control::Cancel;
-use crate::geometry::closest_point::{ClosestPoint, barycentric};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::coordinate_system::CoordinateSystem;
@@ -19,6 +17,7 @@ use crate::solver::newton::State;
 use crate::stage::contact_guard::ContactGuard;
 use crate::stage::objective::Objective;
 use crate::stage::repose::Repose;
+use crate::stage::setup::layer_skin::places_beneath;
 use crate::stage::setup::problem::{Problem, collapse_unused};
 
 /// No joint turns by more than this many degrees in a piece: each vertex goes straight where it should go along an arc.
@@ -98,14 +97,7 @@ impl Reposing {
 
     /// Weights of garment vertices at `x` on the body at `body`: those of the nearest point.
     pub(super) fn garment_skin(&self, x: &[DVec3], body: &TriangleMesh) -> SkinWeights {
-        let tree = ClosestPoint::new(body);
-        let beneath = |&p: &DVec3| {
-            let closest = tree.closest(p)?;
-            let triangle = body.triangles[closest.triangle as usize];
-            Some((triangle, barycentric(closest.point, triangle.map(|v| body.positions[v as usize]))))
-        };
-        let places: Vec<_> = x.par_iter().map(beneath).collect();
-        self.way.skin.at(&places)
+        self.way.skin.at(&places_beneath(body, x))
     }
 
     /// How garment vertices at `x` go along with the body in a piece.

@@ -104,8 +104,7 @@ impl Session {
     /// `InvalidState` where a side has neither rig nor skeleton, `InvalidWeights` where skin weights do not suit their rig,
     /// `InvalidArgument` where a caller's pair does not.
     pub fn joint_map(&self) -> Result<JointMap> {
-        let [source, target] = self.inputs.posed_rigs()?;
-        JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], &self.inputs.rigs.pairs)
+        self.inputs.joint_map_of(&self.inputs.posed_rigs()?)
     }
 }
 
@@ -117,7 +116,7 @@ pub(super) struct PosedRig {
 }
 
 impl PosedRig {
-    pub(super) fn read(&self) -> Reading {
+    fn read(&self) -> Reading {
         Reading::new(&self.rig, self.skin.as_deref())
     }
 
@@ -146,9 +145,9 @@ impl Inputs {
             }
             return Ok(Skeletons { source: source.clone(), target, skin: self.skin.clone(), way: None });
         }
-        let [source, target] = self.posed_rigs()?;
-        let readings = [source.read(), target.read()];
-        let map = JointMap::new(&source.rig, &target.rig, readings, &self.rigs.pairs)?;
+        let rigs = self.posed_rigs()?;
+        let map = self.joint_map_of(&rigs)?;
+        let [source, target] = rigs;
         let common = CommonSkeleton::new(source.character(), target.character(), &map)?;
         diagnostics.extend(common.unsure(&map));
         let skin = target.skin.as_deref().map(|skin| Arc::new(common.skin(skin)));
@@ -169,8 +168,9 @@ impl Inputs {
         if self.rigs.source.is_none() && self.rigs.target.is_none() {
             return None;
         }
-        let [source, target] = self.posed_rigs().ok()?;
-        let map = JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], &self.rigs.pairs).ok()?;
+        let rigs = self.posed_rigs().ok()?;
+        let map = self.joint_map_of(&rigs).ok()?;
+        let [source, target] = rigs;
         Some(CommonSkeleton::new(source.character(), target.character(), &map).ok()?.names(&source.rig))
     }
 
@@ -197,9 +197,9 @@ impl Inputs {
         self.rigs.garment_skin.as_deref().filter(|_| self.rigs.source.is_some())
     }
 
-    /// What the caller says of joints that correspond.
-    pub(super) fn joint_pairs(&self) -> &[CallersPair] {
-        &self.rigs.pairs
+    /// The map between these two.
+    pub(super) fn joint_map_of(&self, [source, target]: &[PosedRig; 2]) -> Result<JointMap> {
+        JointMap::new(&source.rig, &target.rig, [source.read(), target.read()], &self.rigs.pairs)
     }
 
     /// Both rigs with what is known of their bodies.

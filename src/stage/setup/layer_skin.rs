@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::{ClosestPoint, barycentric};
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::skin::SkinWeights;
 
@@ -14,13 +16,17 @@ pub fn skin_with_layers<'a>(skin: &'a SkinWeights, body: &Body) -> Cow<'a, SkinW
     if body.layer_positions().is_empty() {
         return Cow::Borrowed(skin);
     }
-    let avatar = body.avatar();
-    let tree = ClosestPoint::new(&avatar);
+    Cow::Owned(skin.extended(&places_beneath(&body.avatar(), body.layer_positions())))
+}
+
+/// The triangle of `body` nearest to each point, and the barycentric coordinates of the nearest point in it; none on a body
+/// without triangles.
+pub fn places_beneath(body: &TriangleMesh, points: &[DVec3]) -> Vec<Option<([u32; 3], [f64; 3])>> {
+    let tree = ClosestPoint::new(body);
     let beneath = |&p| {
         let closest = tree.closest(p)?;
-        let triangle = avatar.triangles[closest.triangle as usize];
-        Some((triangle, barycentric(closest.point, triangle.map(|v| avatar.positions[v as usize]))))
+        let triangle = body.triangles[closest.triangle as usize];
+        Some((triangle, barycentric(closest.point, triangle.map(|v| body.positions[v as usize]))))
     };
-    let points: Vec<_> = body.layer_positions().par_iter().map(beneath).collect();
-    Cow::Owned(skin.extended(&points))
+    points.par_iter().map(beneath).collect()
 }
