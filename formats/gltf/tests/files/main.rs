@@ -1,0 +1,3 @@
+//! Reading and writing files: over small ones that the tests make, and over real ones where there are any.
+
+mod twin;
