@@ -16,8 +16,9 @@
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
 # make bench  measures whole retargets and kernels; make bench BENCH='pipeline --tables pairs --tight' a part of that
 # make header writes include/bespoke.h again from the sources
-# make bindings  the same, and from it what the bindings repeat of it: enums, structs, calls and options of C# and C++, the
-#             pins of the layout, and bindings/bespoke.json, which describes it all
+# make bindings  the same, and from it what the bindings repeat of it: enums, structs, calls and options of C#, C++ and
+#             Python, the pins of the layout, and bindings/bespoke.json, which describes it all
+# make python-environment  an interpreter for the tests of the Python package (build/python), from PyPI
 # make docs   the texts, the reference of the C header and that of the Rust modules as a book: build/docs/index.html
 #
 # As root, `demo`, `gallery`, `figures`, `dist`, `docs` and `test` install what is missing with apt. Rust has to be there
@@ -100,6 +101,14 @@ host-tbb: dependencies
 	sh .ci/dependencies pip3
 	sh tests/dist/tbb.sh build/tbb
 
+# An interpreter with what the tests of the Python package try it with; none where PyPI cannot be reached.
+PYTHON = build/python
+.PHONY: python-environment
+python-environment: dependencies
+	sh .ci/dependencies python3-venv
+	sh tests/python/environment.sh $(PYTHON) || \
+		{ rm -rf $(PYTHON); echo "skipped: the tests of the Python package, for NumPy cannot be had"; }
+
 .PHONY: dependencies
 dependencies:
 	sh .ci/dependencies
@@ -159,6 +168,7 @@ lint: dependencies
 .PHONY: test
 test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
+	$(MAKE) python-environment
 	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
@@ -167,6 +177,7 @@ test: dependencies
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]
+	@[ -d $(PYTHON) ] || echo "skipped: the tests of the Python package, for there is no NumPy"
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

@@ -1,50 +1,20 @@
 //! The program `retarget`: good input leads to the same file with moved vertices; what else there is to say is in the
 //! modules below.
-//!
-//! BESPOKE_RETARGET names the program; without it, it is compiled here from examples_c.
 
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
-use std::sync::OnceLock;
 
 use testing::caller::{Sample, tube};
-use testing::library;
 use testing::obj_text::obj;
 use testing::process::{root, scratch, succeed};
+use testing::retarget::program;
 
 mod failures;
 mod options;
 mod refusals;
 mod troubleshooting;
-
-fn program() -> &'static Path {
-    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        if let Some(path) = std::env::var_os("BESPOKE_RETARGET") {
-            return path.into();
-        }
-        let library = library::folder();
-        let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("retarget");
-        let sources = fs::read_dir(root().join("examples_c")).expect("examples_c exists");
-        let sources =
-            sources.map(|entry| entry.expect("an entry").path()).filter(|p| p.extension() == Some("c".as_ref()));
-        let output = Command::new("cc")
-            .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"])
-            .arg(root().join("include"))
-            .args(sources)
-            .arg("-o")
-            .arg(&program)
-            .arg(format!("-L{}", library.display()))
-            .args(["-lbespoke", "-lm"])
-            .arg(format!("-Wl,-rpath,{}", library.display()))
-            .output()
-            .expect("a C compiler");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        program
-    })
-}
 
 /// The program, without any search path for libraries: it has to find its own.
 fn retarget() -> Command {

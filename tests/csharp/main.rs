@@ -3,7 +3,6 @@
 
 mod mono;
 mod other_library;
-mod sample;
 
 use std::fs;
 use std::path::Path;
@@ -12,6 +11,7 @@ use std::process::Command;
 use mono::{binding, program};
 use testing::library;
 use testing::process::{root, scratch, succeed};
+use testing::sample;
 
 /// Runs one case of Cases.cs with the library in this folder.
 fn case(name: &str, library: &Path) {

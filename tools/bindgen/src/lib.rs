@@ -2,6 +2,7 @@
 //!
 //! - `bindings/bespoke.json`, the description itself, for whoever writes a binding;
 //! - `bindings/csharp/Bespoke/*.g.cs`, the enums, structs, calls and options of C#;
+//! - `bindings/python/src/bespoke/_*.py` of the same kind: enums, what a session tells, options, the raw layer;
 //! - the enums and the options of `include/bespoke.hpp`, between two marks;
 //! - `tests/capi/layout.inc`, the layout that every compiler proves.
 //!
@@ -16,6 +17,7 @@ mod options;
 mod parse;
 mod preprocess;
 mod prose;
+mod python;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -85,6 +87,9 @@ pub fn generate(root: &Path) -> Result<Vec<Generated>> {
     ];
     for (name, text) in csharp::files(&description)? {
         files.push(at(&format!("bindings/csharp/Bespoke/{name}"), text));
+    }
+    for (name, text) in python::files(&description)? {
+        files.push(at(&format!("bindings/python/src/bespoke/{name}"), text));
     }
     Ok(files)
 }

@@ -1,5 +1,5 @@
 //! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files and rigged
-//! characters, callers of the C API, programs to run, the library as others link it.
+//! characters, callers of the C API, programs to run, the library as others link it, the sample of bindings.
 
 pub mod caller;
 pub mod fuzz;
@@ -10,6 +10,8 @@ pub mod obj_text;
 pub mod posing;
 pub mod process;
 mod random;
+pub mod retarget;
+pub mod sample;
 pub mod scene;
 
 pub use random::Random;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::process::{temporary, this_program};
+use crate::process::{temporary, this_program, this_program_name};
 
 /// A folder with the library that was built beside these tests, under the name for the linker (`libbespoke.so`) and the
 /// one for the loader (`libbespoke.so.2`).
@@ -14,10 +14,8 @@ pub fn folder() -> &'static Path {
         let program = this_program();
         let built = program.with_file_name(name(""));
         assert!(built.is_file(), "{} is not there: cargo builds it with the tests", built.display());
-        // One folder for each test program, since they may run side by side. Cargo ends its name with a hash.
-        let tests = program.file_stem().expect("a name").to_string_lossy();
-        let tests = tests.rsplit_once('-').map_or(&*tests, |(tests, _)| tests);
-        let folder = temporary().join(format!("library-{tests}"));
+        // One folder for each test program, since they may run side by side.
+        let folder = temporary().join(format!("library-{}", this_program_name()));
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("a folder for the library");
         for version in ["", &bespoke::capi::version::BESPOKE_ABI_VERSION.to_string()] {

@@ -15,6 +15,14 @@ pub(crate) fn this_program() -> PathBuf {
     std::env::current_exe().expect("a running program has a path")
 }
 
+/// What it is called in Cargo.toml.
+pub(crate) fn this_program_name() -> String {
+    let program = this_program();
+    let name = program.file_stem().expect("a name").to_string_lossy();
+    // Cargo ends it with a hash.
+    name.rsplit_once('-').map_or(&*name, |(name, _)| name).to_string()
+}
+
 /// The folder that cargo calls `CARGO_TARGET_TMPDIR` while it builds tests, and tells no library: they lie in `deps` of
 /// a profile's folder, which it is beside.
 pub(crate) fn temporary() -> PathBuf {

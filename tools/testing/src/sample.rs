@@ -10,11 +10,11 @@ use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
 use glam::DVec3;
 
+use crate::obj_text::obj;
+use crate::process::{scratch, this_program_name};
 use closet::mesh::Mesh;
 use closet::skeleton::BONES;
 use closet::{Kind, Sample, sample};
-use testing::obj_text::obj;
-use testing::process::scratch;
 
 static JACKET: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Jacket));
 static HEAVY: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Heavy));
@@ -24,7 +24,7 @@ static MANNEQUIN: LazyLock<Sample> = LazyLock::new(|| sample(Kind::Mannequin));
 pub fn folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
-        let folder = scratch("csharp-sample");
+        let folder = scratch(&format!("{}-sample", this_program_name()));
         let write =
             |name: &str, bytes: Vec<u8>| fs::write(folder.join(name), bytes).expect("the folder can be written");
         write("garment.positions", points(&JACKET.mesh.positions));
