@@ -28,6 +28,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED] = "joint_misplaced",
     [BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED] = "pose_blocked",
     [BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE] = "joints_unsure",
+    [BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED] = "solved_posed",
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
     [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",
     [BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED] = "settings_adjusted",

@@ -73,7 +73,10 @@ static bool write_measurements(const BespokeSession *session, double seconds, FI
     fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", peak_memory());
     write_work(file, "prepare", &report.prepare);
     write_work(file, "inflate", &report.inflate);
+    write_work(file, "repose", &report.repose);
     write_work(file, "fit", &report.fit);
+    fputs("    \"rigs\": { ", file);
+    write_number(file, "seconds", report.rig_seconds, " },\n");
     fputs("    \"verify\": { ", file);
     write_number(file, "seconds", report.verify_seconds, " },\n");
     fputs("    \"distance_field\": { ", file);

@@ -55,11 +55,12 @@ static void show_progress(Run *run) {
     static const char *const names[] = {"prepare", "inflate", "inflate", "fit", "verify", "done"};
     BespokeProgress progress = {.struct_size = sizeof progress};
     if (run->options.quiet || bespoke_session_read_progress(run->session.handle, &progress) != BESPOKE_STATUS_OK ||
-        progress.stage > BESPOKE_STAGE_DONE) {
+        (progress.stage > BESPOKE_STAGE_DONE && progress.stage != BESPOKE_STAGE_REPOSE)) {
         return;
     }
     if (run->is_terminal) {
-        printf("\r%-8s t %.4f  iteration %-4u %7.1f s ", names[progress.stage], progress.t, (unsigned)progress.iteration,
+        const char *name = progress.stage == BESPOKE_STAGE_REPOSE ? "repose" : names[progress.stage];
+        printf("\r%-8s t %.4f  iteration %-4u %7.1f s ", name, progress.t, (unsigned)progress.iteration,
                session_seconds(&run->session));
         run->has_progress_line = true;
     } else {
@@ -73,7 +74,9 @@ static void show_progress(Run *run) {
             {"fit", BESPOKE_STAGE_VERIFY, progress.fit_seconds},
             {"verify", BESPOKE_STAGE_DONE, progress.verify_seconds},
         };
-        for (; run->shown_stages < 4 && progress.stage >= stages[run->shown_stages].next; run->shown_stages++) {
+        /* On the way back to its own pose inflate has ended, fit has not begun. */
+        const uint32_t stage = progress.stage == BESPOKE_STAGE_REPOSE ? BESPOKE_STAGE_INFLATE : progress.stage;
+        for (; run->shown_stages < 4 && stage >= stages[run->shown_stages].next; run->shown_stages++) {
             printf("%s: %.2f s\n", stages[run->shown_stages].name, stages[run->shown_stages].seconds);
         }
     }

@@ -318,6 +318,10 @@ enum BespokeDiagnosticKind
   /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
   /// read with bespoke_session_read_pose_transforms.
   BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED = 30,
+  /// With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it was
+  /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
+  /// stalled is named, and the angle between the poses.
+  BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED = 34,
   /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
   /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
   BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE = 33,
@@ -766,6 +770,11 @@ typedef struct BespokeReport {
   /// Intersecting or touching pairs within the garment at the start, which are exempted from contact until they
   /// separate.
   uint64_t initial_self_intersections;
+  /// Cost of repose, where the target is brought back from the pose of the design to its own; its seconds have those in which
+  /// the body there was prepared.
+  struct BespokeStageReport repose;
+  /// Wall-clock seconds in which two rigs were read and matched, and the target was posed; they are part of prepare's.
+  double rig_seconds;
 } BespokeReport;
 
 /// One term of the objective.

@@ -59,10 +59,13 @@ pub struct Report {
     pub prepare: StageReport,
     /// Stage INFLATE.
     pub inflate: StageReport,
-    /// Stage REPOSE, where the target stands in another pose than the source.
+    /// Stage REPOSE, where the target stands in another pose than the source; with the time in which a second problem is set up
+    /// for it.
     pub repose: StageReport,
     /// Stage FIT.
     pub fit: StageReport,
+    /// Seconds in which rigs are read and matched and the target is posed, a part of PREPARE.
+    pub rig_seconds: f64,
     /// Seconds in the exact verifier.
     pub verify_seconds: f64,
     /// Seconds until the distance field was built, in parallel with the inflation.

@@ -67,6 +67,10 @@ pub enum BespokeDiagnosticKind {
     /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
     /// read with bespoke_session_read_pose_transforms.
     PoseBlocked = 30,
+    /// With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it was
+    /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
+    /// stalled is named, and the angle between the poses.
+    SolvedPosed = 34,
     /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
     /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
     JointsUnsure = 33,
@@ -227,6 +231,7 @@ impl BespokeDiagnostic {
             DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
             DiagnosticKind::PoseBlocked => BespokeDiagnosticKind::PoseBlocked,
             DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
+            DiagnosticKind::SolvedPosed => BespokeDiagnosticKind::SolvedPosed,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,

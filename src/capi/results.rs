@@ -202,6 +202,11 @@ pub struct BespokeReport {
     /// Intersecting or touching pairs within the garment at the start, which are exempted from contact until they
     /// separate.
     pub initial_self_intersections: u64,
+    /// Cost of repose, where the target is brought back from the pose of the design to its own; its seconds have those in which
+    /// the body there was prepared.
+    pub repose: BespokeStageReport,
+    /// Wall-clock seconds in which two rigs were read and matched, and the target was posed; they are part of prepare's.
+    pub rig_seconds: f64,
 }
 
 // SAFETY: repr(C) of u32 pairs and 64-bit numbers, without padding.
@@ -250,6 +255,8 @@ pub unsafe extern "C" fn bespoke_session_read_report(
                 reserved: 0,
                 memory_bytes: own.memory,
                 initial_self_intersections: own.initial_self_intersections as u64,
+                repose: (&own.repose).into(),
+                rig_seconds: own.rig_seconds,
             };
             sized::write(filled, report, "report")
         })

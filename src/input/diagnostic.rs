@@ -44,6 +44,8 @@ pub enum DiagnosticKind {
     JointsUnsure,
     /// The body could not be taken from the pose of the design to its own.
     PoseBlocked,
+    /// The body was dressed in the pose of the design and brought back, after its own pose had failed.
+    SolvedPosed,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
     /// A connected piece of the avatar's mesh that is no part of the body.
@@ -409,6 +411,13 @@ pub enum Diagnostic {
         share: f64,
         /// The joints of the common skeleton whose parts the garment is between, at most two.
         joints: Vec<u32>,
+    },
+    /// The inflation stalled with the body in its own pose: it was posed as in the design, dressed there, and brought back.
+    SolvedPosed {
+        /// The share of its size beyond which it did not grow in its own pose.
+        stalled_at: f64,
+        /// The largest angle between the directions that a limb has in the two poses, in degrees.
+        degrees: f64,
     },
     /// Which joints of the rigs are these places of the body is a guess.
     JointsUnsure {

@@ -30,6 +30,7 @@ impl Diagnostic {
             Self::EndWithoutBone { .. } | Self::JointMisplaced { .. } => DiagnosticKind::JointMisplaced,
             Self::JointsUnsure { .. } => DiagnosticKind::JointsUnsure,
             Self::PoseBlocked { .. } => DiagnosticKind::PoseBlocked,
+            Self::SolvedPosed { .. } => DiagnosticKind::SolvedPosed,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -59,6 +60,7 @@ impl Diagnostic {
             | Self::CarriedPiece { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. }
+            | Self::SolvedPosed { .. }
             | Self::Untangled { .. }
             | Self::FacingMismatch { told: Some(_), sure: true, gross: false, .. } => Severity::Note,
             Self::NonManifoldEdge { .. }
@@ -155,6 +157,7 @@ impl Diagnostic {
             Self::CoarseCoordinates { .. }
             | Self::JointsUnsure { .. }
             | Self::PoseBlocked { .. }
+            | Self::SolvedPosed { .. }
             | Self::SettingsAdjusted { .. }
             | Self::NotConverged { .. }
             | Self::UnitMismatch { .. }

@@ -243,6 +243,12 @@ impl Display for Diagnostic {
                 }
                 write!(f, "; the result is in the pose of the design; give the avatar in a pose nearer to it")
             }
+            Self::SolvedPosed { stalled_at, degrees } => write!(
+                f,
+                "target avatar: in its own pose, which differs from that of the design by {degrees:.0} degrees, it cannot grow \
+                 beyond {stalled_at:.4} of its size inside the garment; it was posed as in the design, dressed there, and \
+                 brought back to its own pose"
+            ),
             Self::JointsUnsure { places } => write!(
                 f,
                 "which joints of the two rigs are {} is a guess: the names do not say it; look at the joint map, and say \

@@ -21,7 +21,8 @@ use crate::input::skin::SkinWeights;
 
 /// A limb that points elsewhere by less than this many degrees stays as it is; the inflation takes it along.
 const HARMLESS: f64 = 20.0;
-/// From here on the body is posed: an A-pose against a T-pose, 49 degrees, was harmless in every run.
+/// From here on the body is posed before anything else is tried: below, as with an A-pose against a T-pose, 49 degrees, the
+/// inflation mostly takes all limbs along, which costs less.
 const LARGE: f64 = 60.0;
 
 /// The bones that are turned, by the landmarks at their ends; each after those that it hangs on.
@@ -48,6 +49,8 @@ pub struct Posing {
     movers: [Option<u32>; 16],
     /// The joint that moves what has no weights.
     base: u32,
+    /// The largest angle between the directions of a limb.
+    difference: f64,
 }
 
 impl Posing {
@@ -75,9 +78,9 @@ impl Posing {
             turns: vec![DQuat::IDENTITY; rig.joints.len()],
             movers: Landmark::ALL.map(|landmark| mover(landmark, reading)),
             base: joint_of(Landmark::Pelvis).or(order.first().copied())?,
+            difference: 0.0,
         };
         posing.order = sorted(&posing.parents);
-        let mut largest = 0.0_f64;
         let mut whole = [DQuat::IDENTITY; 16];
         for limb in LIMBS {
             let [from, _] = limb;
@@ -93,7 +96,7 @@ impl Posing {
                 continue;
             };
             let want = (into_own * want).normalize_or(have);
-            largest = largest.max(have.angle_between(want));
+            posing.difference = posing.difference.max(have.angle_between(want));
             let carried = before * have;
             if carried.angle_between(want).to_degrees() < HARMLESS {
                 continue;
@@ -102,7 +105,17 @@ impl Posing {
             whole[index(from)] = turned;
             posing.turns[joint as usize] = (before.inverse() * turned).normalize();
         }
-        (largest.to_degrees() >= LARGE).then_some(posing)
+        posing.turns.iter().any(|&turn| turn != DQuat::IDENTITY).then_some(posing)
+    }
+
+    /// The largest angle between the directions that a limb has in the two poses, in degrees.
+    pub fn difference(&self) -> f64 {
+        self.difference.to_degrees()
+    }
+
+    /// Whether the poses differ so much that the body has to be posed, before anything else is tried.
+    pub fn is_large(&self) -> bool {
+        self.difference() >= LARGE
     }
 
     /// The largest angle by which a joint turns.

@@ -1,9 +1,11 @@
 //! What a caller has set. Shared, so that a run keeps what it needs.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::DVec3;
 
+use super::other_pose::OtherPose;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::way::Way;
 use super::{Session, Stage};
@@ -58,7 +60,7 @@ pub(super) struct Inputs {
 }
 
 /// What does not depend on how the target stands, in the internal coordinate system.
-struct Design {
+pub(super) struct Design {
     garment: TriangleMesh,
     weld: Arc<Weld>,
     skeleton: Skeleton,
@@ -67,12 +69,12 @@ struct Design {
 }
 
 /// The target in a pose, in its caller's coordinates.
-struct Stand {
+pub(super) struct Stand {
     avatar: Arc<TriangleMesh>,
     layers: Vec<Arc<TriangleMesh>>,
     target: Arc<Skeleton>,
     /// The turn after which it faces as the source does, where that is known.
-    turn: Option<AxisTurn>,
+    pub(super) turn: Option<AxisTurn>,
 }
 
 /// A problem with the body as its caller would have it, and the coordinate system in which the target was read: the caller's,
@@ -81,7 +83,7 @@ pub(super) struct Setting {
     pub(super) problem: Problem,
     pub(super) body: Body,
     pub(super) system: CoordinateSystem,
-    turn: AxisTurn,
+    pub(super) turn: AxisTurn,
 }
 
 /// What is to be solved.
@@ -90,6 +92,12 @@ pub(super) struct Posed {
     pub(super) first: Setting,
     /// Where that is one in the source's pose: the problem in the target's own pose, and the way there.
     pub(super) own: Option<(Setting, Way)>,
+    /// Where it is one in the target's own pose, although that is not the source's: what that could be exchanged for.
+    pub(super) other: Option<Box<OtherPose>>,
+    /// Seconds in which rigs were read and matched and the target was posed.
+    pub(super) rig_seconds: f64,
+    /// Seconds in which the second problem was set up.
+    pub(super) own_seconds: f64,
 }
 
 impl Session {
@@ -276,6 +284,14 @@ impl Session {
     }
 }
 
+impl Design {
+    /// Bytes that it holds beside the inputs.
+    pub(super) fn memory(&self) -> u64 {
+        let meshes = [Some(&self.garment), self.source_avatar.as_ref(), Some(&self.weld.mesh)];
+        meshes.into_iter().flatten().map(|mesh| bytes(&mesh.positions) + bytes(&mesh.triangles)).sum()
+    }
+}
+
 impl Inputs {
     /// Bytes that they hold.
     pub(super) fn memory(&self) -> u64 {
@@ -314,7 +330,9 @@ impl Inputs {
             return missing("the source skeleton", "set_source_skeleton or set_source_rig");
         }
         let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
+        let clock = Instant::now();
         let Skeletons { source, target, skin, way } = self.skeletons(diagnostics)?;
+        let mut rig_seconds = clock.elapsed().as_secs_f64();
         if let Some(weights) = &self.fit_weights
             && weights.len() != garment.positions.len()
         {
@@ -339,24 +357,29 @@ impl Inputs {
             skin,
         };
         let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
-        let Some(way) = way else {
+        let Some(way) = way.as_ref().filter(|way| way.posing.is_large()) else {
             let only = self.solve_in(&design, &stand, cancel, diagnostics)?;
-            return Ok(Posed { first: only, own: None });
+            let other = way.map(|way| Box::new(OtherPose { inputs: self.clone(), design, way, turn: only.turn }));
+            return Ok(Posed { first: only, own: None, other, rig_seconds, own_seconds: 0.0 });
         };
-        let posed = self.stand_on(&way, 1.0, avatar);
+        let clock = Instant::now();
+        let posed = self.stand_on(way, 1.0, avatar);
+        rig_seconds += clock.elapsed().as_secs_f64();
         let first = self.solve_in(&design, &posed, cancel, diagnostics)?;
+        let clock = Instant::now();
         stand.turn = Some(first.turn);
         // All that there is to say of the inputs has been said.
         let own = self.solve_in(&design, &stand, cancel, &mut Vec::new())?;
         if own.problem.triangles != first.problem.triangles {
             // What closes its openings differs: there is no way from one to the other.
-            return Ok(Posed { first: own, own: None });
+            return Ok(Posed { first: own, own: None, other: None, rig_seconds, own_seconds: 0.0 });
         }
-        Ok(Posed { first, own: Some((own, way)) })
+        let own_seconds = clock.elapsed().as_secs_f64();
+        Ok(Posed { first, own: Some((own, way.clone())), other: None, rig_seconds, own_seconds })
     }
 
     /// The body on its way.
-    fn stand_on(&self, way: &Way, share: f64, avatar: &TriangleMesh) -> Stand {
+    pub(super) fn stand_on(&self, way: &Way, share: f64, avatar: &TriangleMesh) -> Stand {
         let points = way.points(share);
         let mut rest = &points[..];
         let mut take = |mesh: &TriangleMesh| {
@@ -373,7 +396,7 @@ impl Inputs {
     }
 
     /// The problem of the target as it stands.
-    fn solve_in(
+    pub(super) fn solve_in(
         &self,
         design: &Design,
         stand: &Stand,

@@ -11,6 +11,7 @@ mod fit_controls;
 mod garment_skin;
 mod inputs;
 mod on_the_way;
+mod other_pose;
 mod plausibility;
 mod reposing;
 mod rig_inputs;

@@ -33,7 +33,7 @@ impl Run {
         self.body = reposing.body.clone();
         self.farthest = None;
         self.begin_piece(reposing)?;
-        self.report.inflate.collect(&mut self.newton, &mut self.objective, clock);
+        self.report.repose.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
     }
 

@@ -14,6 +14,7 @@ use crate::input::diagnostic::Diagnostic;
 use crate::input::skin::SkinWeights;
 use crate::options::Options;
 use crate::solver::newton::State;
+use crate::stage::blockage::pushes;
 use crate::stage::contact_guard::ContactGuard;
 use crate::stage::objective::Objective;
 use crate::stage::repose::Repose;
@@ -22,9 +23,6 @@ use crate::stage::setup::problem::{Problem, collapse_unused};
 
 /// No joint turns by more than this many degrees in a piece: each vertex goes straight where it should go along an arc.
 const PIECE: f64 = 12.0;
-
-/// What is at most so many times as far from the garment as the nearest holds it.
-const HOLDING: f64 = 4.0;
 
 /// The problem in the source's pose with the garment as the inflation left it, to which a run returns where the way is closed.
 pub(super) struct Posed {
@@ -51,19 +49,9 @@ pub(super) struct Reposing {
 }
 
 impl Reposing {
-    pub(super) fn new(problem: Problem, body: Body, way: Way) -> Self {
+    pub(super) fn new(problem: Arc<Problem>, body: Arc<Body>, way: Way) -> Self {
         let pieces = (way.posing.largest_turn().to_degrees() / PIECE).ceil().max(1.0) as u32;
-        Self {
-            problem: Arc::new(problem),
-            body: Arc::new(body),
-            way,
-            skin: None,
-            pieces,
-            piece: 0,
-            step: None,
-            iterations: 0,
-            posed: None,
-        }
+        Self { problem, body, way, skin: None, pieces, piece: 0, step: None, iterations: 0, posed: None }
     }
 
     /// Where the body is at the beginning of a piece, as a share of the way from its own pose.
@@ -131,20 +119,26 @@ impl Reposing {
 }
 
 impl Reposing {
-    /// What closes the way where the garment at `state` does not let the body pass: the places of the body that it is nearest
-    /// to.
+    /// What closes the way where the garment at `state` does not let the body pass: the part that resists most, and the other
+    /// one that pushes hardest against it.
     pub(super) fn blocked(&self, contact: &ContactGuard, state: &State) -> Diagnostic {
-        let at = state.configuration();
-        let nearest = contact.activity(at).min_distance_avatar;
-        let near = contact.avatar_vertices_nearer_than(HOLDING * nearest, at);
-        let owner = |&v: &u32| self.way.common.owner[self.way.skin.dominant_joint(v as usize)? as usize];
-        let mut counts = vec![0usize; self.way.common.joints.len()];
-        near.iter().filter_map(owner).for_each(|joint| counts[joint as usize] += 1);
-        let mut joints: Vec<u32> = (0..counts.len() as u32).filter(|&joint| counts[joint as usize] > 0).collect();
-        joints.sort_by_key(|&joint| std::cmp::Reverse(counts[joint as usize]));
-        joints.truncate(2);
+        let joints = self.way.common.joints.len();
+        let (mut resistance, mut force) = (vec![0.0; joints], vec![0.0; joints]);
+        let owner = |v: u32| self.way.common.owner[self.way.skin.dominant_joint(v as usize)? as usize];
+        for push in pushes(contact.barrier(), state.configuration()) {
+            if let Some(joint) = owner(push.vertex) {
+                resistance[joint as usize] += push.resistance.max(0.0);
+                force[joint as usize] += push.force;
+            }
+        }
+        let most = |values: &[f64], but: Option<u32>| {
+            let others = (0u32..).zip(values).filter(|&(joint, value)| *value > 0.0 && Some(joint) != but);
+            others.max_by(|(i, a), (j, b)| a.total_cmp(b).then(j.cmp(i))).map(|(joint, _)| joint)
+        };
+        let first = most(&resistance, None);
+        let second = first.and_then(|first| most(&force, Some(first)));
         let share = (f64::from(self.piece) + state.t) / f64::from(self.pieces);
-        Diagnostic::PoseBlocked { share, joints }
+        Diagnostic::PoseBlocked { share, joints: first.into_iter().chain(second).collect() }
     }
 
     /// How each joint of the target rig moves from its bind pose to that in which the garment is solved, in the caller's

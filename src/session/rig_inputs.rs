@@ -35,6 +35,6 @@ pub(super) struct Skeletons {
     pub(super) target: Arc<Skeleton>,
     /// The skin weights of the target avatar.
     pub(super) skin: Option<Arc<SkinWeights>>,
-    /// The way from the source's pose, where the target stands in another one.
+    /// The way from the source's pose, where the target stands in another one, however little that differs.
     pub(super) way: Option<Way>,
 }

@@ -174,8 +174,7 @@ impl Inputs {
         Some(CommonSkeleton::new(source.character(), target.character(), &map).ok()?.names(&source.rig))
     }
 
-    /// The way of the target from the source's pose, where that is so different that the inflation could not take the garment
-    /// along.
+    /// The way of the target from the source's pose, where that is another one.
     fn way(&self, target: &PosedRig, reading: &Reading, common: &Arc<CommonSkeleton>) -> Result<Option<Way>> {
         let (Some(avatar), Some(skin)) = (&self.avatar, &target.skin) else { return Ok(None) };
         let order = target.rig.parents_first("target rig")?;

@@ -9,6 +9,7 @@ use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
 use super::inputs::{Inputs, Posed, Setting};
+use super::other_pose::{OtherPose, OwnPose};
 use super::reposing::Reposing;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
@@ -46,7 +47,11 @@ pub(super) struct Run {
     /// What was tried where the inflation stalled.
     pub(super) attempts: Attempts,
     /// The way to the target's own pose, where that begins after the inflation.
-    reposing: Option<Box<Reposing>>,
+    pub(super) reposing: Option<Box<Reposing>>,
+    /// What the target's own pose can be exchanged for.
+    pub(super) other_pose: Option<Box<OtherPose>>,
+    /// What came of the target's own pose, once it was exchanged.
+    pub(super) own_pose: Option<Box<OwnPose>>,
     /// What closed that way, and how each joint of the target rig moves into the pose in which the garment stays.
     pub(super) blocked: Option<(Diagnostic, Vec<DAffine3>)>,
     /// Where an earlier attempt came farthest.
@@ -63,7 +68,7 @@ pub(super) struct Run {
     /// When `prepare` began.
     begun: Instant,
     /// Bytes of the inputs and the problem.
-    held: u64,
+    pub(super) held: u64,
     /// Bytes of the distance field, as estimated.
     expected: u64,
     /// The distance field and the seconds that it took, once it is there.
@@ -96,7 +101,8 @@ impl Run {
         let begun = Instant::now();
         let options = inputs.options.clone();
         let limit = MemoryLimit::new(options.memory_limit);
-        let (Posed { first, mut own }, expected) = pose(inputs, limit, stop, diagnostics)?;
+        let (Posed { first, mut own, other, rig_seconds, own_seconds }, expected) =
+            pose(inputs, limit, stop, diagnostics)?;
         let Setting { mut problem, body, system: target_coordinate_system, .. } = first;
         let fitted = own.as_ref().map_or(&problem, |(own, _)| &own.problem).fitted.clone();
         let mut field = FieldTask::start(fitted, options.voxel_size, threads, &context);
@@ -117,11 +123,15 @@ impl Run {
         let state = State { x: problem.initial_state(false).0.to_vec(), t: 0.0 };
         let mut objective = problem.inflation_objective(&options, stop, diagnostics)?;
         stop.check()?;
-        let held = inputs.memory() + problem.memory() + own_memory;
+        let other_memory = other.as_ref().map_or(0, |other| other.memory());
+        let held = inputs.memory() + problem.memory() + own_memory + other_memory;
         let budget = limit.reserving(held + expected + objective.memory());
         let mut newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
         let mut report = initial_report(&problem, &body, &objective, threads);
         report.prepare.collect(&mut newton, &mut objective, begun);
+        report.prepare.seconds -= own_seconds;
+        report.repose.seconds += own_seconds;
+        report.rig_seconds = rig_seconds;
         let mut run = Self {
             options,
             problem: Arc::new(problem),
@@ -134,7 +144,9 @@ impl Run {
             step: Step::Inflate(Inflation::default()),
             attempts: Attempts::default(),
             blocked: None,
-            reposing: own.map(|(own, way)| Box::new(Reposing::new(own.problem, own.body, way))),
+            reposing: own.map(|(own, way)| Box::new(Reposing::new(Arc::new(own.problem), Arc::new(own.body), way))),
+            other_pose: other,
+            own_pose: None,
             farthest: None,
             field,
             held,
@@ -182,7 +194,9 @@ impl Run {
             Step::Inflate(inflation) => {
                 let limited = check_limit(inflation.attempted(), options, self.state.t);
                 let ended = match limited {
-                    Err(error) if self.attempts.settings().is_none() => return Err(self.explained(error)),
+                    Err(error) if self.attempts.settings().is_none() && self.own_pose.is_none() => {
+                        return Err(self.explained(error));
+                    }
                     limited => {
                         limited.and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state))
                     }
@@ -190,7 +204,7 @@ impl Run {
                 match ended {
                     Ok(ended) => (Stage::Inflate, ended),
                     Err(error) if error.kind == ErrorKind::InflationStalled => {
-                        if !self.try_again()? {
+                        if !self.try_again()? && !self.try_other_pose()? {
                             return Err(self.explained(error));
                         }
                         (Stage::Inflate, false)
@@ -207,7 +221,10 @@ impl Run {
         if stage == Stage::Fit && ended {
             let as_designed = self.attempts.settings().is_some_and(|settings| settings.as_designed);
             let untangling = if as_designed { None } else { self.problem.untangling() };
-            self.shortfalls = self.attempts.adjustment().into_iter().chain(untangling).collect();
+            // Where the way back is closed, that is told.
+            let brought_back = self.own_pose.as_ref().filter(|_| self.blocked.is_none());
+            let posed = brought_back.map(|own| own.diagnostic());
+            self.shortfalls = posed.into_iter().chain(self.attempts.adjustment()).chain(untangling).collect();
             self.shortfalls.extend(finish::finish(&self.problem, &mut self.objective, &mut self.state)?);
             self.newton.forget_values();
         }
@@ -286,11 +303,13 @@ impl Run {
                 && farthest.1.t > self.state.t
             {
                 (self.objective, self.state) = *farthest;
-                self.initial_intersections = self.objective.contact.exempt_pairs().triangle_pairs().into();
             }
-            if self.attempts.settings().is_some() {
+            if let Some(t) = self.return_to_own_pose() {
+                error.message = stalled_message(t) + "; the avatar in the pose of the design did not help";
+            } else if self.attempts.settings().is_some() {
                 error.message = stalled_message(self.state.t);
             }
+            self.initial_intersections = self.objective.contact.exempt_pairs().triangle_pairs().into();
             let at = self.state.configuration();
             self.shortfalls = blockage::find(&self.problem, &self.body, &mut self.objective, at);
             if !self.shortfalls.is_empty() {
@@ -326,6 +345,7 @@ impl Run {
             objective.contact.set_inflation_dhat(settings.inflation_dhat);
         }
         self.farthest = None;
+        self.own_pose.iter_mut().for_each(|own| own.forget_stalled());
         objective.contact.inherit_state(&self.objective.contact);
         self.objective = objective;
         stop.check()?;
@@ -350,7 +370,8 @@ impl Run {
     /// Reports the memory that is held, and refuses to go on beyond the limit.
     fn check_memory(&mut self) -> Result<()> {
         let (contacts, system) = (self.objective.memory(), self.newton.memory());
-        let kept = self.farthest.as_ref().map_or(0, |farthest| farthest.0.memory());
+        let kept = self.farthest.as_ref().map_or(0, |farthest| farthest.0.memory())
+            + self.own_pose.as_ref().map_or(0, |own| own.memory());
         self.report.memory = self.held + self.field_memory() + contacts + system + kept;
         let limit = self.remaining_budget();
         let parts = [

@@ -134,6 +134,35 @@ impl Sink for Push {
     }
 }
 
+/// How hard a vertex of the avatar pushes the garment, and how much that resists t.
+pub struct VertexPush {
+    /// The vertex.
+    pub vertex: u32,
+    /// How hard the contacts push of which it is a part.
+    pub force: f64,
+    /// The derivative of their barriers by t.
+    pub resistance: f64,
+}
+
+/// What the vertices of the avatar that touch the garment do, once for each contact, in the order of the candidates.
+pub fn pushes(barrier: &Barrier, at: Configuration<'_>) -> Vec<VertexPush> {
+    let count = barrier.bodies().garment_count() as u32;
+    let mut pushes = Vec::new();
+    for range in barrier.candidates().ranges(0..barrier.len()).filter(|range| range.group == CollisionGroup::Avatar) {
+        for (index, pair) in (range.first..).zip(range.pairs) {
+            let mut push = Push::default();
+            barrier.derivatives(at, index..index + 1, &mut push);
+            if push.force == DVec3::ZERO {
+                continue;
+            }
+            let [_, other] = sides(range.pair_type, *pair, count);
+            let (force, resistance) = (push.force.length(), push.resistance);
+            pushes.extend(pair[other].iter().map(|v| VertexPush { vertex: v - count, force, resistance }));
+        }
+    }
+    pushes
+}
+
 /// The contacts with the avatar, in the order of the candidates.
 fn contacts(problem: &Problem, full: &FullSize<'_>, barrier: &Barrier, at: Configuration<'_>) -> Vec<Contact> {
     let bodies: &Bodies = barrier.bodies();

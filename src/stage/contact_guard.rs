@@ -319,13 +319,6 @@ impl ContactGuard {
         pair.into_iter().filter(move |&v| v < count)
     }
 
-    /// The avatar's vertices in pairs with the garment that are nearer than `distance`.
-    pub fn avatar_vertices_nearer_than(&self, distance: f64, at: Configuration<'_>) -> Vec<u32> {
-        let count = self.bodies.garment_count() as u32;
-        let pairs = self.barrier.nearer_than(distance, at).into_iter().flat_map(|(_, _, pair)| pair);
-        pairs.filter(|&v| v >= count).map(|v| v - count).collect()
-    }
-
     /// Finds the pairs that come within their d-hat during the first `part` of the motion.
     fn find_candidates(&mut self, part: f64) {
         let BarrierSettings { dhat_self, dhat_avatar, .. } = *self.barrier.settings();

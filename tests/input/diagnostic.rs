@@ -68,6 +68,12 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::SolvedPosed { stalled_at: 0.91114, degrees: 48.6 },
+            "target avatar: in its own pose, which differs from that of the design by 49 degrees, it cannot grow beyond 0.9111 \
+             of its size inside the garment; it was posed as in the design, dressed there, and brought back to its own pose"
+                .into(),
+        ),
+        (
             Diagnostic::JointsUnsure { places: vec!["shoulders", "hips", "knees"] },
             "which joints of the two rigs are shoulders, hips and knees is a guess: the names do not say it; look at the joint \
              map, and say which joints correspond, as pairs"

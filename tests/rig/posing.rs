@@ -87,9 +87,13 @@ fn the_own_pose_is_the_end_of_the_way() {
 }
 
 #[test]
-fn an_a_pose_needs_no_way() {
-    assert!(posing(&person(45.0), &person(0.0)).is_none());
-    assert!(posing(&person(45.0), &person(80.0)).is_none());
+fn small_differences_are_known_and_are_no_large_ones() {
+    for (own, other) in [(45.0, 0.0), (45.0, 80.0), (25.0, 0.0)] {
+        let (posing, _) = posing(&person(own), &person(other)).expect("there is a way");
+        assert!((posing.difference() - f64::abs(own - other)).abs() < 1e-9 && !posing.is_large());
+    }
+    assert!(posing(&person(80.0), &person(0.0)).expect("80 degrees are far").0.is_large());
+    assert!(posing(&person(15.0), &person(0.0)).is_none());
 }
 
 #[test]

@@ -4,8 +4,8 @@ use std::sync::LazyLock;
 
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
-use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::rig::{Rig, RigJoint};
+use bespoke::input::diagnostic::DiagnosticKind;
+use bespoke::input::rig::RigJoint;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
@@ -14,7 +14,8 @@ use bespoke::session::{Budget, Precision, Session};
 use closet::avatars::Avatar;
 use closet::rigs::{Body, Character, Naming, Pose, Role, SIDES, character, y_up};
 use closet::{Sample, garments};
-use glam::DMat4;
+use glam::{DMat4, DVec3};
+use testing::character::{self as dressing, rig};
 
 static MANNEQUIN: LazyLock<Sample> = LazyLock::new(|| Body::Mannequin.model());
 static SLIM: LazyLock<Sample> = LazyLock::new(|| Body::Avatar(Avatar::Slim).model());
@@ -36,34 +37,9 @@ fn vest(source: &Character) -> Character {
     source.wears(&mesh)
 }
 
-fn rig(character: &Character) -> Rig {
-    let joint = |joint: &closet::rigs::Joint| RigJoint {
-        name: joint.name.clone(),
-        parent: joint.parent.map(|parent| parent as u32),
-        bind: DMat4::from(joint.bind),
-    };
-    Rig { joints: character.joints.iter().map(joint).collect() }
-}
-
-fn skin(character: &Character) -> SkinWeights {
-    let row = |row: &Vec<(usize, f64)>| row.iter().map(|&(joint, weight)| (joint as u32, weight)).collect();
-    SkinWeights::from_rows(character.joints.len(), character.influences.iter().map(row))
-}
-
-fn mesh(character: &Character) -> TriangleMesh {
-    TriangleMesh { positions: character.mesh.positions.clone(), triangles: character.mesh.triangles.clone() }
-}
-
 /// A garment that the source wears on its way to the target, both by their rigs.
 fn session(garment: &Character, source: &Character, target: &Character) -> Session {
-    let mut session = Session::new();
-    session.set_options(Options { threads: 2, voxel_size: 0.04, ..Options::default() }).unwrap();
-    session.set_garment(mesh(garment), Precision::F32).unwrap();
-    session.set_source_rig(rig(source)).unwrap();
-    session.set_target_avatar(mesh(target)).unwrap();
-    session.set_target_rig(rig(target)).unwrap();
-    session.set_target_skin(skin(target)).unwrap();
-    session
+    dressing::session(garment, source, target, Options { threads: 2, voxel_size: 0.04, ..Options::default() }).unwrap()
 }
 
 /// The map from one to the other, by their rigs alone.
@@ -215,7 +191,7 @@ fn the_result_moves_with_the_target_rig() {
     own.joints.push(RigJoint {
         name: "bell".into(),
         parent: Some(hips),
-        bind: DMat4::from_translation(place + glam::DVec3::new(0.0, 0.0, 0.1)),
+        bind: DMat4::from_translation(place + DVec3::new(0.0, 0.0, 0.1)),
     });
     let bell = own.joints.len() as u32 - 1;
     let lowest = garment.mesh.positions.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
@@ -243,4 +219,41 @@ fn the_result_moves_with_the_target_rig() {
     }
     assert!(session.pose_transforms().is_none());
     assert!(session.garment_skin(0).is_err());
+}
+
+/// Runs to the end or to an error; true where the inflation began again with the body in the pose of the design.
+fn watched(session: &mut Session) -> (Result<Stage, bespoke::error::Error>, bool) {
+    session.prepare().unwrap();
+    let (mut farthest, mut again, mut posed) = (0.0_f64, false, false);
+    loop {
+        let stage = session.step(Budget { iterations: 1, ..Budget::default() });
+        match stage {
+            Ok(Stage::Inflate) => again |= session.report().t < farthest,
+            Ok(Stage::Repose) => posed |= again,
+            Ok(Stage::Fit | Stage::Verify | Stage::Prepared) => {}
+            ended => return (ended, posed),
+        }
+        farthest = farthest.max(session.report().t);
+    }
+}
+
+#[test]
+fn where_the_own_pose_is_wedged_that_of_the_design_is_tried() {
+    let source = mannequin(Naming::Mixamo);
+    // The arms hang so near to the trunk that its sides pass through them.
+    let arms = [DVec3::new(0.05, 0.0, -1.0), DVec3::new(0.1, -0.1, -1.0)];
+    let target = slim(Naming::Unreal).posed(&Pose { arms: Some(arms), ..Pose::BIND });
+    let run = || {
+        let mut session = session(&vest(&source), &source, &target);
+        let (ended, posed) = watched(&mut session);
+        let error = ended.unwrap_err();
+        assert_eq!((error.kind, session.stage()), (ErrorKind::ImplausibleResult, Stage::Done), "{}", error.message);
+        assert!(posed, "the inflation was not wedged, or the poses differ too much");
+        let kinds: Vec<_> = session.diagnostics().iter().map(|diagnostic| diagnostic.kind()).collect();
+        assert_eq!(kinds, [DiagnosticKind::PoseBlocked]);
+        assert!(error.message.contains("elbow"), "{}", error.message);
+        assert!(session.verify(Precision::F32).unwrap().is_clean() && session.pose_transforms().is_some());
+        session.garment_positions().unwrap()
+    };
+    assert_eq!(run(), run());
 }

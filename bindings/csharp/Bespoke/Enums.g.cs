@@ -271,6 +271,13 @@ namespace Bespoke
         PoseBlocked = 30,
 
         /// <summary>
+        /// With the target in its own pose, which is another one than the garment was designed in, the inflation
+        /// stalled: it was posed as in the design, by its own skin weights, dressed there, and brought back. The share
+        /// of its size at which it stalled is named, and the angle between the poses.
+        /// </summary>
+        SolvedPosed = 34,
+
+        /// <summary>
         /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say
         /// it: <c>Session.ReadJointMap</c> shows it and <c>Session.SetJointPairs</c> mends it.
         /// </summary>

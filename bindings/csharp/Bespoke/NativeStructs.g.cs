@@ -167,6 +167,8 @@ namespace Bespoke
         internal uint reserved;
         internal ulong memory_bytes;
         internal ulong initial_self_intersections;
+        internal NativeStageReport repose;
+        internal double rig_seconds;
     }
 
     [StructLayout(LayoutKind.Sequential)]

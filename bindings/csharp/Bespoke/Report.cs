@@ -37,6 +37,8 @@ namespace Bespoke
             Prepare = new StageReport(native->prepare);
             Inflate = new StageReport(native->inflate);
             Fit = new StageReport(native->fit);
+            Repose = new StageReport(native->repose);
+            RigSeconds = native->rig_seconds;
             VerifySeconds = native->verify_seconds;
             FieldSeconds = native->field_seconds;
             T = native->t;
@@ -71,6 +73,18 @@ namespace Bespoke
 
         /// <summary>Cost of fit.</summary>
         public StageReport Fit { get; }
+
+        /// <summary>
+        /// Cost of repose, where the target is brought back from the pose of the design to its own; its seconds have
+        /// those in which the body there was prepared.
+        /// </summary>
+        public StageReport Repose { get; }
+
+        /// <summary>
+        /// Wall-clock seconds in which two rigs were read and matched, and the target was posed; they are part of
+        /// <see cref="Prepare"/>'s.
+        /// </summary>
+        public double RigSeconds { get; }
 
         /// <summary>Wall-clock seconds of the exact verifier.</summary>
         public double VerifySeconds { get; }

@@ -2,6 +2,7 @@
 //! characters, callers of the C API, programs to run, the library as others link it, the sample of bindings.
 
 pub mod caller;
+pub mod character;
 pub mod fuzz;
 pub mod gltf;
 pub mod library;
