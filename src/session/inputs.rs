@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use super::other_pose::OtherPose;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::way::Way;
 use super::{Session, Stage};
@@ -93,7 +92,7 @@ pub(super) struct Posed {
     /// Where that is one in the source's pose: the problem in the target's own pose, and the way there.
     pub(super) own: Option<(Setting, Way)>,
     /// Where it is one in the target's own pose, although that is not the source's: what that could be exchanged for.
-    pub(super) other: Option<Box<OtherPose>>,
+    pub(super) other: Option<(Design, Way)>,
     /// Seconds in which rigs were read and matched and the target was posed.
     pub(super) rig_seconds: f64,
     /// Seconds in which the second problem was set up.
@@ -359,7 +358,7 @@ impl Inputs {
         let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
         let Some(way) = way.as_ref().filter(|way| way.posing.is_large()) else {
             let only = self.solve_in(&design, &stand, cancel, diagnostics)?;
-            let other = way.map(|way| Box::new(OtherPose { inputs: self.clone(), design, way, turn: only.turn }));
+            let other = way.map(|way| (design, way));
             return Ok(Posed { first: only, own: None, other, rig_seconds, own_seconds: 0.0 });
         };
         let clock = Instant::now();

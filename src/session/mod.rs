@@ -5,6 +5,7 @@
 
 mod context;
 mod curves;
+mod exchange_pose;
 mod fault;
 mod field_task;
 mod fit_controls;

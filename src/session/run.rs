@@ -103,7 +103,8 @@ impl Run {
         let limit = MemoryLimit::new(options.memory_limit);
         let (Posed { first, mut own, other, rig_seconds, own_seconds }, expected) =
             pose(inputs, limit, stop, diagnostics)?;
-        let Setting { mut problem, body, system: target_coordinate_system, .. } = first;
+        let Setting { mut problem, body, system: target_coordinate_system, turn } = first;
+        let other = other.map(|(design, way)| Box::new(OtherPose { inputs: inputs.clone(), design, way, turn }));
         let fitted = own.as_ref().map_or(&problem, |(own, _)| &own.problem).fitted.clone();
         let mut field = FieldTask::start(fitted, options.voxel_size, threads, &context);
         let mut distance = None;
