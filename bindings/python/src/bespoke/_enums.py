@@ -246,6 +246,12 @@ class DiagnosticKind(_Number):
     transforms are read with `Session.read_pose_transforms`.
     """
 
+    SOLVED_POSED = 34
+    """With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it
+    was posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which
+    it stalled is named, and the angle between the poses.
+    """
+
     JOINTS_UNSURE = 33
     """Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
     `Session.read_joint_map` shows it and `Session.set_joint_pairs` mends it.

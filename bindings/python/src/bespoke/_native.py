@@ -235,6 +235,8 @@ class BespokeReport(ctypes.Structure):
         ("reserved", ctypes.c_uint32),
         ("memory_bytes", ctypes.c_uint64),
         ("initial_self_intersections", ctypes.c_uint64),
+        ("repose", BespokeStageReport),
+        ("rig_seconds", ctypes.c_double),
     ]
     struct_size: int
     threads: int
@@ -263,6 +265,8 @@ class BespokeReport(ctypes.Structure):
     reserved: int
     memory_bytes: int
     initial_self_intersections: int
+    repose: BespokeStageReport
+    rig_seconds: float
 
 
 class BespokeEnergy(ctypes.Structure):

@@ -214,6 +214,15 @@ class Report:
     separate.
     """
 
+    repose: StageReport
+    """Cost of repose, where the target is brought back from the pose of the design to its own; its seconds have those
+    in which the body there was prepared.
+    """
+
+    rig_seconds: float
+    """Wall-clock seconds in which two rigs were read and matched, and the target was posed; they are part of prepare's.
+    """
+
     @classmethod
     def _from_native(cls, native: BespokeReport) -> Report:
         return cls(
@@ -242,6 +251,8 @@ class Report:
             energy_count=native.energy_count,
             memory_bytes=native.memory_bytes,
             initial_self_intersections=native.initial_self_intersections,
+            repose=StageReport._from_native(native.repose),
+            rig_seconds=native.rig_seconds,
         )
 
 
