@@ -11,6 +11,7 @@
 # make lint   format, clippy and rustdoc: a warning is an error
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make dist   the folder to ship and its archive (build/dist; docs/dist.md)
+# make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
@@ -89,11 +90,17 @@ uninstall:
 
 # The folder to ship. It is made from Debian's sources; where they cannot be had, `test` says that it skips it.
 VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
-ARCHIVE = build/dist/bespoke-$(VERSION)-linux-x86_64.tar.gz
+ARCHIVE = $(SHIPPED).tar.gz
 SHIPS = $(shell [ "$$(uname -sm)" = 'Linux x86_64' ] && command -v apt-get)
 .PHONY: dist
 dist: dependencies
 	sh packaging/dist/dist.sh build/dist
+
+# The Python package, with the library of the folder to ship.
+SHIPPED = build/dist/bespoke-$(VERSION)-linux-x86_64
+.PHONY: wheel
+wheel: dist python-environment
+	sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel
 
 # The TBB that hosts bring along.
 .PHONY: host-tbb
@@ -172,8 +179,9 @@ test: dependencies
 	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
+	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
-		$(if $(SHIPS),BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
+		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]

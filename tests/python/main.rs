@@ -1,8 +1,10 @@
 //! The Python package, run by an interpreter with NumPy: what tests/python/*.py say of it holds with the library that was
 //! built beside these tests, and the sample comes out with the bits that it has here and in C.
 //!
-//! BESPOKE_PYTHON names the interpreter (`make test` makes an environment with all that is tried); without it, that of
+//! BESPOKE_WHEEL names the folder in which `make wheel` has left one, which is then tried as well. BESPOKE_PYTHON names the interpreter (`make test` makes an environment with all that is tried); without it, that of
 //! `make python-environment` is taken, or else the system's. Without NumPy all of this is skipped.
+
+mod wheel;
 
 use std::env;
 use std::fs;
@@ -10,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+use closet::{Kind, files};
 use testing::library;
 use testing::process::{root, scratch, succeed};
 use testing::retarget;
@@ -43,9 +46,13 @@ fn python(path: &Path) -> Command {
 }
 
 /// Runs all tests of one file, and repeats what it skips.
-fn passes(module: &str) {
+fn passes(module: &str, variables: &[(&str, &Path)]) {
     let Some(path) = interpreter() else { return };
-    let output = python(path).args(["-m", "unittest", "--verbose", module]).output().expect("it has run before");
+    let output = python(path)
+        .envs(variables.iter().copied())
+        .args(["-m", "unittest", "--verbose", module])
+        .output()
+        .expect("it has run before");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{module}: {}\n{said}", output.status);
     assert!(!said.contains("Ran 0 tests"), "{module}: {said}");
@@ -57,17 +64,44 @@ fn passes(module: &str) {
 /// A test for each file.
 macro_rules! modules {
     ($($name:ident)*) => {
-        const MODULES: &[&str] = &[$(stringify!($name)),*, "test_bits"];
+        const MODULES: &[&str] = &[$(stringify!($name)),*, "test_bits", "test_dress"];
         $(
             #[test]
             fn $name() {
-                passes(stringify!($name));
+                passes(stringify!($name), &[]);
             }
         )*
     };
 }
 
-modules! { test_layout test_views test_session test_running test_lifetime test_dress test_typing }
+modules! { test_layout test_views test_session test_running test_lifetime test_typing test_usd }
+
+/// What `make demo` dresses, and docs/python.md.
+fn demo() -> PathBuf {
+    let folder = scratch("python-demo");
+    for name in ["jacket", "heavy", "creature"] {
+        fs::create_dir_all(folder.join(name)).expect("a folder");
+    }
+    let write = |kind: Kind, mesh: &str, bones: &str| {
+        let sample = closet::sample(kind);
+        let [mesh, bones] = [mesh, bones].map(|name| folder.join(name));
+        let written = match kind {
+            Kind::Jacket => files::write_garment(&mesh, "jacket", &sample.mesh, &sample.texture),
+            _ => files::write_mesh(&mesh, &sample.mesh),
+        };
+        written.and_then(|()| files::write_skeleton(&bones, &sample.skeleton)).expect("the folder can be written");
+    };
+    write(Kind::Jacket, "jacket/garment.obj", "skeleton.obj");
+    write(Kind::Mannequin, "mannequin.obj", "skeleton.obj");
+    write(Kind::Heavy, "heavy/avatar.obj", "heavy/skeleton.obj");
+    write(Kind::Creature, "creature/avatar.obj", "creature/skeleton.obj");
+    folder
+}
+
+#[test]
+fn test_dress() {
+    passes("test_dress", &[("BESPOKE_DEMO", demo().as_path())]);
+}
 
 #[test]
 fn every_file_is_run() {

@@ -127,6 +127,26 @@ class Examples(unittest.TestCase):
         self.assertEqual(failed, 0)
         self.assertGreater(tried, 5)
 
+    @unittest.skipUnless(HAS_TRIMESH, "there is no trimesh")
+    def test_page(self) -> None:
+        folder = os.environ.get("BESPOKE_DEMO")
+        if not folder:
+            self.skipTest("tests/python/main.rs writes what `make demo` makes, and names it in BESPOKE_DEMO")
+        text = (ROOT / "docs/python.md").read_text()
+        if importlib.util.find_spec("matplotlib") is None:
+            print("skipped: the picture of docs/python.md, for there is no matplotlib")
+            text = text[: text.index("## Draw it")]
+        here = os.getcwd()
+        os.chdir(folder)
+        try:
+            test = doctest.DocTestParser().get_doctest(text, {}, "python.md", "docs/python.md", 0)
+            said: list[str] = []
+            failed, tried = doctest.DocTestRunner().run(test, out=said.append)
+        finally:
+            os.chdir(here)
+        self.assertEqual(failed, 0, "".join(said))
+        self.assertGreater(tried, 20)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -213,6 +213,20 @@ class Running(scenes.Case):
             thread.join()
             self.assertLess(longest, 0.5)
 
+    def test_a_system_without_another_thread(self) -> None:
+        original = threading.Thread.start
+
+        def start(thread: threading.Thread) -> None:
+            raise RuntimeError("can't start new thread")
+
+        with scenes.tubes().session(threads=1) as session:
+            threading.Thread.start = start  # type: ignore[method-assign]
+            try:
+                session.run()
+            finally:
+                threading.Thread.start = original  # type: ignore[method-assign]
+            self.assertEqual(session.stage, Stage.DONE)
+
     def test_many_sessions_at_once(self) -> None:
         scene = scenes.tubes()
         with scene.session() as session:

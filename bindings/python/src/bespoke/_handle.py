@@ -118,10 +118,13 @@ class Handle:
             return
         failures: list[BaseException] = []
         ended = threading.Event()
+        # Taken once: by the thread as it begins, or by who gives up before that.
+        turn = threading.Lock()
 
         def work() -> None:
             try:
-                self.call(name, *arguments, findings=findings)
+                if turn.acquire(blocking=False):
+                    self.call(name, *arguments, findings=findings)
             except BaseException as failure:
                 failures.append(failure)
             finally:
@@ -131,10 +134,13 @@ class Handle:
         try:
             thread.start()
             _wait(ended)
-        except BaseException:
-            # Where it was not started, nothing is there to stop.
-            if thread.ident is not None:
+        except BaseException as reason:
+            if not turn.acquire(blocking=False):
                 self._stop(ended)
+            elif isinstance(reason, RuntimeError):
+                # The system starts no more threads. The library says so, too, where it cannot do with what it has.
+                self.call(name, *arguments, findings=findings)
+                return
             raise
         if failures:
             raise failures[0]
