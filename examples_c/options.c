@@ -150,6 +150,13 @@ static const Entry entries[] = {
     {"--distortion", "FILE", PATH, FIELD(distortion), 0,
      "how much each triangle is distorted: a number a line, in the order of the faces and of the\n"
      "triangles of their fans; 0 where the garment is similar to its design"},
+    {"--output-covered", "FILE", PATH, FIELD(output_covered), 0,
+     "the triangles of the avatar that the garment covers, so that a game may leave them out: a\n"
+     "number a line, from 0, in the order of the faces and of the triangles of their fans"},
+    {"--covered-margin", "N", COUNT, FIELD(covered_margin), 1000,
+     "so many rings of triangles are left beside those that are not covered (1)"},
+    {"--covered-openness", "S", FROM_ZERO, FIELD(covered_openness), 0,
+     "the share of directions, up to 1, in which a covered triangle may be seen all the same (0)"},
     {"--report", "FILE", PATH, FIELD(report), 0,
      "a JSON file with status, message, times, iterations, energies, distances, counts and\n"
      "diagnostics; also where there is no result"},
@@ -297,9 +304,13 @@ static bool check(const Options *options, Message *message) {
     if (options->skin_weights != NULL && options->target_skin != NULL) {
         return fail(message, "--skin-weights and --target-skin are the same; give one of them");
     }
+    if (options->covered_openness > 1.0) {
+        return fail(message, "option --covered-openness must be a number from 0 to 1");
+    }
     const char *outputs[] = {options->output, options->output_avatar, options->report,
                              options->distortion, options->keep_partial, options->partial_avatar,
-                             options->joint_map, options->output_skin, options->output_rig};
+                             options->joint_map, options->output_skin, options->output_rig,
+                             options->output_covered};
     for (size_t a = 0; a < sizeof outputs / sizeof *outputs; a++) {
         for (size_t b = 0; b < a; b++) {
             if (outputs[a] != NULL && outputs[b] != NULL && strcmp(outputs[a], outputs[b]) == 0) {
@@ -313,6 +324,7 @@ static bool check(const Options *options, Message *message) {
 bool options_parse(Options *options, int count, char **words, Message *message) {
     memset(options, 0, sizeof *options);
     options->library.struct_size = sizeof options->library;
+    options->covered_margin = 1;
     options->layers = array_new((size_t)count, sizeof *options->layers);
     if (options->layers == NULL) {
         return fail(message, "the command line does not fit into memory");

@@ -22,6 +22,10 @@ typedef struct Options {
     const char *joint_map;
     const char *output_skin;
     const char *output_rig;
+    const char *output_covered;
+    /* Rings of triangles beside what is not covered, and the share of directions that may be open. */
+    uint32_t covered_margin;
+    double covered_openness;
     const char *garment_skin;
     const char *source_avatar;
     const char *skin_weights;

@@ -10,7 +10,8 @@ typedef BespokeStatus (*ReadVertices)(const BespokeSession *, const BespokeBuffe
 bool results_check(const Options *options, Message *message) {
     const char *paths[] = {options->output, options->output_avatar, options->distortion,
                            options->report, options->keep_partial, options->partial_avatar,
-                           options->joint_map, options->output_skin, options->output_rig};
+                           options->joint_map, options->output_skin, options->output_rig,
+                           options->output_covered};
     for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
         if (paths[k] != NULL && !output_check(paths[k], message)) {
             return false;
@@ -113,6 +114,25 @@ static bool write_rig(Output *output, const char *path, Session *session, const 
     return good && output_finish(output, &session->message);
 }
 
+static bool write_covered(Output *output, const char *path, Session *session, const Options *options, size_t count) {
+    uint32_t *triangles = array_new(count, sizeof *triangles);
+    if (triangles == NULL) {
+        return fail(&session->message, "%s: the triangles do not fit into memory", path);
+    }
+    size_t covered = 0;
+    const bool good =
+        session_good(session,
+                     bespoke_session_read_covered_triangles(session->handle, BESPOKE_NO_LAYER, options->covered_margin,
+                                                            options->covered_openness, triangles, count, &covered),
+                     NULL) &&
+        output_open(output, path, &session->message);
+    for (size_t k = 0; good && k < covered && k < count; k++) {
+        fprintf(output->file, "%u\n", (unsigned)triangles[k]);
+    }
+    free(triangles);
+    return good && output_finish(output, &session->message);
+}
+
 bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options, const char *status,
                    const char *said) {
     Output *outputs = results->outputs;
@@ -126,6 +146,8 @@ bool results_write(Results *results, Session *session, const Inputs *inputs, con
             write_report(&outputs[3], options->report, session, status, said, &session->message)) &&
            (options->output_skin == NULL ||
             write_skin(&outputs[4], options->output_skin, session, inputs->garment.vertex_count)) &&
+           (options->output_covered == NULL ||
+            write_covered(&outputs[6], options->output_covered, session, options, inputs->avatar.triangle_count)) &&
            (options->output_rig == NULL || write_rig(&outputs[5], options->output_rig, session, &inputs->target_rig, &inputs->source_rig));
 }
 

@@ -7,8 +7,8 @@
 #include "output.h"
 #include "session.h"
 
-/* Garment, avatar, distortion, report, skin weights, rig. */
-#define RESULTS 6
+/* Garment, avatar, distortion, report, skin weights, rig, covered triangles. */
+#define RESULTS 7
 
 typedef struct Results {
     Output outputs[RESULTS];

@@ -85,6 +85,9 @@
 /// Bytes of the name in BespokeEnergy, its zero byte included.
 #define BESPOKE_ENERGY_NAME_SIZE 32
 
+/// What is asked about is no layer but the avatar itself.
+#define BESPOKE_NO_LAYER 4294967295
+
 /// Bytes of the message in BespokeDiagnostic, its zero byte included.
 #define BESPOKE_MESSAGE_SIZE 512
 
@@ -1306,6 +1309,25 @@ BespokeStatus bespoke_session_read_pose_transforms(const struct BespokeSession *
                                                    double *transforms,
                                                    size_t capacity,
                                                    size_t *count);
+
+/// Writes the triangles of the avatar, or of a layer, that the garment covers: from outside nobody sees them in the pose that the
+/// result is in, so that a game may leave them out while the garment is worn. It does not count as covering that a part of the
+/// body beyond the garment is in the way, such as a hand before a sleeve.
+///
+/// `layer`: BESPOKE_NO_LAYER for the avatar, or a layer, numbered from 0; of a layer both sides have to be covered. `margin`: so
+/// many rings of triangles are left beside those that are not covered; 1 is for games, 0 is for nothing that moves. `openness`:
+/// the share of directions, from 0 to 1, in which a covered triangle may be seen all the same: 0 is for all, more for what
+/// nobody looks at, as from the floor into a skirt (0.2). `triangles`: room for `capacity` triangles, which are written
+/// ascending, as they were numbered when they were set; the first that fit. May be null where `capacity` is 0. `*count`, unless
+/// null: how many there are. State: DONE. Errors: INVALID_ARGUMENT (null with a capacity, no such layer, an openness that is no
+/// share), INVALID_STATE, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_covered_triangles(const struct BespokeSession *session,
+                                                     uint32_t layer,
+                                                     uint32_t margin,
+                                                     double openness,
+                                                     uint32_t *triangles,
+                                                     size_t capacity,
+                                                     size_t *count);
 
 /// Writes the diagnostics about the inputs and the result: what prepare found, also where it failed, what holds the
 /// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so

@@ -211,6 +211,9 @@ inline constexpr double weight_off = BESPOKE_WEIGHT_OFF;
 /// As the second joint of a pair: nothing corresponds to the first.
 inline constexpr std::uint32_t no_joint = BESPOKE_NO_JOINT;
 
+/// For bespoke_session_read_covered_triangles: the avatar itself.
+inline constexpr std::uint32_t no_layer = BESPOKE_NO_LAYER;
+
 /// Length of Progress::energies.
 inline constexpr std::size_t max_terms = BESPOKE_MAX_TERMS;
 
@@ -987,6 +990,16 @@ struct GarmentSkin {
     std::vector<float> weights;
 };
 
+/// What counts as covered by a garment.
+struct Covering {
+    /// The layer that is asked about; none: the avatar.
+    std::optional<std::uint32_t> layer;
+    /// So many rings of triangles are left beside those that are not covered.
+    std::uint32_t margin = 1;
+    /// The share of directions, from 0 to 1, in which a covered triangle may be seen all the same.
+    double openness = 0.0;
+};
+
 /// A joint of the garment's own: BespokeAddedJoint.
 struct AddedJoint {
     /// The joint of the source rig that it is.
@@ -1615,6 +1628,23 @@ public:
             joints.push_back(to);
         }
         return joints;
+    }
+
+    /// The triangles of the avatar, or of a layer, that the garment covers, ascending, so that they need not be drawn while it is
+    /// worn; after the end.
+    Result<std::vector<std::uint32_t>> read_covered_triangles(const Covering &what = {}) const {
+        const std::uint32_t layer = what.layer ? *what.layer : BESPOKE_NO_LAYER;
+        std::uint32_t *const nowhere = nullptr;
+        std::size_t count = 0;
+        const auto counted = call(bespoke_session_read_covered_triangles, layer, what.margin, what.openness, nowhere,
+                                  std::size_t{0}, &count);
+        if (!counted) return counted.error();
+        std::vector<std::uint32_t> triangles(count);
+        const auto done = call(bespoke_session_read_covered_triangles, layer, what.margin, what.openness,
+                               triangles.data(), triangles.size(), &count);
+        if (!done) return done.error();
+        if (count < triangles.size()) triangles.resize(count);
+        return triangles;
     }
 
     /// How each joint of the target rig moves from its bind pose to the pose that the result is in; after the end. All are the

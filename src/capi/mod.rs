@@ -33,6 +33,8 @@ pub mod results;
 
 pub mod rig_results;
 
+pub mod covered;
+
 pub mod diagnostics;
 
 mod float_mode;

@@ -12,13 +12,13 @@ pub const DIRECTIONS: usize = 64;
 
 /// The share of [`DIRECTIONS`], spread evenly, in which `surface` is seen from `p`.
 pub fn cover(surface: &ClosestPoint, p: DVec3) -> f64 {
-    (0..DIRECTIONS).filter(|&k| surface.meets_ray(p, direction(k))).count() as f64 / DIRECTIONS as f64
+    (0..DIRECTIONS).filter(|&k| surface.meets_ray(p, direction(k, DIRECTIONS))).count() as f64 / DIRECTIONS as f64
 }
 
-/// Points on a spiral around the sphere, in rings of equal area.
-fn direction(k: usize) -> DVec3 {
+/// Direction `k` of `count` that are spread evenly: points on a spiral around the sphere, in rings of equal area.
+pub fn direction(k: usize, count: usize) -> DVec3 {
     let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+    let z = 1.0 - (2 * k + 1) as f64 / count as f64;
     let (sin, cos) = (golden_angle * k as f64).sin_cos();
     let radius = (1.0 - z * z).sqrt();
     DVec3::new(radius * cos, radius * sin, z)

@@ -37,6 +37,14 @@ impl TriangleMesh {
         used
     }
 
+    /// Six times the volume inside, negative where triangles face inwards. Of an open mesh, that of the cones from the mean of its
+    /// vertices.
+    pub fn signed_volume(&self) -> f64 {
+        let middle = self.positions.iter().sum::<DVec3>() / self.positions.len().max(1) as f64;
+        let corners = |t: &[u32; 3]| t.map(|v| self.positions[v as usize] - middle);
+        self.triangles.iter().map(corners).map(|[a, b, c]| a.dot(b.cross(c))).sum()
+    }
+
     /// Area of each triangle.
     pub fn areas(&self) -> Vec<f64> {
         self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()

@@ -10,6 +10,7 @@ pub mod alignment;
 pub mod bvh;
 pub mod closest_point;
 pub mod cover;
+pub mod covered;
 pub mod median;
 pub mod mesh;
 pub mod piece;

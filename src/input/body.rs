@@ -1,5 +1,6 @@
 //! The body to dress with its layers, as one mesh, and the map back to the caller's indices.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -145,6 +146,13 @@ impl Body {
     /// Vertices of all layers.
     pub fn layer_positions(&self) -> &[DVec3] {
         &self.mesh.positions[self.avatar_vertices..]
+    }
+
+    /// The triangles of the mesh that are a layer's, or those of the avatar; none where there is no such layer.
+    pub fn triangles_of(&self, layer: Option<usize>) -> Option<Range<u32>> {
+        let part = layer.map_or(0, |layer| layer.saturating_add(1));
+        let start = if part == 0 { Some(&0) } else { self.ends.get(part - 1) };
+        Some(*start?..*self.ends.get(part)?)
     }
 
     /// A triangle of the mesh as the avatar's or a layer's.

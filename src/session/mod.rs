@@ -4,6 +4,7 @@
 //! snapshot that can be read is kept apart from them: it is replaced after each iteration, and stays when a job is abandoned.
 
 mod context;
+mod covered;
 mod curves;
 mod exchange_pose;
 mod fault;
@@ -24,7 +25,7 @@ mod way;
 mod worker_pool;
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Instant;
 
 use glam::{DAffine3, DVec3};
@@ -32,6 +33,7 @@ use glam::{DAffine3, DVec3};
 pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
+pub use crate::geometry::covered::CoveredOptions;
 pub use crate::input::body::PartRole;
 pub use crate::input::curve::Curve;
 use crate::input::diagnostic::Diagnostic;
@@ -41,6 +43,7 @@ use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
 use crate::rig::words::with_names;
 use context::Context;
+use covered::Covered;
 #[doc(hidden)]
 pub use fault::Fault;
 pub use garment_skin::GarmentSkin;
@@ -82,6 +85,8 @@ pub struct Session {
     other_precision: Option<(Precision, Verification)>,
     /// The skin weights of the result, once they were asked for.
     skin: OnceLock<Arc<GarmentSkin>>,
+    /// What the result covers, as it was asked for last.
+    covered: Mutex<Option<Covered>>,
     /// How each joint of the target rig moves into the pose that the result is in, where that is not its own.
     pose: Option<Vec<DAffine3>>,
     /// The joints of the common skeleton of two rigs, once something is said of them.
@@ -457,6 +462,7 @@ impl Session {
         self.diagnostics.clear();
         self.other_precision = None;
         self.skin = OnceLock::new();
+        self.covered = Mutex::default();
         self.pose = None;
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);

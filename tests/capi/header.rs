@@ -24,6 +24,7 @@ fn generated() -> String {
         "control",
         "results",
         "rig_results",
+        "covered",
         "diagnostics",
     ];
     let builder = files.iter().fold(cbindgen::Builder::new().with_config(config), |builder, file| {

@@ -302,8 +302,8 @@ fn layers_and_distortion() {
     folder.accepts(&["--layer", "inner.obj", "-o", "middle.obj"]);
     let before = folder.names();
     let further = ["--layer=inner.obj", "--layer", "middle.obj", "--distortion", "d.txt", "--report", "r.json"];
-    folder.accepts(&further);
-    let mut expected = [&before[..], &["d.txt", "out.obj", "r.json"].map(String::from)].concat();
+    folder.accepts(&[&further[..], &["--output-covered", "c.txt", "--covered-margin=0"]].concat());
+    let mut expected = [&before[..], &["c.txt", "d.txt", "out.obj", "r.json"].map(String::from)].concat();
     expected.sort();
     assert_eq!(folder.names(), expected);
     let radius = |name: &str| {
@@ -315,6 +315,9 @@ fn layers_and_distortion() {
     assert_eq!(values.len(), Sample::new().garment.1.len());
     assert!(values.iter().all(|&d| d >= 0.0) && values.iter().any(|&d| d > 0.0));
     assert!(folder.read("r.json").contains("\"distortion\": { \"mean\": "));
+    let covered: Vec<usize> = folder.read("c.txt").lines().map(|line| line.parse().expect("a number a line")).collect();
+    assert!(!covered.is_empty() && covered.is_sorted() && covered[covered.len() - 1] < Sample::new().avatar.1.len());
+    folder.refuses(&["--covered-openness", "1.5"], 2, &["--covered-openness"]);
 
     folder.refuses(&["--layer"], 2, &["--layer", "value"]);
     folder.refuses(&["--layers", "inner.obj"], 2, &["--layers"]);

@@ -76,6 +76,8 @@ void refusals() {
     REFUSED(session.set_source_rig({}), Status::invalid_skeleton, "source rig");
     REFUSED(session.read_added_joints(), Status::invalid_state, "result");
     REFUSED(session.read_garment_skin_influences(4), Status::invalid_state, "prepare");
+    REFUSED(session.read_covered_triangles(), Status::invalid_state, "result");
+    REFUSED(session.read_covered_triangles({0u, 2, 0.5}), Status::invalid_state, "result");
     REFUSED(session.read_pose_transforms(), Status::invalid_state, "target rig");
     auto joints = source_rig();
     joints[2].parent = 70;

@@ -26,6 +26,11 @@ internal static class Dressing
             Check.That(report.IsVerified && report.T == 1.0, "the report says that it is verified");
             Check.Same(report.AvatarVertices, (long)vertices, "vertices of the avatar");
             Check.SameBits(session.ReadAvatarVertices(), inputs.AvatarPositions, "the avatar at its full size");
+            uint[] covered = session.ReadCoveredTriangles();
+            Check.That(covered.Length > 0 && covered.Length < inputs.AvatarTriangles.Length / 3, "a part of it is covered");
+            Check.That(session.ReadCoveredTriangles(margin: 0).Length > covered.Length, "more is without a margin");
+            Check.Refused(Status.InvalidArgument, () => session.ReadCoveredTriangles(0), "layer 0");
+            Check.Refused(Status.InvalidArgument, () => session.ReadCoveredTriangles(openness: 2.0), "openness");
         }
     }
 

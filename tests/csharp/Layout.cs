@@ -108,6 +108,7 @@ internal static class Layout
         {
             { "BESPOKE_ABI_VERSION", NativeConstants.AbiVersion },
             { "BESPOKE_NO_JOINT", NativeConstants.NoJoint },
+            { "BESPOKE_NO_LAYER", NativeConstants.NoLayer },
             { "BESPOKE_TRANSFORM_SIZE", NativeConstants.TransformSize },
             { "BESPOKE_PART_NAME_SIZE", NativeConstants.PartNameSize },
             { "BESPOKE_MAX_TERMS", NativeConstants.MaxTerms },

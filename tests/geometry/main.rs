@@ -3,6 +3,7 @@
 mod alignment;
 mod bvh;
 mod closest_point;
+mod covered;
 mod median;
 mod mesh;
 mod piece;

@@ -12,7 +12,7 @@ use bespoke::input::diagnostic::{DiagnosticKind, Subject};
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::sdf::{Field, FieldOptions};
-use bespoke::session::{Precision, Session};
+use bespoke::session::{CoveredOptions, Precision, Session};
 use bespoke::verify::intersections;
 use glam::DVec3;
 
@@ -319,4 +319,33 @@ fn a_jacket_over_a_jacket() {
         layers.push(read(&session, &mesh(&jacket)));
     }
     is_over(&layers[1], &layers[0], &mesh(&heavy));
+}
+
+#[test]
+fn what_is_covered_of_the_arm_and_of_the_layer() {
+    let mut session = session(1.0, DVec3::ZERO);
+    let options = CoveredOptions::default();
+    assert_eq!(session.covered_triangles(None, &options).unwrap_err().kind, ErrorKind::InvalidState);
+    session.run().unwrap();
+    let bare = session.covered_triangles(None, &options).unwrap();
+    let arm = thick_arm();
+    assert!(!bare.is_empty() && bare.len() < arm.triangles.len(), "{} of {}", bare.len(), arm.triangles.len());
+    let sleeve_length = sleeve().positions.iter().fold(0.0_f64, |most, p| most.max(p.z.abs()));
+    assert!(bare.iter().all(|&t| arm.centre(t).z.abs() < 1.5 * sleeve_length));
+    assert_eq!(session.covered_triangles(None, &options).unwrap(), bare);
+    let more = session.covered_triangles(None, &CoveredOptions { margin: 0, ..options }).unwrap();
+    assert!(bare.iter().all(|t| more.contains(t)) && more.len() > bare.len());
+    for openness in [-0.1, 1.1, f64::NAN] {
+        let wrong = session.covered_triangles(None, &CoveredOptions { openness, ..options }).unwrap_err();
+        assert_eq!(wrong.kind, ErrorKind::InvalidArgument);
+    }
+    let error = session.covered_triangles(Some(0), &options).unwrap_err();
+    assert!(error.kind == ErrorKind::InvalidArgument && error.message.contains("layer 0"), "{}", error.message);
+
+    let inner = read(&session, &sleeve());
+    session.reset();
+    session.add_layer(inner.clone()).unwrap();
+    session.run().unwrap();
+    let of_layer = session.covered_triangles(Some(0), &CoveredOptions { margin: 0, ..options }).unwrap();
+    assert!(!of_layer.is_empty() && of_layer.iter().all(|&t| (t as usize) < inner.triangles.len()));
 }

@@ -202,6 +202,10 @@ namespace Bespoke
             SessionHandle session, double* transforms, UIntPtr capacity, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_covered_triangles(
+            SessionHandle session, uint layer, uint margin, double openness, uint* triangles, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_diagnostics(
             SessionHandle session, NativeDiagnostic* diagnostics, UIntPtr capacity, UIntPtr* count);
     }

@@ -17,6 +17,7 @@ namespace Bespoke
         internal const double WeightOff = -1.0;
         internal const int MaxTerms = 12;
         internal const int EnergyNameSize = 32;
+        internal const uint NoLayer = 4294967295;
         internal const int MessageSize = 512;
         internal const int MaxElements = 4;
     }

@@ -41,6 +41,32 @@ namespace Bespoke
             return new Intersections(native);
         }
 
+        /// <summary>
+        /// The triangles of the avatar, or of a layer, that the garment covers, ascending, so that they need not be drawn while
+        /// it is worn. State: Done.
+        /// </summary>
+        /// <param name="layer">The layer that is asked about, from 0; null: the avatar.</param>
+        /// <param name="margin">So many rings of triangles are left beside those that are not covered.</param>
+        /// <param name="openness">The share of directions, from 0 to 1, in which a covered triangle may be seen all the
+        /// same.</param>
+        /// <returns>The triangles, as they were numbered when they were set.</returns>
+        /// <exception cref="BespokeException">InvalidArgument, InvalidState, Cancelled, Busy, Internal.</exception>
+        public unsafe uint[] ReadCoveredTriangles(int? layer = null, int margin = 1, double openness = 0.0)
+        {
+            uint of = layer == null ? NativeConstants.NoLayer : checked((uint)layer.Value);
+            uint rings = checked((uint)margin);
+            UIntPtr count;
+            Check(Native.bespoke_session_read_covered_triangles(handle, of, rings, openness, null, UIntPtr.Zero, &count));
+            uint[] triangles = new uint[checked((int)count)];
+            fixed (uint* first = triangles)
+            {
+                Check(Native.bespoke_session_read_covered_triangles(
+                    handle, of, rings, openness, first, (UIntPtr)(uint)triangles.Length, &count));
+            }
+            Array.Resize(ref triangles, Math.Min(triangles.Length, checked((int)count)));
+            return triangles;
+        }
+
         /// <summary>Vertices of the garment. State: Prepared or later.</summary>
         public unsafe int GarmentVertexCount
         {

@@ -49,15 +49,8 @@ impl Front {
 /// Whether the target avatar's triangles face inwards where the source avatar's face outwards, or the other way round, as
 /// those of a mirrored mesh do.
 pub fn is_turned_inside_out(scene: &Scene<'_>) -> bool {
-    let is_inward = |mesh: &TriangleMesh| volume(mesh) < 0.0;
+    let is_inward = |mesh: &TriangleMesh| mesh.signed_volume() < 0.0;
     is_inward(scene.avatar) != scene.source_avatar.is_some_and(is_inward)
-}
-
-/// The volume inside, negative where triangles face inwards.
-fn volume(mesh: &TriangleMesh) -> f64 {
-    let middle = mesh.positions.iter().sum::<DVec3>() / mesh.positions.len().max(1) as f64;
-    let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize] - middle);
-    mesh.triangles.iter().map(corners).map(|[a, b, c]| a.dot(b.cross(c))).sum()
 }
 
 /// Across a body: perpendicular to the line from left to right, and to the longest extent of what is left.
