@@ -13,6 +13,7 @@ pub mod cover;
 pub mod covered;
 pub mod median;
 pub mod mesh;
+pub mod outfit;
 pub mod piece;
 pub mod sliver_caps;
 pub mod solid_angle;

@@ -34,6 +34,7 @@ pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
 pub use crate::geometry::covered::CoveredOptions;
+pub use crate::geometry::outfit::{OutfitOrder, WornPair, outfit_order};
 pub use crate::input::body::PartRole;
 pub use crate::input::curve::Curve;
 use crate::input::diagnostic::Diagnostic;

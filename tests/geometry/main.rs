@@ -6,6 +6,7 @@ mod closest_point;
 mod covered;
 mod median;
 mod mesh;
+mod outfit;
 mod piece;
 mod sliver_caps;
 mod solid_angle;
