@@ -4,6 +4,8 @@ use std::sync::LazyLock;
 
 use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
+use bespoke::geometry::closest_point::ClosestPoint;
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::DiagnosticKind;
 use bespoke::input::rig::RigJoint;
 use bespoke::input::skeleton::Skeleton;
@@ -158,6 +160,36 @@ fn every_pose_ends_in_the_targets_own() {
         assert!(apart < 1e-5, "the avatar ends {apart} from where it was given");
     }
     assert!((1..3).contains(&reposed), "small turns need nothing, large ones a pose: {reposed}");
+}
+
+/// The mean distance of a garment's surface from a body.
+fn mean_distance(positions: Vec<DVec3>, garment: &Character, body: &Character) -> f64 {
+    let worn = TriangleMesh { positions, triangles: garment.mesh.triangles.clone() };
+    let (skin, areas) = (ClosestPoint::new(&dressing::mesh(body)), worn.areas());
+    let sum: f64 = (0..).zip(&areas).map(|(t, area)| area * skin.distance(worn.centre(t))).sum();
+    sum / areas.iter().sum::<f64>()
+}
+
+/// `figures poses` has all nine combinations, with sleeves.
+#[test]
+fn the_fit_is_the_same_whichever_pose_a_garment_is_given_in() {
+    let body = mannequin(Naming::Mixamo);
+    let frame = y_up();
+    let mut mesh = garments::garment(garments::Garment::Trousers).mesh;
+    mesh.positions.iter_mut().for_each(|p| *p = frame.transform_point3(*p));
+    let (worn, target) = (body.wears(&mesh), slim(Naming::Unreal).posed(&Pose::T));
+    let distances = [Pose::T, Pose::ARMS_DOWN].map(|pose| {
+        let motions = body.motions(&pose);
+        let (source, garment) = (body.moved(&motions), worn.moved(&motions));
+        let mut session = session(&garment, &source, &target);
+        session.set_source_avatar(dressing::mesh(&source)).unwrap();
+        dressed(&mut session, "trousers in another pose");
+        let was_reposed = session.report().repose.iterations > 0;
+        assert_eq!(was_reposed, pose == Pose::ARMS_DOWN);
+        mean_distance(session.garment_positions().unwrap(), &garment, &target)
+    });
+    let mean = 0.5 * (distances[0] + distances[1]);
+    assert!(distances.iter().all(|distance| (distance / mean - 1.0).abs() < 0.05), "{distances:?}");
 }
 
 #[test]

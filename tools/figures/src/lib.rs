@@ -8,6 +8,7 @@ pub mod figure;
 pub mod fit_weight;
 pub mod layers;
 pub mod measure;
+pub mod poses;
 pub mod resolution;
 pub mod shells;
 pub mod skeleton_edits;

@@ -13,14 +13,15 @@ use std::time::Instant;
 
 use figures::figure::{Figure, Outcome};
 use figures::{
-    clearance, comparison, curve_term, fit_weight, layers, resolution, shells, skeleton_edits, skin_weights, stress,
+    clearance, comparison, curve_term, fit_weight, layers, poses, resolution, shells, skeleton_edits, skin_weights,
+    stress,
 };
 
 /// The name of a figure, and what makes it.
 type Maker = (&'static str, fn() -> Outcome<Figure>);
 
 /// All of them.
-const FIGURES: [Maker; 10] = [
+const FIGURES: [Maker; 11] = [
     ("layers", layers::figure),
     ("stress", stress::figure),
     ("fit-weight", fit_weight::figure),
@@ -30,10 +31,11 @@ const FIGURES: [Maker; 10] = [
     ("clearance", clearance::figure),
     ("shells", shells::figure),
     ("skin-weights", skin_weights::figure),
+    ("poses", poses::figure),
     ("comparison", comparison::figure),
 ];
 
-const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [comparison]";
+const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [poses] [comparison]";
 
 fn main() -> ExitCode {
     let mut out = PathBuf::from("build/gallery/figures");

@@ -49,7 +49,11 @@ pub fn waist_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
 
 /// The mean distance from `body` of a garment's surface, in metres.
 pub fn mean_clearance(garment: &TriangleMesh, body: &Sample) -> f64 {
-    let skin = ClosestPoint::new(&pair::mesh(&body.mesh));
+    mean_distance(garment, &ClosestPoint::new(&pair::mesh(&body.mesh)))
+}
+
+/// The mean distance of a garment's surface from that of `skin`.
+pub fn mean_distance(garment: &TriangleMesh, skin: &ClosestPoint) -> f64 {
     let areas = garment.areas();
     let sum: f64 = (0..).zip(&areas).map(|(t, area)| area * skin.distance(garment.centre(t))).sum();
     sum / areas.iter().sum::<f64>()
