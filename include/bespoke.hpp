@@ -696,6 +696,9 @@ using Indices = detail::Elements<detail::Index, 1, const void>;
 /// Numbers: float or double. Made as Points are.
 using Numbers = detail::Elements<detail::Real, 1, const void>;
 
+/// Tangents (x, y, z and the handedness of the bitangent): float or double. Made as Points are.
+using Tangents = detail::Elements<detail::Real, 4, const void>;
+
 /// Rows of numbers, float or double. From
 /// - a container of rows: std::vector<std::array<float, 4>>, MyVec4[n] ... (see Layout);
 /// - a container of numbers and how many there are in a row: {weights, columns};
@@ -1008,6 +1011,24 @@ struct AddedJoint {
     std::optional<std::uint32_t> parent;
     /// Its bind transform in the coordinate system of the target, as in Joint.
     std::array<double, BESPOKE_TRANSFORM_SIZE> bind;
+};
+
+/// A garment as it is drawn, for Session::read_garment_normals; what is not given there is null in the C API.
+struct RenderMesh {
+    /// The garment's triangles in their order, by render vertices; none: the garment's vertices are those that are drawn.
+    std::optional<Triangles> triangles;
+    /// Normals of the design, one for each render vertex; none: they follow from the triangles.
+    std::optional<Points> normals;
+    /// Tangents of the design, one for each render vertex.
+    std::optional<Tangents> tangents;
+};
+
+/// Normals of a result: Session::read_garment_normals.
+struct GarmentNormals {
+    /// One for each render vertex, of unit length.
+    std::vector<std::array<float, 3>> normals;
+    /// As many, where some were given.
+    std::vector<std::array<float, 4>> tangents;
 };
 
 /// A diagnostic about the inputs or the result: BespokeDiagnostic.
@@ -1565,6 +1586,38 @@ public:
     /// The same in new memory, as float or double.
     template <class Number = float> Result<std::vector<Number>> read_distortion() const {
         return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
+    }
+
+    /// Normals, and tangents where some are given, of the garment as it is now, for the vertices with which it is drawn.
+    Result<GarmentNormals> read_garment_normals(const RenderMesh &mesh = {}) const {
+        if (!handle_) return detail::empty_handle("session");
+        BespokeView triangles{}, normals{}, tangents{};
+        if (mesh.triangles) {
+            if (auto whole = divides("triangles of the render vertices", *mesh.triangles); !whole) return whole.error();
+            triangles = mesh.triangles->get();
+        }
+        if (mesh.normals) {
+            if (auto whole = divides("garment normals", *mesh.normals); !whole) return whole.error();
+            normals = mesh.normals->get();
+        }
+        if (mesh.tangents) {
+            if (auto whole = divides("garment tangents", *mesh.tangents); !whole) return whole.error();
+            tangents = mesh.tangents->get();
+        }
+        const auto read = [&](const BespokeBuffer &to_normals, const BespokeBuffer &to_tangents, std::size_t *count) {
+            return call(bespoke_session_read_garment_normals, mesh.triangles ? &triangles : nullptr,
+                        mesh.normals ? &normals : nullptr, mesh.tangents ? &tangents : nullptr, &to_normals,
+                        mesh.tangents ? &to_tangents : nullptr, count);
+        };
+        const BespokeBuffer nowhere{nullptr, 0, 0, BESPOKE_COMPONENT_F32};
+        std::size_t count = 0;
+        if (const auto counted = read(nowhere, nowhere, &count); !counted) return counted.error();
+        GarmentNormals found{std::vector<std::array<float, 3>>(count), {}};
+        if (mesh.tangents) found.tangents.resize(count);
+        const BespokeBuffer to_normals{found.normals.data(), count, 0, BESPOKE_COMPONENT_F32};
+        const BespokeBuffer to_tangents{found.tangents.data(), found.tangents.size(), 0, BESPOKE_COMPONENT_F32};
+        if (const auto done = read(to_normals, to_tangents, &count); !done) return done.error();
+        return found;
     }
 
     /// Which joint of the target rig corresponds to each joint of the source rig, why, and how sure that is.

@@ -17,6 +17,7 @@ pub mod contact;
 pub mod control;
 pub mod energy;
 pub mod error;
+pub mod follow;
 pub mod geometry;
 pub mod input;
 pub mod memory;

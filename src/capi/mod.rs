@@ -31,6 +31,8 @@ pub mod control;
 
 pub mod results;
 
+pub mod normals;
+
 pub mod rig_results;
 
 pub mod covered;

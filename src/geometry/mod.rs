@@ -18,3 +18,4 @@ pub mod piece;
 pub mod sliver_caps;
 pub mod solid_angle;
 pub mod spread;
+pub mod triangle_motion;

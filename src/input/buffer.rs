@@ -5,7 +5,7 @@
 
 use std::ffi::c_void;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -271,6 +271,18 @@ pub unsafe fn write_positions(view: &PositionsViewMut, positions: &[DVec3], name
 pub unsafe fn write_scalars(view: &PositionsViewMut, values: &[f64], name: &str) -> Result<()> {
     // SAFETY: the caller's promise, handed on with one number an element.
     unsafe { write_floats(view, values.iter().map(|&value| [value]), "number", name) }
+}
+
+/// Writes four numbers an element, otherwise as [`write_positions`].
+///
+/// # Errors
+/// As for [`write_positions`].
+///
+/// # Safety
+/// As for [`write_positions`].
+pub unsafe fn write_quadruples(view: &PositionsViewMut, values: &[DVec4], name: &str) -> Result<()> {
+    // SAFETY: the caller's promise, handed on with four numbers an element.
+    unsafe { write_floats(view, values.iter().map(DVec4::to_array), "element", name) }
 }
 
 /// # Safety

@@ -10,6 +10,7 @@ mod exchange_pose;
 mod fault;
 mod field_task;
 mod fit_controls;
+mod garment_normals;
 mod garment_skin;
 mod inputs;
 mod on_the_way;
@@ -47,6 +48,7 @@ use context::Context;
 use covered::Covered;
 #[doc(hidden)]
 pub use fault::Fault;
+pub use garment_normals::RenderMesh;
 pub use garment_skin::GarmentSkin;
 use inputs::Inputs;
 pub use inputs::Pin;

@@ -60,10 +60,15 @@ impl Snapshot {
         self.on_the_way = run.avatar_on_the_way().map(Into::into);
     }
 
-    pub(super) fn garment_positions(&self) -> Vec<DVec3> {
+    /// Welded garment vertices with the caps of the openings, in the normalised space.
+    pub(super) fn x_with_caps(&self) -> Vec<DVec3> {
         let mut x = self.x.clone();
         self.problem.caps.iter().for_each(|cap| cap.carry(&self.problem.rest, &mut x));
-        let welded: Vec<DVec3> = x.iter().map(|&p| self.restored(p)).collect();
+        x
+    }
+
+    pub(super) fn garment_positions(&self) -> Vec<DVec3> {
+        let welded: Vec<DVec3> = self.x_with_caps().iter().map(|&p| self.restored(p)).collect();
         self.problem.weld.scatter(&welded)
     }
 
@@ -91,7 +96,8 @@ impl Snapshot {
         &self.coordinate_system
     }
 
-    fn restored(&self, p: DVec3) -> DVec3 {
+    /// A point in the normalised space, in the caller's coordinates.
+    pub(super) fn restored(&self, p: DVec3) -> DVec3 {
         self.coordinate_system.position_from_internal(self.problem.target_normalization.restore(p))
     }
 

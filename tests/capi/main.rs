@@ -11,6 +11,7 @@ mod hosts;
 mod layers;
 mod manual;
 mod meshes;
+mod normals;
 mod options;
 mod results;
 mod retarget;

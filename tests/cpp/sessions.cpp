@@ -69,6 +69,7 @@ void empty(Session &session) {
     refused(session.read_avatar_vertices());
     refused(session.read_distortion(room));
     refused(session.read_distortion());
+    refused(session.read_garment_normals());
     refused(session.read_report());
     refused(session.read_energy(0));
     refused(session.read_energies());
@@ -209,6 +210,18 @@ void what_is_read() {
     for (std::size_t k = 0; k < triangles; k++) CHECK(distortion[k] == static_cast<float>(doubles[k]));
     std::vector<double> room(triangles);
     CHECK(session.read_distortion(room).value() == triangles && same_bits(room, doubles));
+
+    const auto normals = session.read_garment_normals().value();
+    CHECK(normals.normals.size() == vertices && normals.tangents.empty());
+    RenderMesh drawn;
+    drawn.triangles = scene.garment.triangles;
+    drawn.normals = normals.normals;
+    const std::vector<std::array<double, 4>> along(vertices, {0, 1, 0, -1});
+    drawn.tangents = along;
+    const auto turned = session.read_garment_normals(drawn).value();
+    CHECK(turned.normals.size() == vertices && turned.tangents.size() == vertices && turned.tangents[0][3] == -1.0f);
+    drawn.normals = std::vector<float>(4);
+    REFUSED(session.read_garment_normals(drawn), Status::invalid_argument, "garment normals: there are 4 numbers");
 
     for (const Component precision : {Component::f32, Component::f64}) {
         const auto found = session.verify(precision);

@@ -268,6 +268,17 @@ internal static class Dressing
             session.ReadDistortion(single);
             Check.That(single.Zip(distortion, (a, b) => a == (float)b).All(same => same), "distortion, in floats");
 
+            float[] normals = session.ReadGarmentNormals(null);
+            Check.Same(normals.Length, 3 * session.GarmentVertexCount, "numbers of normals");
+            float[] tangents = Enumerable.Range(0, 4 * session.GarmentVertexCount).Select(k => k % 4 == 1 ? 1f : 0f).ToArray();
+            float[] alongs = new float[tangents.Length];
+            session.ReadGarmentNormals(triangles, normals, tangents, normals, alongs);
+            Check.That(alongs.Any(x => x != 0) && !alongs.Any(float.IsNaN), "tangents");
+            Check.Refused(
+                Status.InvalidArgument,
+                () => session.ReadGarmentNormals(new[] { 0, 1, 2 }, normals, default(FloatView), normals, default(FloatBuffer)),
+                "triangles");
+
             Report report = session.ReadReport();
             Check.Same(report.GarmentVertices, (long)session.GarmentVertexCount, "vertices of the garment");
             Check.Same(report.GarmentTriangles, count - 1L, "triangles of the garment, the duplicate counted once");

@@ -11,3 +11,4 @@ mod piece;
 mod sliver_caps;
 mod solid_angle;
 mod spread;
+mod triangle_motion;

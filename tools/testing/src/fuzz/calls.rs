@@ -17,6 +17,7 @@ use bespoke::capi::view::{BespokeBuffer, BespokeView};
 
 use super::array::Array;
 use super::caller::{after, known, no_options};
+use super::follow;
 use super::rigs;
 use super::shape::{Shape, bones, joints};
 use super::source::Source;
@@ -129,7 +130,8 @@ impl Program {
             11 => self.set_options(session, source),
             12 | 13 => self.set_sample(session, source),
             14 => rigs::call(session, source),
-            15..22 => self.work(session, source),
+            15..21 => self.work(session, source),
+            21 => follow::call(session, source),
             22 => self.run_and_cancel(session, source),
             // SAFETY: as above.
             23 => drop(unsafe { after(session, "cancel", answers(session, bespoke_session_cancel(session))) }),

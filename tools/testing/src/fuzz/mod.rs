@@ -7,6 +7,7 @@ mod array;
 mod buffers;
 mod caller;
 mod calls;
+mod follow;
 mod meshes;
 mod rigs;
 mod shape;
