@@ -321,10 +321,15 @@ enum BespokeDiagnosticKind
   /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
   /// read with bespoke_session_read_pose_transforms.
   BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED = 30,
-  /// With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it was
-  /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
-  /// stalled is named, and the angle between the poses.
-  BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED = 34,
+  /// A mesh that follows the garment (bespoke_session_add_follower) passes through the avatar, a layer or the garment in the
+  /// result, and did not in the design. Its first such triangle is named, and the one that it meets.
+  BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS = 35,
+  /// A morph of the target avatar (bespoke_session_add_target_morph) to which the garment has no answer, because it gives way
+  /// only up to the weight in the message.
+  BESPOKE_DIAGNOSTIC_KIND_MORPH_NOT_SOLVED = 36,
+  /// The garment's answer to a morph of the target avatar is good at weight 0 and 1, but intersects halfway. The first two
+  /// triangles that meet there are named.
+  BESPOKE_DIAGNOSTIC_KIND_MORPH_INTERSECTS = 37,
   /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
   /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
   BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE = 33,
@@ -395,7 +400,8 @@ typedef uint32_t BespokeSeverity;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer.
+/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer, and from
+/// BESPOKE_SUBJECT_FOLLOWER on a follower.
 enum BespokeSubject
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -413,6 +419,8 @@ enum BespokeSubject
   BESPOKE_SUBJECT_TARGET_SKELETON = 5,
   /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k.
   BESPOKE_SUBJECT_LAYER = 256,
+  /// The first mesh that was added with bespoke_session_add_follower; follower k, counted from 0, is this plus k.
+  BESPOKE_SUBJECT_FOLLOWER = 1073741824,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -566,6 +574,19 @@ typedef struct BespokeMappedJoint {
   char part[BESPOKE_PART_NAME_SIZE];
 } BespokeMappedJoint;
 
+/// An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
+/// as they are.
+typedef struct BespokeBuffer {
+  /// The first element. May be null where `capacity` is 0.
+  void *data;
+  /// Elements that fit.
+  size_t capacity;
+  /// Bytes from one element to the next; 0: they are packed.
+  size_t stride;
+  /// BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
+  uint32_t component;
+} BespokeBuffer;
+
 /// The options of a session. Zero in a field means its default. Unless noted otherwise, lengths are in the normalised
 /// space, in which the longest side of the skeleton's bounding box is 2. Weights are finite and not negative, or
 /// BESPOKE_WEIGHT_OFF where that is said; other ranges are in brackets. Artists' options come first; from
@@ -686,19 +707,6 @@ typedef struct BespokeProgress {
   double energies[BESPOKE_MAX_TERMS];
 } BespokeProgress;
 
-/// An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
-/// as they are.
-typedef struct BespokeBuffer {
-  /// The first element. May be null where `capacity` is 0.
-  void *data;
-  /// Elements that fit.
-  size_t capacity;
-  /// Bytes from one element to the next; 0: they are packed.
-  size_t stride;
-  /// BESPOKE_COMPONENT_F32 or BESPOKE_COMPONENT_F64.
-  uint32_t component;
-} BespokeBuffer;
-
 /// The cost of one stage.
 typedef struct BespokeStageReport {
   /// Wall-clock seconds.
@@ -803,7 +811,8 @@ typedef struct BespokeAddedJoint {
 
 /// A vertex, triangle or bone of an input.
 typedef struct BespokeElement {
-  /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
+  /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer, BESPOKE_SUBJECT_FOLLOWER plus that of a follower;
+  /// 0 where there is no element.
   uint32_t subject;
   /// One of BespokeElementKind.
   uint32_t kind;
@@ -1134,6 +1143,111 @@ BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
 BespokeStatus bespoke_session_set_avatar_parts(struct BespokeSession *session,
                                                const struct BespokeView *roles);
 
+/// Optional: a morph of the garment as it was modelled, which goes over to the result: bespoke_session_read_garment_morph. Each
+/// call adds one; they are numbered from 0.
+///
+/// `name`: UTF-8, for messages; null: none. `offsets`: one for each vertex of the garment, in its coordinate system, F32 or F64.
+/// Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a number that is not finite; another number of
+/// offsets than the garment has vertices is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any,
+/// one at a time.
+BespokeStatus bespoke_session_add_garment_morph(struct BespokeSession *session,
+                                                const char *name,
+                                                const struct BespokeView *offsets);
+
+/// Removes all morphs of the garment.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_garment_morphs(struct BespokeSession *session);
+
+/// Writes a morph of the garment as it is now: each offset turned, stretched and scaled as the surface around its vertex has
+/// been, in the target's coordinate system. Where the garment moves rigidly, or all of it is scaled, that is exact.
+///
+/// `morph`: its number. `offsets`: where to, one for each vertex of the garment, F32 or F64. With null data and capacity 0
+/// nothing is written. `*count`, unless null: vertices of the garment, also where they do not fit. State: PREPARED or later;
+/// until DONE it is that of a preview. Errors: INVALID_ARGUMENT (no such morph, too small a capacity; nothing is written then),
+/// INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_garment_morph(const struct BespokeSession *session,
+                                                 uint32_t morph,
+                                                 const struct BespokeBuffer *offsets,
+                                                 size_t *count);
+
+/// Optional: a morph of the target avatar, such as a heavier body, to which the garment is to have an answer:
+/// bespoke_session_solve_target_morphs. Each call adds one; they are numbered from 0.
+///
+/// `name`: UTF-8, for messages; null: none. `offsets`: one for each vertex of the target avatar, in its coordinate system, F32 or
+/// F64. All else as for bespoke_session_add_garment_morph.
+BespokeStatus bespoke_session_add_target_morph(struct BespokeSession *session,
+                                               const char *name,
+                                               const struct BespokeView *offsets);
+
+/// Removes all morphs of the target avatar.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_target_morphs(struct BespokeSession *session);
+
+/// Finds what the garment answers to each morph of the target avatar with: from the result on, the body goes to the morph at
+/// weight 1 and takes the garment along, with no triangle through another on the way, and the garment is fitted there, which
+/// takes about as long as the fit. The result stays as it is. Layers go along with the body beneath them. A morph without an
+/// answer is told by the diagnostic MORPH_NOT_SOLVED, and one whose answer intersects halfway by MORPH_INTERSECTS. Answers that
+/// are there already are not sought again. Meanwhile the progress is in the stages REPOSE, with the weight as t, and FIT.
+///
+/// State: DONE, but not where the result is in the pose of the design (POSE_BLOCKED). Errors: INVALID_ARGUMENT, INVALID_STATE,
+/// CANCELLED (the state stays DONE, and what was found is kept), MEMORY_LIMIT, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_solve_target_morphs(struct BespokeSession *session);
+
+/// Writes the garment's answer to a morph of the target avatar: a morph of the garment, as offsets from the result. With both at
+/// weight 1 the garment is verified as the result is, in the precision in which it was set.
+///
+/// `morph`: the number of the avatar's morph. `offsets`, `count`: as for bespoke_session_read_garment_morph. State: DONE, after
+/// bespoke_session_solve_target_morphs. Errors: INVALID_ARGUMENT (no such morph, too small a capacity; nothing is written then),
+/// INVALID_STATE (also where the garment has no answer), BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_target_morph(const struct BespokeSession *session,
+                                                uint32_t morph,
+                                                const struct BespokeBuffer *offsets,
+                                                size_t *count);
+
+/// Optional: a mesh that follows the garment without being solved, such as a level of detail, a trim, a badge or a collision
+/// proxy. It is bound to the nearest points of the garment as it was modelled and carried to the result. Each call adds one;
+/// they are numbered from 0. Where one passes through the avatar or the garment in the result, and did not in the design, the
+/// diagnostic FOLLOWER_INTERSECTS says so.
+///
+/// `positions`: points in the coordinate system of the garment, F32 or F64. `triangles`: three vertices each, U16 or U32.
+/// Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL.
+/// Threads: any, one at a time.
+BespokeStatus bespoke_session_add_follower(struct BespokeSession *session,
+                                           const struct BespokeView *positions,
+                                           const struct BespokeView *triangles);
+
+/// Removes all followers.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_followers(struct BespokeSession *session);
+
+/// Writes the vertices of a follower where the result takes them, in the order in which they were set, in the target's coordinate
+/// system.
+///
+/// `follower`: its number. `points`: where to, F32 or F64. With null data and capacity 0 nothing is written. `*count`, unless
+/// null: its vertices, also where they do not fit. State: DONE. Errors: INVALID_ARGUMENT (no such follower, too small a
+/// capacity; nothing is written then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_follower_vertices(const struct BespokeSession *session,
+                                                     uint32_t follower,
+                                                     const struct BespokeBuffer *points,
+                                                     size_t *count);
+
+/// Writes skin weights of a follower, on the same joints as those of bespoke_session_read_garment_skin_influences: those of the
+/// garment where the follower is bound to it.
+///
+/// `follower`: its number. `influences`, `joints`, `weights`, `joint_count`: as there. `vertices`: those that there is room for,
+/// at least the follower's. State: DONE, with skin weights of the target avatar set. Errors: INVALID_ARGUMENT (no such follower,
+/// null, no influences, too little room), INVALID_STATE, INVALID_WEIGHTS, CANCELLED, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_follower_skin_influences(const struct BespokeSession *session,
+                                                            uint32_t follower,
+                                                            size_t influences,
+                                                            uint32_t *joints,
+                                                            float *weights,
+                                                            size_t vertices,
+                                                            size_t *joint_count);
+
 /// Replaces all options by these.
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT (null, struct_size, or an option out of its range, which the message names),
@@ -1266,6 +1380,30 @@ BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, 
 BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
+
+/// Writes unit normals of the garment as it is now, and tangents, for the vertices with which it is drawn: those of the design,
+/// turned as the surface around them has turned. Vertices in one place whose normals agree in the design, as along a seam of
+/// texture coordinates, are turned by all the triangles there and stay smooth; where they differ, the edge stays hard. Where the
+/// garment moves rigidly, exactly the given normals come back, turned.
+///
+/// `triangles`: the garment's triangles in their order, three render vertices each, from 0, U16 or U32; null: the vertices of
+/// bespoke_session_set_garment are those that are drawn. `normals`: those of the design, one for each render vertex, in the
+/// garment's coordinate system, of any length, F32 or F64. Null: they follow from the triangles, and vertices in one place
+/// are smooth where they differ by no more than 60 degrees. `tangents`: four numbers for each render vertex, x, y, z and the
+/// handedness of the bitangent, as in glTF; null: none. `result_normals`: where to, three numbers a vertex, F32 or F64, in the
+/// target's coordinate system. `result_tangents`: the same with four, perpendicular to the normals; the fourth number is the one
+/// given, with the other sign where one coordinate system is the mirror image of the other. Null: none. With null data and
+/// capacity 0 nothing is written. `*count`, unless null: render vertices, also where they do not fit. What is given as 0, and
+/// without normals what no triangle uses, comes out as 0. State: PREPARED or later; until DONE it is that of a preview. Errors:
+/// INVALID_ARGUMENT (a capacity that is too small, arrays of different length, other triangles than the garment's, a
+/// number that is not finite, room for tangents without any given), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_garment_normals(const struct BespokeSession *session,
+                                                   const struct BespokeView *triangles,
+                                                   const struct BespokeView *normals,
+                                                   const struct BespokeView *tangents,
+                                                   const struct BespokeBuffer *result_normals,
+                                                   const struct BespokeBuffer *result_tangents,
+                                                   size_t *count);
 
 /// Writes skin weights of the result on the joints of the target rig, or on those of the target skeleton where no rig was
 /// set: those of the body beneath, where the garment lies along it, and smoothly on from there where it does not. Vertices

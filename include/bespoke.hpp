@@ -143,6 +143,9 @@ enum class DiagnosticKind : std::uint32_t {
     joint_misplaced = BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED,
     pose_blocked = BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED,
     solved_posed = BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED,
+    follower_intersects = BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS,
+    morph_not_solved = BESPOKE_DIAGNOSTIC_KIND_MORPH_NOT_SOLVED,
+    morph_intersects = BESPOKE_DIAGNOSTIC_KIND_MORPH_INTERSECTS,
     joints_unsure = BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE,
     weights_contradict = BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT,
     foreign_part = BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART,
@@ -165,7 +168,8 @@ enum class Severity : std::uint32_t {
     error = BESPOKE_SEVERITY_ERROR,
 };
 
-/// Which of the inputs an element belongs to: BespokeSubject. Any number from Subject::layer on is a layer.
+/// Which of the inputs an element belongs to: BespokeSubject. Any number from Subject::layer on is a layer, and from
+/// Subject::follower on a follower.
 enum class Subject : std::uint32_t {
     garment = BESPOKE_SUBJECT_GARMENT,
     target_avatar = BESPOKE_SUBJECT_TARGET_AVATAR,
@@ -173,6 +177,7 @@ enum class Subject : std::uint32_t {
     source_skeleton = BESPOKE_SUBJECT_SOURCE_SKELETON,
     target_skeleton = BESPOKE_SUBJECT_TARGET_SKELETON,
     layer = BESPOKE_SUBJECT_LAYER,
+    follower = BESPOKE_SUBJECT_FOLLOWER,
 };
 
 /// What the index of an element counts: BespokeElementKind.
@@ -953,8 +958,14 @@ struct Element {
 
     /// Which layer it belongs to, from 0; none where it is no layer's.
     std::optional<std::uint32_t> layer() const noexcept {
-        if (subject < Subject::layer) return std::nullopt;
+        if (subject < Subject::layer || subject >= Subject::follower) return std::nullopt;
         return static_cast<std::uint32_t>(subject) - static_cast<std::uint32_t>(Subject::layer);
+    }
+
+    /// Which follower it belongs to, from 0; none where it is no follower's.
+    std::optional<std::uint32_t> follower() const noexcept {
+        if (subject < Subject::follower) return std::nullopt;
+        return static_cast<std::uint32_t>(subject) - static_cast<std::uint32_t>(Subject::follower);
     }
 };
 
@@ -1450,6 +1461,30 @@ public:
         return set(bespoke_session_set_avatar_parts, "avatar parts", roles);
     }
 
+    /// Optional: a morph of the garment, which goes over to the result. Each call adds one, counted from 0.
+    Result<void> add_garment_morph(const std::string &name, Points offsets) {
+        return add_morph(bespoke_session_add_garment_morph, name, "garment morph", offsets);
+    }
+
+    /// Removes all morphs of the garment.
+    Result<void> clear_garment_morphs() { return call(bespoke_session_clear_garment_morphs); }
+
+    /// Optional: a morph of the target avatar, to which the garment is to have an answer. Each call adds one, counted from 0.
+    Result<void> add_target_morph(const std::string &name, Points offsets) {
+        return add_morph(bespoke_session_add_target_morph, name, "target morph", offsets);
+    }
+
+    /// Removes all morphs of the target avatar.
+    Result<void> clear_target_morphs() { return call(bespoke_session_clear_target_morphs); }
+
+    /// Optional: a mesh that follows the garment without being solved. Each call adds one, counted from 0.
+    Result<void> add_follower(Points positions, Triangles triangles) {
+        return set(bespoke_session_add_follower, "follower positions", positions, "follower triangles", triangles);
+    }
+
+    /// Removes all followers.
+    Result<void> clear_followers() { return call(bespoke_session_clear_followers); }
+
     /// Optional: a garment that the avatar wears already. Each call adds a layer.
     Result<void> add_layer(Points positions, Triangles triangles) {
         return set(bespoke_session_add_layer, "layer positions", positions, "layer triangles", triangles);
@@ -1586,6 +1621,43 @@ public:
     /// The same in new memory, as float or double.
     template <class Number = float> Result<std::vector<Number>> read_distortion() const {
         return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
+    }
+
+    /// Finds what the garment answers to each morph of the target avatar with; after the end. Takes about as long as a fit each.
+    Result<void> solve_target_morphs() { return call(bespoke_session_solve_target_morphs); }
+
+    /// The garment's answer to a morph of the target avatar: offsets from the result; after solve_target_morphs.
+    template <class Point = std::array<float, 3>>
+    Result<std::vector<Point>> read_target_morph(std::uint32_t morph) const {
+        return read_all_of<Point>(bespoke_session_read_target_morph, morph);
+    }
+
+    /// A morph of the garment as it is now: offsets in the target's coordinate system.
+    template <class Point = std::array<float, 3>>
+    Result<std::vector<Point>> read_garment_morph(std::uint32_t morph) const {
+        return read_all_of<Point>(bespoke_session_read_garment_morph, morph);
+    }
+
+    /// The vertices of a follower where the result takes them; after the end.
+    template <class Point = std::array<float, 3>>
+    Result<std::vector<Point>> read_follower_vertices(std::uint32_t follower) const {
+        return read_all_of<Point>(bespoke_session_read_follower_vertices, follower);
+    }
+
+    /// Skin weights of a follower, with so many joints a vertex; after the end.
+    Result<GarmentSkin> read_follower_skin_influences(std::uint32_t follower, std::size_t influences) const {
+        const auto vertices = read_follower_vertices<std::array<double, 3>>(follower);
+        if (!vertices) return vertices.error();
+        GarmentSkin skin{influences, 0, {}, {}};
+        // Never empty, so that no influences at all are refused by the library, with its own words.
+        skin.joints.resize(vertices->size() * influences + 1);
+        skin.weights.resize(vertices->size() * influences + 1);
+        const auto done = call(bespoke_session_read_follower_skin_influences, follower, influences, skin.joints.data(),
+                               skin.weights.data(), vertices->size(), &skin.joint_count);
+        if (!done) return done.error();
+        skin.joints.pop_back();
+        skin.weights.pop_back();
+        return skin;
     }
 
     /// Normals, and tangents where some are given, of the garment as it is now, for the vertices with which it is drawn.
@@ -1858,6 +1930,28 @@ private:
         }
         return set(function, (what + " joints").c_str(), joints, (what + " weights").c_str(), weights,
                    joints.columns(), joint_count);
+    }
+
+    using AddMorph = BespokeStatus(BespokeSession *, const char *, const BespokeView *);
+
+    Result<void> add_morph(AddMorph *function, const std::string &name, const char *what, const Points &offsets) {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides(what, offsets); !whole) return whole;
+        const BespokeView view = offsets.get();
+        return call(function, name.c_str(), &view);
+    }
+
+    using ReadOne = BespokeStatus(const BespokeSession *, std::uint32_t, const BespokeBuffer *, std::size_t *);
+
+    /// All points of number `index` in new memory.
+    template <class Point> Result<std::vector<Point>> read_all_of(ReadOne *function, std::uint32_t index) const {
+        std::size_t count = 0;
+        const BespokeBuffer nowhere{nullptr, 0, 0, BESPOKE_COMPONENT_F64};
+        if (const auto counted = call(function, index, &nowhere, &count); !counted) return counted.error();
+        std::vector<Point> points(count);
+        const BespokeBuffer buffer = PointBuffer(points).get();
+        if (const auto done = call(function, index, &buffer, &count); !done) return done.error();
+        return points;
     }
 
     using SetRig = BespokeStatus(BespokeSession *, const BespokeJoint *, std::size_t);

@@ -71,6 +71,15 @@ pub enum BespokeDiagnosticKind {
     /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
     /// stalled is named, and the angle between the poses.
     SolvedPosed = 34,
+    /// A mesh that follows the garment (bespoke_session_add_follower) is in the avatar, a layer or the garment in the
+    /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
+    FollowerIntersects = 35,
+    /// A morph of the target avatar (bespoke_session_add_target_morph) to which the garment has no answer, because it gives way
+    /// only up to the weight in the message.
+    MorphNotSolved = 36,
+    /// The garment's answer to a morph of the target avatar is good at weight 0 and 1, but intersects halfway. The first two
+    /// triangles that meet there are named.
+    MorphIntersects = 37,
     /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say it:
     /// bespoke_session_read_joint_map shows it and bespoke_session_set_joint_pairs mends it.
     JointsUnsure = 33,
@@ -125,7 +134,8 @@ pub enum BespokeSeverity {
     Error = 3,
 }
 
-/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer.
+/// Which of the inputs an element belongs to. Any number from BESPOKE_SUBJECT_LAYER on is a layer, and from
+/// BESPOKE_SUBJECT_FOLLOWER on a follower.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BespokeSubject {
@@ -141,6 +151,8 @@ pub enum BespokeSubject {
     TargetSkeleton = 5,
     /// The first layer that was added with bespoke_session_add_layer; layer k, counted from 0, is this plus k.
     Layer = 256,
+    /// The first mesh that was added with bespoke_session_add_follower; follower k, counted from 0, is this plus k.
+    Follower = 0x4000_0000,
 }
 
 /// What the index of an element counts.
@@ -159,7 +171,8 @@ pub enum BespokeElementKind {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BespokeElement {
-    /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer; 0 where there is no element.
+    /// One of BespokeSubject, BESPOKE_SUBJECT_LAYER plus the number of a layer, BESPOKE_SUBJECT_FOLLOWER plus that of a follower;
+    /// 0 where there is no element.
     pub subject: u32,
     /// One of BespokeElementKind.
     pub kind: u32,
@@ -197,6 +210,7 @@ impl From<&Element> for BespokeElement {
             Subject::SourceSkeleton => BespokeSubject::SourceSkeleton as u32,
             Subject::TargetSkeleton => BespokeSubject::TargetSkeleton as u32,
             Subject::Layer(layer) => (BespokeSubject::Layer as u32).saturating_add(layer),
+            Subject::Follower(follower) => (BespokeSubject::Follower as u32).saturating_add(follower),
         };
         let kind = match element.kind {
             ElementKind::Vertex => BespokeElementKind::Vertex,
@@ -230,6 +244,9 @@ impl BespokeDiagnostic {
             DiagnosticKind::SidesSwapped => BespokeDiagnosticKind::SidesSwapped,
             DiagnosticKind::JointMisplaced => BespokeDiagnosticKind::JointMisplaced,
             DiagnosticKind::PoseBlocked => BespokeDiagnosticKind::PoseBlocked,
+            DiagnosticKind::FollowerIntersects => BespokeDiagnosticKind::FollowerIntersects,
+            DiagnosticKind::MorphNotSolved => BespokeDiagnosticKind::MorphNotSolved,
+            DiagnosticKind::MorphIntersects => BespokeDiagnosticKind::MorphIntersects,
             DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
             DiagnosticKind::SolvedPosed => BespokeDiagnosticKind::SolvedPosed,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,

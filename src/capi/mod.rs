@@ -23,6 +23,10 @@ pub mod layers;
 
 pub mod avatar_parts;
 
+pub mod morphs;
+
+pub mod followers;
+
 pub mod options;
 
 pub mod running;

@@ -6,7 +6,27 @@ use crate::capi::rigs::{BESPOKE_NO_JOINT, BESPOKE_TRANSFORM_SIZE};
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::invalid;
+use crate::input::skin::SkinWeights;
 use crate::rig::weights::own_joints::AddedJoint;
+
+/// Writes so many joints and weights for each vertex of `skin`, the largest weight first.
+///
+/// # Safety
+/// There is room for them.
+pub(super) unsafe fn write_influences(skin: &SkinWeights, influences: usize, joints: *mut u32, weights: *mut f32) {
+    for vertex in 0..skin.vertex_count() {
+        let mut row = skin.weights(vertex).to_vec();
+        row.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for k in 0..influences {
+            let (joint, weight) = row.get(k).copied().unwrap_or((0, 0.0));
+            // SAFETY: the caller vouches for `influences` numbers a vertex.
+            unsafe {
+                joints.add(vertex * influences + k).write_unaligned(joint);
+                weights.add(vertex * influences + k).write_unaligned(weight as f32);
+            }
+        }
+    }
+}
 
 /// Writes skin weights of the result on the joints of the target rig, or on those of the target skeleton where no rig was
 /// set: those of the body beneath, where the garment lies along it, and smoothly on from there where it does not. Vertices
@@ -45,16 +65,7 @@ pub unsafe extern "C" fn bespoke_session_read_garment_skin_influences(
             if !joint_count.is_null() {
                 joint_count.write(skin.joint_count());
             }
-            for vertex in 0..count {
-                let mut row = skin.weights(vertex).to_vec();
-                row.sort_by(|a, b| b.1.total_cmp(&a.1));
-                for k in 0..influences {
-                    let (joint, weight) = row.get(k).copied().unwrap_or((0, 0.0));
-                    // In bounds: `vertices * influences` numbers exist, and `vertex < vertices`.
-                    joints.add(vertex * influences + k).write_unaligned(joint);
-                    weights.add(vertex * influences + k).write_unaligned(weight as f32);
-                }
-            }
+            write_influences(&skin, influences, joints, weights);
             Ok(())
         })
     }

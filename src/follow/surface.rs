@@ -1,6 +1,7 @@
 //! A garment as it was designed and as it is now, and how its triangles have moved between.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::geometry::triangle_motion::TriangleMotion;
 
@@ -32,6 +33,19 @@ impl MovedSurface {
     /// The angle of a triangle at a corner as it is now, in radians.
     pub fn angle_now(&self, t: usize, corner: usize) -> f64 {
         angle(&self.now, &self.triangles[t], corner)
+    }
+
+    /// How each vertex has moved: the mean over its triangles, by their angles as designed. What has no triangle has not moved.
+    pub fn vertex_motions(&self) -> Vec<TriangleMotion> {
+        let mut around = vec![Vec::new(); self.rest.len()];
+        for (t, triangle) in self.triangles.iter().enumerate() {
+            let Some(motion) = self.motions[t] else { continue };
+            for (corner, &v) in triangle.iter().enumerate() {
+                around[v as usize].push((self.angle_at_rest(t, corner), motion));
+            }
+        }
+        let mean = |around: &Vec<(f64, TriangleMotion)>| TriangleMotion::mean(around.iter().copied());
+        around.par_iter().map(|around| mean(around).unwrap_or(TriangleMotion::scale(1.0))).collect()
     }
 
     /// The unit normal of a triangle as designed; none where it has no area.

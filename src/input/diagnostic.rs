@@ -66,6 +66,12 @@ pub enum DiagnosticKind {
     LimbMisplaced,
     /// A piece of the garment whose size is far from that of what it hangs on.
     PieceResized,
+    /// A mesh that follows the garment meets the body or the garment.
+    FollowerIntersects,
+    /// A morph of the avatar to which the garment has no answer.
+    MorphNotSolved,
+    /// The garment's answer to a morph of the avatar meets itself or the body at a weight between 0 and 1.
+    MorphIntersects,
     /// The fit ended by the limit of iterations, not by its tolerance.
     NotConverged,
     /// An input is in another unit than the one that it belongs to.
@@ -418,6 +424,37 @@ pub enum Diagnostic {
         stalled_at: f64,
         /// The largest angle between the directions that a limb has in the two poses, in degrees.
         degrees: f64,
+    },
+    /// A mesh that follows the garment passes through the body or the garment in the result, and did not in the design.
+    FollowerIntersects {
+        /// Which one, in the order in which they were added, from 0.
+        follower: usize,
+        /// How many of its triangles pass through the avatar or a layer, or are inside.
+        body: usize,
+        /// How many of its triangles pass through the garment.
+        garment: usize,
+        /// Of either, the first triangle and the one that it meets.
+        first: Vec<Element>,
+    },
+    /// The garment does not let the body go to a morph, or cannot be verified there.
+    MorphNotSolved {
+        /// Which one, in the order in which they were added, from 0.
+        morph: usize,
+        /// What it is called.
+        name: String,
+        /// The weight up to which the garment gives way; 1 where its result intersects.
+        weight: f64,
+    },
+    /// The garment's answer to a morph is good at weight 0 and 1, but not halfway.
+    MorphIntersects {
+        /// Which one, in the order in which they were added, from 0.
+        morph: usize,
+        /// What it is called.
+        name: String,
+        /// Pairs of triangles that intersect.
+        pairs: usize,
+        /// The first of them.
+        first: Vec<Element>,
     },
     /// Which joints of the rigs are these places of the body is a guess.
     JointsUnsure {

@@ -31,6 +31,9 @@ impl Diagnostic {
             Self::JointsUnsure { .. } => DiagnosticKind::JointsUnsure,
             Self::PoseBlocked { .. } => DiagnosticKind::PoseBlocked,
             Self::SolvedPosed { .. } => DiagnosticKind::SolvedPosed,
+            Self::FollowerIntersects { .. } => DiagnosticKind::FollowerIntersects,
+            Self::MorphNotSolved { .. } => DiagnosticKind::MorphNotSolved,
+            Self::MorphIntersects { .. } => DiagnosticKind::MorphIntersects,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
@@ -74,6 +77,9 @@ impl Diagnostic {
             | Self::EndWithoutBone { .. }
             | Self::JointMisplaced { .. }
             | Self::JointsUnsure { .. }
+            | Self::FollowerIntersects { .. }
+            | Self::MorphNotSolved { .. }
+            | Self::MorphIntersects { .. }
             | Self::WeightsContradict { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
@@ -154,7 +160,9 @@ impl Diagnostic {
                 vec![bone.element(), element]
             }
             Self::PieceResized { triangle: t, .. } => vec![triangle(t)],
+            Self::FollowerIntersects { ref first, .. } | Self::MorphIntersects { ref first, .. } => first.clone(),
             Self::CoarseCoordinates { .. }
+            | Self::MorphNotSolved { .. }
             | Self::JointsUnsure { .. }
             | Self::PoseBlocked { .. }
             | Self::SolvedPosed { .. }

@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, short, turned, units,
+    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, quoted, short, turned, units,
 };
 
 impl Display for Diagnostic {
@@ -228,6 +228,44 @@ impl Display for Diagnostic {
                     JointFault::Stray => f.write_str(", or leave it out of both skeletons"),
                     _ => Ok(()),
                 }
+            }
+            Self::FollowerIntersects { follower, body, garment, .. } => {
+                let said = |count: usize, of: &str| {
+                    let noun = if count == 1 { "triangle" } else { "triangles" };
+                    (count > 0).then(|| format!("{count} {noun} {of}"))
+                };
+                let said: Vec<String> =
+                    [said(*body, "into the avatar"), said(*garment, "through the garment")].into_iter().flatten().collect();
+                write!(
+                    f,
+                    "follower {follower}: it passes with {} where the result takes it, and did not in the design; make it part of \
+                     the garment, or move it away from the body",
+                    said.join(" and with ")
+                )
+            }
+            Self::MorphNotSolved { morph, name, weight } if *weight < 1.0 => {
+                write!(
+                    f,
+                    "target morph {morph}{}: the garment lets the body change only up to weight {weight:.2}; there is no answer to \
+                     it; make the morph smaller, or the garment looser",
+                    quoted(name)
+                )
+            }
+            Self::MorphNotSolved { morph, name, .. } => {
+                write!(
+                    f,
+                    "target morph {morph}{}: the garment intersects at weight 1 in the precision in which it is read; there is no \
+                     answer to it; set the garment in 64 bits",
+                    quoted(name)
+                )
+            }
+            Self::MorphIntersects { morph, name, pairs, .. } => {
+                write!(
+                    f,
+                    "target morph {morph}{}: the garment's answer is good at weight 1, but halfway {pairs} pairs of triangles \
+                     intersect; divide the morph into smaller ones",
+                    quoted(name)
+                )
             }
             Self::PoseBlocked { share, joints } => {
                 write!(

@@ -45,7 +45,13 @@ pub(super) fn input(subject: Subject) -> &'static str {
         Subject::SourceSkeleton => "source skeleton",
         Subject::TargetSkeleton => "target skeleton",
         Subject::Layer(_) => "layer",
+        Subject::Follower(_) => "follower",
     }
+}
+
+/// A name in brackets; nothing where there is none.
+pub(super) fn quoted(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(" (\"{name}\")") }
 }
 
 /// A number with four digits and no zeros at its end: "39.37", "100", "0.01".

@@ -15,6 +15,8 @@ pub enum Subject {
     TargetSkeleton,
     /// A garment that the body wears already: which one, in the order in which they were added, from 0.
     Layer(u32),
+    /// A mesh that follows the garment: which one, in the order in which they were added, from 0.
+    Follower(u32),
 }
 
 /// What an index counts.

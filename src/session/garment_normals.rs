@@ -35,6 +35,17 @@ impl RenderMesh {
             None => garment,
             Some(_) => normals.or(tangents).or(named).unwrap_or(0),
         };
+        // Else one wild number would be an array of gigabytes.
+        if let (Some(all), None, None) = (&self.triangles, normals, tangents)
+            && count > garment + 3 * all.len()
+        {
+            return fail(format!(
+                "triangles of the render vertices: they name vertex {}, with {} triangles; give the normals, of which there is one \
+                 for each vertex",
+                count - 1,
+                all.len()
+            ));
+        }
         for (what, given) in [("normals", normals), ("tangents", tangents)] {
             if let Some(given) = given
                 && given != count

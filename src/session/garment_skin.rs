@@ -55,7 +55,7 @@ impl Session {
         Ok(self.whole_skin()?.added.clone())
     }
 
-    fn whole_skin(&self) -> Result<Arc<GarmentSkin>> {
+    pub(super) fn whole_skin(&self) -> Result<Arc<GarmentSkin>> {
         if let Some(found) = self.skin.get() {
             return Ok(found.clone());
         }

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+use super::morphs::Morph;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::way::Way;
 use super::{Session, Stage};
@@ -53,6 +54,9 @@ pub(super) struct Inputs {
     pub(super) pins: Vec<Pin>,
     pub(super) rigid_groups: Vec<Arc<[u32]>>,
     pub(super) curves: Vec<Arc<Curve>>,
+    pub(super) garment_morphs: Vec<Arc<Morph>>,
+    pub(super) target_morphs: Vec<Arc<Morph>>,
+    pub(super) followers: Vec<(Arc<TriangleMesh>, Precision)>,
     pub(super) source_coordinate_system: CoordinateSystem,
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
@@ -304,7 +308,16 @@ impl Inputs {
         let groups: u64 = self.rigid_groups.iter().map(|group| size_of_val(&group[..]) as u64).sum();
         let curves: u64 = self.curves.iter().map(|curve| bytes(&curve.vertices)).sum();
         let controls = weights + bytes(&self.pins) + groups + curves;
-        meshes.into_iter().flatten().map(mesh).sum::<u64>() + worn + body + controls + skin + self.rigs.memory()
+        let further: u64 =
+            self.garment_morphs.iter().chain(&self.target_morphs).map(|morph| morph.memory()).sum::<u64>()
+                + self.followers.iter().map(|follower| mesh(&follower.0)).sum::<u64>();
+        meshes.into_iter().flatten().map(mesh).sum::<u64>()
+            + worn
+            + body
+            + controls
+            + skin
+            + further
+            + self.rigs.memory()
     }
 
     /// The sizes that are known from the inputs.
@@ -345,6 +358,8 @@ impl Inputs {
             ));
         }
         self.check_controls(garment.positions.len())?;
+        self.check_garment_morphs(garment.positions.len())?;
+        self.check_target_morphs(avatar.positions.len())?;
         let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);
         diagnostics.extend(found);
         cancel.check()?;

@@ -10,9 +10,12 @@ mod exchange_pose;
 mod fault;
 mod field_task;
 mod fit_controls;
+mod followers;
 mod garment_normals;
 mod garment_skin;
 mod inputs;
+mod morph_solve;
+mod morphs;
 mod on_the_way;
 mod other_pose;
 mod plausibility;
@@ -21,6 +24,7 @@ mod rig_inputs;
 mod rigs;
 mod run;
 mod snapshot;
+mod target_morphs;
 mod verification;
 mod way;
 mod worker_pool;
@@ -48,12 +52,15 @@ use context::Context;
 use covered::Covered;
 #[doc(hidden)]
 pub use fault::Fault;
+use followers::Follower;
 pub use garment_normals::RenderMesh;
 pub use garment_skin::GarmentSkin;
 use inputs::Inputs;
 pub use inputs::Pin;
+pub use morphs::Morph;
 use run::Run;
 use snapshot::Snapshot;
+use target_morphs::Answer;
 use verification::Verdict;
 use worker_pool::WorkerPool;
 
@@ -90,6 +97,10 @@ pub struct Session {
     skin: OnceLock<Arc<GarmentSkin>>,
     /// What the result covers, as it was asked for last.
     covered: Mutex<Option<Covered>>,
+    /// The followers at the result.
+    followers: Vec<Follower>,
+    /// What is known of the garment's answers to the avatar's morphs.
+    answers: Vec<Answer>,
     /// How each joint of the target rig moves into the pose that the result is in, where that is not its own.
     pose: Option<Vec<DAffine3>>,
     /// The joints of the common skeleton of two rigs, once something is said of them.
@@ -280,6 +291,7 @@ impl Session {
         if !self.report.converged {
             self.diagnostics.push(Diagnostic::NotConverged { iterations: self.report.fit.iterations });
         }
+        self.carry_followers()?;
         self.compare_with_design()?;
         if let Some((blocked, motions)) = self.run.as_mut().and_then(|run| run.blocked.take()) {
             self.pose = Some(motions);
@@ -466,6 +478,8 @@ impl Session {
         self.other_precision = None;
         self.skin = OnceLock::new();
         self.covered = Mutex::default();
+        self.followers.clear();
+        self.answers.clear();
         self.pose = None;
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);

@@ -62,7 +62,12 @@ impl Snapshot {
 
     /// Welded garment vertices with the caps of the openings, in the normalised space.
     pub(super) fn x_with_caps(&self) -> Vec<DVec3> {
-        let mut x = self.x.clone();
+        self.with_caps(&self.x)
+    }
+
+    /// The same where the others are at `x`.
+    pub(super) fn with_caps(&self, x: &[DVec3]) -> Vec<DVec3> {
+        let mut x = x.to_vec();
         self.problem.caps.iter().for_each(|cap| cap.carry(&self.problem.rest, &mut x));
         x
     }
@@ -89,6 +94,11 @@ impl Snapshot {
     pub(super) fn distortion(&self) -> Vec<f64> {
         let problem = &self.problem;
         problem.weld.scatter_triangles(&distortion(&problem.rest, &self.x, &problem.triangles))
+    }
+
+    /// Pairs of garment triangles that intersected at the start.
+    pub(super) fn initial_intersections(&self) -> &[[u32; 2]] {
+        &self.initial_intersections
     }
 
     /// In which the target is read.

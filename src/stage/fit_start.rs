@@ -30,10 +30,25 @@ impl Problem {
         options: &Options,
         cancel: &Cancel,
     ) -> Result<Objective> {
+        self.fit_objective_on(&self.avatar, field, x, options, cancel)
+    }
+
+    /// The same with another shape of the same avatar and its layers, whose distance is `field`.
+    ///
+    /// # Errors
+    /// As [`Self::fit_objective`].
+    pub fn fit_objective_on(
+        &self,
+        avatar: &TriangleMesh,
+        field: Arc<Field>,
+        x: &[DVec3],
+        options: &Options,
+        cancel: &Cancel,
+    ) -> Result<Objective> {
         let areas = TriangleMesh { positions: x.to_vec(), triangles: self.triangles.clone() }.areas();
-        let positions = &self.avatar.positions;
+        let positions = &avatar.positions;
         let avatar = Avatar {
-            surface: Surface::new(positions.len(), self.avatar.triangles.clone()),
+            surface: Surface::new(positions.len(), avatar.triangles.clone()),
             start: positions.clone(),
             motion: vec![DVec3::ZERO; positions.len()],
         };

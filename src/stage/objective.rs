@@ -34,6 +34,8 @@ pub struct Objective {
     barrier_weight: f64,
     /// Nothing of the garment is held to a place.
     roams: bool,
+    /// Carried pieces are not held to their places.
+    carried_roam: bool,
 }
 
 impl Objective {
@@ -54,6 +56,7 @@ impl Objective {
             weights: weights.clone(),
             barrier_weight: weights.inflation_barrier_weight,
             roams: false,
+            carried_roam: false,
         }
     }
 
@@ -61,6 +64,11 @@ impl Objective {
     /// its own pose, and the body is on the way there.
     pub fn release_places(&mut self) {
         self.roams = true;
+    }
+
+    /// Leaves out the places of carried pieces, which are those on the avatar's own shape.
+    pub fn release_carried(&mut self) {
+        self.carried_roam = true;
     }
 
     /// Bytes that it holds.
@@ -127,7 +135,7 @@ impl Model for Objective {
         if !shape.borders.is_empty() {
             terms.push(Term { energy: &shape.borders, weight: w.surface_weight });
         }
-        if !shape.carry.is_empty() && !self.roams {
+        if !shape.carry.is_empty() && !self.roams && !self.carried_roam {
             terms.push(Term { energy: &shape.carry, weight: w.surface_weight });
         }
         if !shape.rigid.is_empty() {

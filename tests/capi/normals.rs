@@ -146,6 +146,8 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     refuse(read(&caller, None, Some(&points(&normals)), None, vertices - 1), &["garment normals", "capacity"]);
     let one = triangles(&sample.garment.1[1..]);
     refuse(read(&caller, Some(&one), Some(&points(&normals)), None, vertices), &["triangles", "the garment has"]);
+    let wild = triangles(&[[0, 1, u32::MAX - 1]]);
+    refuse(read(&caller, Some(&wild), None, None, vertices), &["name vertex 4294967294", "give the normals"]);
     let mut bad = normals.clone();
     bad[3][1] = f32::NAN;
     refuse(read(&caller, None, Some(&points(&bad)), None, vertices), &["vertex 3", "not finite"]);

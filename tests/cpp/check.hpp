@@ -94,6 +94,7 @@ void views();
 void results();
 void inputs();
 void rigs();
+void follow();
 void sessions();
 void stops();
 

@@ -11,6 +11,7 @@ int main(int count, char **arguments) {
     results();
     inputs();
     rigs();
+    follow();
     sessions();
     stops();
     std::puts("all good");

@@ -70,6 +70,17 @@ void empty(Session &session) {
     refused(session.read_distortion(room));
     refused(session.read_distortion());
     refused(session.read_garment_normals());
+    refused(session.add_garment_morph("wide", points));
+    refused(session.clear_garment_morphs());
+    refused(session.read_garment_morph(0));
+    refused(session.add_target_morph("wide", points));
+    refused(session.clear_target_morphs());
+    refused(session.solve_target_morphs());
+    refused(session.read_target_morph(0));
+    refused(session.add_follower(points, triangles));
+    refused(session.clear_followers());
+    refused(session.read_follower_vertices(0));
+    refused(session.read_follower_skin_influences(0, 4));
     refused(session.read_report());
     refused(session.read_energy(0));
     refused(session.read_energies());
@@ -211,6 +222,9 @@ void what_is_read() {
     std::vector<double> room(triangles);
     CHECK(session.read_distortion(room).value() == triangles && same_bits(room, doubles));
 
+    REFUSED(session.read_garment_morph(0), Status::invalid_argument, "garment morph 0");
+    REFUSED(session.read_follower_vertices(0), Status::invalid_argument, "follower 0");
+    REFUSED(session.read_target_morph(0), Status::invalid_argument, "target morph 0");
     const auto normals = session.read_garment_normals().value();
     CHECK(normals.normals.size() == vertices && normals.tangents.empty());
     RenderMesh drawn;

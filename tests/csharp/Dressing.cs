@@ -257,6 +257,15 @@ internal static class Dressing
             int[] triangles = inputs.GarmentTriangles.Concat(inputs.GarmentTriangles.Take(3)).ToArray();
             session.SetGarment(inputs.GarmentPositions, triangles);
             session.SetPinnedVertices(new[] { 70 }, new[] { 0f, 0.05f, 0f });
+            session.AddGarmentMorph("lost", inputs.GarmentPositions);
+            session.ClearGarmentMorphs();
+            session.AddGarmentMorph("as large", inputs.GarmentPositions);
+            session.AddTargetMorph("lost", inputs.AvatarPositions);
+            session.ClearTargetMorphs();
+            session.AddTargetMorph(null, inputs.AvatarPositions.Select(x => 0.05f * x).ToArray());
+            session.AddFollower(inputs.GarmentPositions, triangles);
+            session.ClearFollowers();
+            session.AddFollower(inputs.GarmentPositions, triangles);
             session.Run();
 
             int count = session.GarmentTriangleCount;
@@ -268,6 +277,17 @@ internal static class Dressing
             session.ReadDistortion(single);
             Check.That(single.Zip(distortion, (a, b) => a == (float)b).All(same => same), "distortion, in floats");
 
+            Check.Refused(Status.InvalidArgument, () => session.ReadGarmentMorph(1), "garment morph 1");
+            Check.Refused(Status.InvalidArgument, () => session.ReadFollowerVertices(7), "follower 7");
+            float[] followed = session.ReadFollowerVertices(0);
+            float[] vertices = session.ReadGarmentVertices();
+            Check.That(followed.Zip(vertices, (a, b) => Math.Abs(a - b) < 1e-5f).All(same => same), "a follower");
+            Check.That(session.ReadGarmentMorph(0).Any(x => Math.Abs(x) > 0.1f), "a morph");
+            Check.Refused(Status.InvalidState, () => session.ReadTargetMorph(0), "solve_target_morphs");
+            session.SolveTargetMorphs();
+            Check.Same(session.ReadTargetMorph(0).Length, vertices.Length, "numbers of a morph");
+            Check.Refused(
+                Status.InvalidState, () => session.ReadFollowerSkinInfluences(0, 4, out _, out _), "skin weights");
             float[] normals = session.ReadGarmentNormals(null);
             Check.Same(normals.Length, 3 * session.GarmentVertexCount, "numbers of normals");
             float[] tangents = Enumerable.Range(0, 4 * session.GarmentVertexCount).Select(k => k % 4 == 1 ? 1f : 0f).ToArray();

@@ -74,6 +74,35 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::FollowerIntersects {
+                follower: 2,
+                body: 1,
+                garment: 7,
+                first: vec![Element::triangle(Subject::Follower(2), 4), Element::triangle(Subject::TargetAvatar, 9)],
+            },
+            "follower 2: it passes with 1 triangle into the avatar and with 7 triangles through the garment where the result \
+             takes it, and did not in the design; make it part of the garment, or move it away from the body"
+                .into(),
+        ),
+        (
+            Diagnostic::MorphNotSolved { morph: 1, name: "heavy".into(), weight: 0.634 },
+            "target morph 1 (\"heavy\"): the garment lets the body change only up to weight 0.63; there is no answer to it; make \
+             the morph smaller, or the garment looser"
+                .into(),
+        ),
+        (
+            Diagnostic::MorphNotSolved { morph: 1, name: String::new(), weight: 1.0 },
+            "target morph 1: the garment intersects at weight 1 in the precision in which it is read; there is no answer to it; \
+             set the garment in 64 bits"
+                .into(),
+        ),
+        (
+            Diagnostic::MorphIntersects { morph: 0, name: "thin".into(), pairs: 3, first: Vec::new() },
+            "target morph 0 (\"thin\"): the garment's answer is good at weight 1, but halfway 3 pairs of triangles intersect; \
+             divide the morph into smaller ones"
+                .into(),
+        ),
+        (
             Diagnostic::JointsUnsure { places: vec!["shoulders", "hips", "knees"] },
             "which joints of the two rigs are shoulders, hips and knees is a guess: the names do not say it; look at the joint \
              map, and say which joints correspond, as pairs"

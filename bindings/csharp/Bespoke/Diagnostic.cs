@@ -13,7 +13,8 @@ namespace Bespoke
             Index = checked((int)native.index);
         }
 
-        /// <summary>The input that it belongs to; <see cref="Bespoke.Subject.Layer"/> plus k is layer k.</summary>
+        /// <summary>The input that it belongs to; <see cref="Bespoke.Subject.Layer"/> plus k is layer k, and <see
+        /// cref="Bespoke.Subject.Follower"/> plus k is follower k.</summary>
         public Subject Subject { get; }
 
         /// <summary>What it is.</summary>
@@ -25,7 +26,17 @@ namespace Bespoke
         /// <summary>The layer that it belongs to, from 0; null where it belongs to something else.</summary>
         public int? Layer
         {
-            get { return Subject >= Subject.Layer ? (int?)(Subject - Subject.Layer) : null; }
+            get
+            {
+                bool isLayer = Subject >= Subject.Layer && Subject < Subject.Follower;
+                return isLayer ? (int?)(Subject - Subject.Layer) : null;
+            }
+        }
+
+        /// <summary>The follower that it belongs to, from 0; null where it belongs to something else.</summary>
+        public int? Follower
+        {
+            get { return Subject >= Subject.Follower ? (int?)(Subject - Subject.Follower) : null; }
         }
     }
 

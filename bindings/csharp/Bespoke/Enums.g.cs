@@ -271,11 +271,23 @@ namespace Bespoke
         PoseBlocked = 30,
 
         /// <summary>
-        /// With the target in its own pose, which is another one than the garment was designed in, the inflation
-        /// stalled: it was posed as in the design, by its own skin weights, dressed there, and brought back. The share
-        /// of its size at which it stalled is named, and the angle between the poses.
+        /// A mesh that follows the garment (<c>Session.AddFollower</c>) passes through the avatar, a layer or the
+        /// garment in the result, and did not in the design. Its first such triangle is named, and the one that it
+        /// meets.
         /// </summary>
-        SolvedPosed = 34,
+        FollowerIntersects = 35,
+
+        /// <summary>
+        /// A morph of the target avatar (<c>Session.AddTargetMorph</c>) to which the garment has no answer, because it
+        /// gives way only up to the weight in the message.
+        /// </summary>
+        MorphNotSolved = 36,
+
+        /// <summary>
+        /// The garment's answer to a morph of the target avatar is good at weight 0 and 1, but intersects halfway. The
+        /// first two triangles that meet there are named.
+        /// </summary>
+        MorphIntersects = 37,
 
         /// <summary>
         /// Which joints of the rigs are places of the body, which are named, is a guess, because their names do not say
@@ -373,7 +385,8 @@ namespace Bespoke
     }
 
     /// <summary>
-    /// Which of the inputs an element belongs to. Any number from <see cref="Subject.Layer"/> on is a layer.
+    /// Which of the inputs an element belongs to. Any number from <see cref="Subject.Layer"/> on is a layer, and from
+    /// <see cref="Subject.Follower"/> on a follower.
     /// </summary>
     public enum Subject : uint
     {
@@ -397,6 +410,11 @@ namespace Bespoke
         /// <see cref="Element.Layer"/>.
         /// </summary>
         Layer = 256,
+
+        /// <summary>
+        /// The first mesh that was added with <c>Session.AddFollower</c>; follower k, counted from 0, is this plus k.
+        /// </summary>
+        Follower = 1073741824,
     }
 
     /// <summary>What the index of an element counts.</summary>

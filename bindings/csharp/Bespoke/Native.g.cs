@@ -133,6 +133,46 @@ namespace Bespoke
         internal static extern Status bespoke_session_set_avatar_parts(SessionHandle session, NativeView* roles);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_garment_morph(
+            SessionHandle session, byte* name, NativeView* offsets);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_garment_morphs(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_garment_morph(
+            SessionHandle session, uint morph, NativeBuffer* offsets, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_target_morph(
+            SessionHandle session, byte* name, NativeView* offsets);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_target_morphs(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_solve_target_morphs(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_target_morph(
+            SessionHandle session, uint morph, NativeBuffer* offsets, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_follower(
+            SessionHandle session, NativeView* positions, NativeView* triangles);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_followers(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_follower_vertices(
+            SessionHandle session, uint follower, NativeBuffer* points, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_follower_skin_influences(
+            SessionHandle session, uint follower, UIntPtr influences, uint* joints, float* weights, UIntPtr vertices, UIntPtr* jointCount);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_options(SessionHandle session, NativeOptions* options);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
@@ -188,6 +228,10 @@ namespace Bespoke
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_energy(
             SessionHandle session, uint index, NativeEnergy* energy);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_garment_normals(
+            SessionHandle session, NativeView* triangles, NativeView* normals, NativeView* tangents, NativeBuffer* resultNormals, NativeBuffer* resultTangents, UIntPtr* count);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_garment_skin_influences(

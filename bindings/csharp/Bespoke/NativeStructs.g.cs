@@ -62,6 +62,15 @@ namespace Bespoke
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeBuffer
+    {
+        internal void* data;
+        internal UIntPtr capacity;
+        internal UIntPtr stride;
+        internal Component component;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal struct NativeOptions
     {
         internal uint struct_size;
@@ -117,15 +126,6 @@ namespace Bespoke
         internal double fit_seconds;
         internal double verify_seconds;
         internal fixed double energies[NativeConstants.MaxTerms];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct NativeBuffer
-    {
-        internal void* data;
-        internal UIntPtr capacity;
-        internal UIntPtr stride;
-        internal Component component;
     }
 
     [StructLayout(LayoutKind.Sequential)]
