@@ -27,6 +27,9 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_INFLATION_BLOCKED] = "inflation_blocked",
     [BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED] = "joint_misplaced",
     [BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED] = "pose_blocked",
+    [BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS] = "follower_intersects",
+    [BESPOKE_DIAGNOSTIC_KIND_MORPH_NOT_SOLVED] = "morph_not_solved",
+    [BESPOKE_DIAGNOSTIC_KIND_MORPH_INTERSECTS] = "morph_intersects",
     [BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE] = "joints_unsure",
     [BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED] = "solved_posed",
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
@@ -115,7 +118,9 @@ bool diagnostics_write(const BespokeSession *session, FILE *file, Message *messa
         for (uint32_t e = 0; e < item->element_count; e++) {
             const BespokeElement *element = &item->elements[e];
             fputs(e > 0 ? ", { " : "{ ", file);
-            if (element->subject >= BESPOKE_SUBJECT_LAYER) {
+            if (element->subject >= BESPOKE_SUBJECT_FOLLOWER) {
+                fprintf(file, "\"of\": \"follower\", \"follower\": %" PRIu32, element->subject - BESPOKE_SUBJECT_FOLLOWER);
+            } else if (element->subject >= BESPOKE_SUBJECT_LAYER) {
                 fprintf(file, "\"of\": \"layer\", \"layer\": %" PRIu32, element->subject - BESPOKE_SUBJECT_LAYER);
             } else {
                 fprintf(file, "\"of\": \"%s\"", NAME(subjects, element->subject));

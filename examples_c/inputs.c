@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "curves.h"
+#include "follow.h"
 #include "joint_map.h"
 #include "numbers.h"
 #include "parts.h"
@@ -216,12 +217,16 @@ bool inputs_set(Inputs *inputs, Session *session, const Options *options) {
            (options->no_fit == NULL || set_no_fit(session, options->no_fit)) &&
            (options->pins == NULL || set_pins(session, options->pins)) &&
            (options->rigid == NULL || add_rigid_groups(session, options->rigid)) &&
-           (options->curves == NULL || curves_add(session, options->curves));
+           (options->curves == NULL || curves_add(session, options->curves)) && follow_set(session, inputs, options);
 }
 
 void inputs_free(Inputs *inputs) {
     obj_free(&inputs->garment);
     obj_free(&inputs->avatar);
+    for (size_t k = 0; k < inputs->follower_count; k++) {
+        obj_free(&inputs->followers[k]);
+    }
+    free(inputs->followers);
     rig_free(&inputs->source_rig);
     rig_free(&inputs->target_rig);
 }

@@ -14,6 +14,9 @@ typedef struct Inputs {
     /* Where there are none, they have no joints. */
     Rig source_rig;
     Rig target_rig;
+    /* Meshes that follow the garment. */
+    Obj *followers;
+    size_t follower_count;
 } Inputs;
 
 /* False, with a message in the session, where a file cannot be read or the library refuses what it holds. Whatever it

@@ -8,13 +8,14 @@
 /* What a file holds in all, counted before anything is stored, so that a face may name a later vertex. */
 typedef struct Counts {
     size_t vertices;
+    size_t normals;
     size_t faces;
     size_t face_words;
     size_t line_words;
 } Counts;
 
 static Counts count_elements(const Text *text) {
-    Counts counts = {0, 0, 0, 0};
+    Counts counts = {0, 0, 0, 0, 0};
     for (Line line = line_start(text); line_next(&line, text);) {
         const char *at = line.begin;
         Word word;
@@ -24,6 +25,7 @@ static Counts count_elements(const Text *text) {
         const bool is_face = word_is(word, "f");
         const bool is_line = word_is(word, "l");
         counts.vertices += word_is(word, "v");
+        counts.normals += word_is(word, "vn");
         counts.faces += is_face;
         while ((is_face || is_line) && word_next(&word, &at, &line)) {
             counts.face_words += is_face;
@@ -107,10 +109,26 @@ static uint32_t normal_of(Reader *reader, uint32_t vertex, int64_t number) {
     if (normal == OBJ_NO_NORMAL) {
         normal = (uint32_t)reader->obj->normal_count++;
         reader->numbers[normal] = number;
+        reader->obj->normal_vn[normal] = number <= (int64_t)UINT32_MAX ? (uint32_t)(number - 1) : UINT32_MAX;
         reader->older[normal] = reader->newest[vertex];
         reader->newest[vertex] = normal;
     }
     return normal;
+}
+
+/* What is no direction stays 0: the file is used without it. */
+static void read_normal(Reader *reader, const char *at) {
+    float *normal = reader->obj->vn + 3 * (size_t)reader->normals_so_far++;
+    double values[3];
+    for (int k = 0; k < 3; k++) {
+        Word word;
+        if (!word_next(&word, &at, &reader->line) || !word_number(word, &values[k]) || fabs(values[k]) > (double)FLT_MAX) {
+            return;
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        normal[k] = (float)values[k];
+    }
 }
 
 static bool read_face(Reader *reader, const char *at) {
@@ -171,7 +189,7 @@ static bool read_elements(Reader *reader) {
         } else if (word_is(word, "v")) {
             good = read_vertex(reader, at);
         } else if (word_is(word, "vn")) {
-            reader->normals_so_far++;
+            read_normal(reader, at);
         } else if (word_is(word, "f")) {
             good = read_face(reader, at);
         } else if (word_is(word, "l")) {
@@ -209,12 +227,15 @@ bool obj_read(Obj *obj, const char *path, Message *message) {
     obj->triangles = array_new(counts.face_words, 3 * sizeof(uint32_t));
     obj->segments = array_new(counts.line_words, 2 * sizeof(uint32_t));
     obj->face_sizes = array_new(counts.faces, sizeof(uint32_t));
+    obj->normal_vn = array_new(counts.face_words, sizeof(uint32_t));
+    obj->vn = calloc(counts.normals > 0 ? counts.normals : 1, 3 * sizeof(float));
+    obj->vn_count = counts.normals;
     reader.newest = array_new(counts.vertices, sizeof(uint32_t));
     reader.older = array_new(counts.face_words, sizeof(uint32_t));
     reader.numbers = array_new(counts.face_words, sizeof(int64_t));
     bool good = false;
     if (obj->positions == NULL || obj->corners == NULL || obj->triangles == NULL || obj->segments == NULL ||
-        obj->face_sizes == NULL || reader.newest == NULL || reader.older == NULL || reader.numbers == NULL) {
+        obj->face_sizes == NULL || obj->normal_vn == NULL || obj->vn == NULL || reader.newest == NULL || reader.older == NULL || reader.numbers == NULL) {
         fail(message, "%s: does not fit into memory", path);
     } else {
         for (size_t v = 0; v < counts.vertices; v++) {
@@ -270,6 +291,37 @@ static void compute_normals(const Obj *obj, const float *positions, double *norm
     }
 }
 
+/* These normals instead; one without a length keeps what was computed. */
+static void use_normals(const Obj *obj, const float *given, double *normals) {
+    for (size_t n = 0; n < obj->normal_count; n++) {
+        const float *from = given + 3 * n;
+        if (from[0] != 0.0f || from[1] != 0.0f || from[2] != 0.0f) {
+            for (int k = 0; k < 3; k++) {
+                normals[3 * n + (size_t)k] = (double)from[k];
+            }
+        }
+    }
+}
+
+void obj_render_mesh(const Obj *obj, uint32_t *triangles, float *normals) {
+    memset(normals, 0, (obj->normal_count + obj->vertex_count) * 3 * sizeof *normals);
+    for (size_t n = 0; n < obj->normal_count; n++) {
+        if (obj->normal_vn[n] < obj->vn_count) {
+            memcpy(normals + 3 * n, obj->vn + 3 * (size_t)obj->normal_vn[n], 3 * sizeof *normals);
+        }
+    }
+    const Corner *corner = obj->corners;
+    for (size_t f = 0; f < obj->face_count; corner += obj->face_sizes[f++]) {
+        for (uint32_t k = 2; k < obj->face_sizes[f]; k++) {
+            const Corner *fan[3] = {&corner[0], &corner[k - 1], &corner[k]};
+            for (int c = 0; c < 3; c++) {
+                const bool has_normal = fan[c]->normal != OBJ_NO_NORMAL;
+                *triangles++ = has_normal ? fan[c]->normal : (uint32_t)obj->normal_count + fan[c]->vertex;
+            }
+        }
+    }
+}
+
 static void write_vertex(FILE *file, const Line *line, const char *at, const float *position) {
     Word word;
     for (int k = 0; k < 3; k++) {
@@ -311,12 +363,16 @@ static const char *break_of(const Line *line) {
     return line->end < line->next && *line->end == '\r' ? "\r\n" : "\n";
 }
 
-bool obj_write(const Obj *obj, const float *positions, const char *comment, FILE *file, Message *message) {
+bool obj_write(const Obj *obj, const float *positions, const float *given, const char *comment, FILE *file,
+               Message *message) {
     double *normals = array_new(obj->normal_count, 3 * sizeof(double));
     if (normals == NULL) {
         return fail(message, "the vertex normals do not fit into memory");
     }
     compute_normals(obj, positions, normals);
+    if (given != NULL) {
+        use_normals(obj, given, normals);
+    }
     const Corner *corner = obj->corners;
     size_t vertex = 0;
     size_t face = 0;
@@ -355,5 +411,7 @@ void obj_free(Obj *obj) {
     free(obj->triangles);
     free(obj->segments);
     free(obj->face_sizes);
+    free(obj->normal_vn);
+    free(obj->vn);
     memset(obj, 0, sizeof *obj);
 }

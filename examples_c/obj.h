@@ -3,8 +3,8 @@
    Read: v (x y z, further numbers are kept but not used), f (polygons become fans, v/vt/vn in all forms, negative
    indices), l (polylines become segments). All else is carried along unread.
 
-   Written: the same lines in the same order, with the moved coordinates in the v lines. Vertex normals are computed
-   afresh, since the surface has moved: each corner of a face keeps sharing its normal with the corners it shared it
+   Written: the same lines in the same order, with the moved coordinates in the v lines. Vertex normals are those that are
+   given, or computed afresh, since the surface has moved: each corner of a face keeps sharing its normal with the corners it shared it
    with (same v and same vn), so hard edges stay hard. They are written in front of the first face, in the order of
    their first use, and the faces count them so. */
 #ifndef OBJ_H
@@ -33,14 +33,23 @@ typedef struct Obj {
     uint32_t *face_sizes; /* corners of each face */
     size_t face_count;
     size_t normal_count;
+    uint32_t *normal_vn; /* for each normal to be written, the vn of the file that it is, from 0 */
+    float *vn;           /* three for each vn line; 0 where it has no three numbers */
+    size_t vn_count;
 } Obj;
 
 /* False, with a message that has the path and the line, where the file cannot be used; nothing is to free then. */
 bool obj_read(Obj *obj, const char *path, Message *message);
 
-/* Writes the file with other positions (three floats a vertex, in the order of the v lines); `comment`, unless null, is a
-   line on top. */
-bool obj_write(const Obj *obj, const float *positions, const char *comment, FILE *file, Message *message);
+/* Writes the file with other positions (three floats a vertex, in the order of the v lines) and, unless null, with these
+   normals, three floats each; `comment`, unless null, is a line on top. */
+bool obj_write(const Obj *obj, const float *positions, const float *normals, const char *comment, FILE *file,
+               Message *message);
+
+/* The triangles by vertices that are split where normals differ, three each: number k has normal k of those to be written,
+   and after these there is one for each vertex, for corners without a normal. `normals` gets the file's own, three for each
+   of both, 0 where there is none. */
+void obj_render_mesh(const Obj *obj, uint32_t *triangles, float *normals);
 
 void obj_free(Obj *obj);
 

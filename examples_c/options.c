@@ -12,6 +12,7 @@ typedef enum Kind {
     PATH,      /* const char * */
     NEEDED,    /* the same, and it has to be there */
     LAYER,     /* a path, each time one more */
+    PATHS,     /* the same: Paths */
     FLAG,      /* no value: bool */
     CHOICE,    /* no value: uint32_t that becomes `number` */
     WEIGHT,    /* double from 0, where 0 switches something off */
@@ -80,6 +81,18 @@ static const Entry entries[] = {
      "those that the garment does not pass through, but is not fitted to, such as hair"},
     {"--body-groups", "NAMES", PATH, FIELD(body_groups), 0,
      "those that are body in any case, where a piece would be left out as no part of it"},
+    {"--garment-normals", "", FLAG, FIELD(garment_normals), 0,
+     "turns the vertex normals of the garment's file as the garment has turned; without it, they are\n"
+     "computed afresh from the faces"},
+    {"--follower", "FILE", PATHS, FIELD(followers), 0,
+     "a mesh that follows the garment without being solved, such as a level of detail, a trim or a\n"
+     "badge: x.obj gets x.follower-0.obj beside it, and so on; may be given several times"},
+    {"--garment-morph", "FILE", PATHS, FIELD(garment_morphs), 0,
+     "the garment in another shape, as a blend shape at weight 1: x.obj gets x.garment-morph-0.obj\n"
+     "beside it; may be given several times"},
+    {"--target-morph", "FILE", PATHS, FIELD(target_morphs), 0,
+     "the avatar in another shape: x.obj gets x.target-morph-0.obj, the garment on it; may be\n"
+     "given several times"},
     {"--no-fit", "FILE", PATH, FIELD(no_fit), 0,
      "garment vertices (from 0); faces with all corners listed are not drawn to the body"},
     {"--pins", "FILE", PATH, FIELD(pins), 0,
@@ -228,6 +241,11 @@ static bool set_field(Options *options, const Entry *entry, const char *value, M
     case LAYER:
         options->layers[options->layer_count++] = value;
         return true;
+    case PATHS: {
+        Paths *paths = field;
+        paths->paths[paths->count++] = value;
+        return true;
+    }
     case FLAG:
         *(bool *)field = true;
         return true;
@@ -326,7 +344,11 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
     options->library.struct_size = sizeof options->library;
     options->covered_margin = 1;
     options->layers = array_new((size_t)count, sizeof *options->layers);
-    if (options->layers == NULL) {
+    options->followers.paths = array_new((size_t)count, sizeof *options->followers.paths);
+    options->garment_morphs.paths = array_new((size_t)count, sizeof *options->garment_morphs.paths);
+    options->target_morphs.paths = array_new((size_t)count, sizeof *options->target_morphs.paths);
+    if (options->layers == NULL || options->followers.paths == NULL || options->garment_morphs.paths == NULL ||
+        options->target_morphs.paths == NULL) {
         return fail(message, "the command line does not fit into memory");
     }
     if (!read_words(options, count, words, message)) {
@@ -345,6 +367,9 @@ bool options_parse(Options *options, int count, char **words, Message *message) 
 
 void options_free(Options *options) {
     free(options->layers);
+    free(options->followers.paths);
+    free(options->garment_morphs.paths);
+    free(options->target_morphs.paths);
     free(options->partial_avatar);
     memset(options, 0, sizeof *options);
 }

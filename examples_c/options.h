@@ -7,6 +7,12 @@
 #include "bespoke.h"
 #include "text.h"
 
+/* What an option names that may be given several times. */
+typedef struct Paths {
+    const char **paths;
+    size_t count;
+} Paths;
+
 typedef struct Options {
     const char *garment;
     const char *avatar;
@@ -49,6 +55,12 @@ typedef struct Options {
     /* Garments that the avatar wears already. */
     const char **layers;
     size_t layer_count;
+    /* What goes along with the garment. */
+    Paths followers;
+    Paths garment_morphs;
+    Paths target_morphs;
+    /* The normals of the garment's file are those of the design. */
+    bool garment_normals;
     /* What the library is told: 0 is the default of each. */
     BespokeOptions library;
     /* Curvature and torsion, where they have no weight of their own. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "follow.h"
 #include "report.h"
 
 typedef BespokeStatus (*ReadVertices)(const BespokeSession *, const BespokeBuffer *, size_t *);
@@ -22,7 +23,7 @@ bool results_check(const Options *options, Message *message) {
 
 /* A mesh as the library has it now; `comment`, unless null, stands on top. */
 static bool write_mesh(Output *output, const char *path, Session *session, const Obj *obj, ReadVertices read,
-                       const char *comment) {
+                       const float *normals, const char *comment) {
     float *positions = array_new(obj->vertex_count, 3 * sizeof(float));
     if (positions == NULL) {
         return fail(&session->message, "%s: the vertices do not fit into memory", path);
@@ -30,9 +31,40 @@ static bool write_mesh(Output *output, const char *path, Session *session, const
     const BespokeBuffer buffer = {positions, obj->vertex_count, 0, BESPOKE_COMPONENT_F32};
     const bool good = session_good(session, read(session->handle, &buffer, NULL), NULL) &&
                       output_open(output, path, &session->message) &&
-                      obj_write(obj, positions, comment, output->file, &session->message) &&
+                      obj_write(obj, positions, normals, comment, output->file, &session->message) &&
                       output_finish(output, &session->message);
     free(positions);
+    return good;
+}
+
+/* The garment; where that is asked for with its normals, turned. */
+static bool write_garment(Output *output, const Options *options, Session *session, const Obj *obj) {
+    float *normals = NULL;
+    if (options->garment_normals && obj->normal_count > 0) {
+        const size_t count = obj->normal_count + obj->vertex_count;
+        normals = array_new(count, 3 * sizeof *normals);
+        uint32_t *triangles = array_new(obj->triangle_count, 3 * sizeof *triangles);
+        bool good = normals != NULL && triangles != NULL;
+        if (!good) {
+            fail(&session->message, "the vertex normals do not fit into memory");
+        } else {
+            obj_render_mesh(obj, triangles, normals);
+            const BespokeView corners = view_of(triangles, obj->triangle_count, BESPOKE_COMPONENT_U32);
+            const BespokeView designed = view_of(normals, count, BESPOKE_COMPONENT_F32);
+            const BespokeBuffer turned = {normals, count, 0, BESPOKE_COMPONENT_F32};
+            good = session_good(session,
+                                bespoke_session_read_garment_normals(session->handle, &corners, &designed, NULL, &turned,
+                                                                     NULL, NULL),
+                                options->garment);
+        }
+        free(triangles);
+        if (!good) {
+            free(normals);
+            return false;
+        }
+    }
+    const bool good = write_mesh(output, options->output, session, obj, bespoke_session_read_garment_vertices, normals, NULL);
+    free(normals);
     return good;
 }
 
@@ -136,10 +168,16 @@ static bool write_covered(Output *output, const char *path, Session *session, co
 bool results_write(Results *results, Session *session, const Inputs *inputs, const Options *options, const char *status,
                    const char *said) {
     Output *outputs = results->outputs;
-    return write_mesh(&outputs[0], options->output, session, &inputs->garment, bespoke_session_read_garment_vertices,
-                      NULL) &&
+    results->further_count = follow_count(options);
+    results->further = calloc(results->further_count > 0 ? results->further_count : 1, sizeof *results->further);
+    if (results->further == NULL) {
+        results->further_count = 0;
+        return fail(&session->message, "the names of files do not fit into memory");
+    }
+    return write_garment(&outputs[0], options, session, &inputs->garment) &&
+           follow_write(results->further, session, inputs, options) &&
            (options->output_avatar == NULL || write_mesh(&outputs[1], options->output_avatar, session, &inputs->avatar,
-                                                         bespoke_session_read_avatar_vertices, NULL)) &&
+                                                         bespoke_session_read_avatar_vertices, NULL, NULL)) &&
            (options->distortion == NULL ||
             write_distortion(&outputs[2], options->distortion, session, inputs->garment.triangle_count)) &&
            (options->report == NULL ||
@@ -157,6 +195,11 @@ bool results_commit(Results *results, Message *message) {
             return false;
         }
     }
+    for (size_t k = 0; k < results->further_count; k++) {
+        if (!output_commit(&results->further[k], message)) {
+            return false;
+        }
+    }
     return true;
 }
 
@@ -164,6 +207,12 @@ void results_discard(Results *results) {
     for (size_t k = 0; k < RESULTS; k++) {
         output_discard(&results->outputs[k]);
     }
+    for (size_t k = 0; k < results->further_count; k++) {
+        output_discard(&results->further[k]);
+    }
+    free(results->further);
+    results->further = NULL;
+    results->further_count = 0;
 }
 
 /* A failure of a file has no status of the library. */
@@ -202,9 +251,9 @@ static void leave_partial(const Session *failed, const Inputs *inputs, const Opt
     memset(&garment, 0, sizeof garment);
     memset(&avatar, 0, sizeof avatar);
     if (write_mesh(&garment, options->keep_partial, &session, &inputs->garment, bespoke_session_read_garment_vertices,
-                   comment) &&
+                   NULL, comment) &&
         write_mesh(&avatar, options->partial_avatar, &session, &inputs->avatar, bespoke_session_read_avatar_vertices,
-                   comment) &&
+                   NULL, comment) &&
         output_commit(&garment, &session.message) && output_commit(&avatar, &session.message)) {
         fprintf(file,
                 "retarget: partial, not a result: %s is the garment, %s the avatar as far as it had grown (t = %.4f; 1 is "

@@ -12,6 +12,9 @@
 
 typedef struct Results {
     Output outputs[RESULTS];
+    /* What goes along with the garment. */
+    Output *further;
+    size_t further_count;
 } Results;
 
 /* False, with a message, where one of the files that may have to be written could not be. */

@@ -12,6 +12,7 @@ use testing::process::{root, scratch, succeed};
 use testing::retarget::program;
 
 mod failures;
+mod follow;
 mod options;
 mod refusals;
 mod troubleshooting;
