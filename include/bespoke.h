@@ -321,8 +321,8 @@ enum BespokeDiagnosticKind
   /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
   /// read with bespoke_session_read_pose_transforms.
   BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED = 30,
-  /// A mesh that follows the garment (bespoke_session_add_follower) passes through the avatar, a layer or the garment in the
-  /// result, and did not in the design. Its first such triangle is named, and the one that it meets.
+  /// A mesh that follows the garment (bespoke_session_add_follower) is in the avatar, a layer or the garment in the
+  /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
   BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS = 35,
   /// A morph of the target avatar (bespoke_session_add_target_morph) to which the garment has no answer, because it gives way
   /// only up to the weight in the message.
@@ -1191,7 +1191,7 @@ BespokeStatus bespoke_session_clear_target_morphs(struct BespokeSession *session
 /// answer is told by the diagnostic MORPH_NOT_SOLVED, and one whose answer intersects halfway by MORPH_INTERSECTS. Answers that
 /// are there already are not sought again. Meanwhile the progress is in the stages REPOSE, with the weight as t, and FIT.
 ///
-/// State: DONE, but not where the result is in the pose of the design (POSE_BLOCKED). Errors: INVALID_ARGUMENT, INVALID_STATE,
+/// State: DONE, but not where the result is in the pose of the design (POSE_BLOCKED). Errors: INVALID_ARGUMENT (also a morph that is far larger than the body), INVALID_STATE,
 /// CANCELLED (the state stays DONE, and what was found is kept), MEMORY_LIMIT, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_solve_target_morphs(struct BespokeSession *session);
 

@@ -185,6 +185,7 @@ impl MorphSolve {
             if objective.contact.update_exemptions(state.configuration())? {
                 newton.forget_values();
             }
+            self.check_contacts(&objective)?;
         }
         let arrived = state.t >= 1.0;
         Ok((objective, arrived))
@@ -203,10 +204,20 @@ impl MorphSolve {
             if objective.contact.update_exemptions(state.configuration())? {
                 newton.forget_values();
             }
+            self.check_contacts(objective)?;
             if ended {
                 return Ok(());
             }
         }
+    }
+
+    /// Refuses to go on where contacts were left out for want of memory.
+    fn check_contacts(&self, objective: &Objective) -> Result<()> {
+        if objective.contact.exceeds_pair_budget() {
+            let limit = MemoryLimit::new(self.options.memory_limit).reserving(self.held);
+            return Err(limit.exceeded_error("contacts of the garment, more pairs than there is budget for"));
+        }
+        Ok(())
     }
 
     fn newton(&self, objective: &Objective, state: &State) -> Result<Newton> {

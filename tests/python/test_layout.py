@@ -61,7 +61,9 @@ class Layout(unittest.TestCase):
         self.assertEqual(_library.status_name(later), "BESPOKE_STATUS_UNKNOWN")
         self.assertEqual(_library.status_name(bespoke.Status.BUSY), "BESPOKE_STATUS_BUSY")
         layer = bespoke.Element(bespoke.Subject(258), bespoke.ElementKind.TRIANGLE, 7)
-        self.assertEqual(layer.layer, 2)
+        self.assertEqual((layer.layer, layer.follower), (2, None))
+        follower = bespoke.Element(bespoke.Subject(bespoke.Subject.FOLLOWER + 3), bespoke.ElementKind.TRIANGLE, 7)
+        self.assertEqual((follower.layer, follower.follower), (None, 3))
         with self.assertRaises(ValueError):
             bespoke.Status("OK")  # type: ignore[arg-type]
 

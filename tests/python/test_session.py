@@ -56,6 +56,44 @@ class Inputs(scenes.Case):
             session.prepare()
             self.assertEqual(session.stage, Stage.PREPARED)
 
+    def test_what_goes_along(self) -> None:
+        scene = scenes.tubes()
+        garment, triangles = scene.garment
+        vertices = len(scene.avatar[0])
+        with scene.session() as session:
+            session.add_garment_morph(garment)
+            session.clear_garment_morphs()
+            session.add_garment_morph(0.1 * garment, "larger")
+            session.add_target_morph(scene.avatar[0])
+            session.clear_target_morphs()
+            session.add_target_morph(np.array([0.1, 0.0, 0.1]) * scene.avatar[0], "heavier")
+            session.add_follower(garment, triangles)
+            session.clear_followers()
+            session.add_follower(garment, triangles)
+            session.set_target_skin_weights(np.ones((3, vertices)) * np.array([[0.0], [1.0], [0.0]]))
+            session.run()
+            fitted = session.read_garment_vertices()
+            np.testing.assert_allclose(session.read_follower_vertices(0), fitted, atol=1e-5)
+            joints, weights, count = session.read_follower_skin_influences(0, 2)
+            self.assertEqual((joints.shape, weights[0, 0], count), ((len(garment), 2), 1.0, 3))
+            self.assertEqual(session.read_garment_morph(0).shape, fitted.shape)
+            with self.assertRaises(bespoke.BespokeError):
+                session.read_target_morph(0)
+            session.solve_target_morphs()
+            answer = session.read_target_morph(0, dtype=np.float64)
+            self.assertEqual((answer.shape, answer.dtype), (fitted.shape, np.float64))
+            self.assertTrue(np.any(answer != 0.0))
+            np.testing.assert_array_equal(session.read_garment_vertices(), fitted)
+            normals, none = session.read_garment_normals()
+            self.assertEqual((normals.shape, none.shape), (fitted.shape, (0, 4)))
+            np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-5)
+            along = np.tile([0.0, 1.0, 0.0, -1.0], (len(garment), 1))
+            again, tangents = session.read_garment_normals(normals, triangles=triangles, tangents=along)
+            self.assertEqual((again.shape, tangents.shape), (normals.shape, along.shape))
+            self.assertTrue(np.all(tangents[:, 3] == -1.0))
+            with self.assertRaises(ValueError):
+                session.read_garment_morph(-1)
+
     def test_a_layer_is_an_obstacle(self) -> None:
         scene = scenes.tubes()
         with scene.session() as session:

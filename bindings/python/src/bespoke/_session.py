@@ -335,6 +335,49 @@ class Session:
         """Takes all layers off the avatar. Stage: SETUP."""
         self._handle.call("bespoke_session_clear_layers")
 
+    def add_follower(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
+        """Optional: a mesh that follows the garment without being solved, such as a level of detail, a trim, a badge or a
+        collision proxy. It is bound to the nearest points of the garment as it was modelled and carried to the result. Each
+        call adds one; they are numbered from 0. Where one is in the avatar or passes through the garment in the result, and
+        did not in the design, the diagnostic FOLLOWER_INTERSECTS says so.
+
+        `vertices`: shape (n, 3), in the coordinate system of the garment. `triangles`: shape (m, 3), vertices from 0. Stage:
+        SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH.
+        """
+        self._mesh("add_follower", vertices, triangles, "follower")
+
+    def clear_followers(self) -> None:
+        """Removes all followers. Stage: SETUP."""
+        self._handle.call("bespoke_session_clear_followers")
+
+    def add_garment_morph(self, offsets: npt.ArrayLike, name: str = "") -> None:
+        """Optional: a morph of the garment as it was modelled, which goes over to the result: `read_garment_morph`. Each call
+        adds one; they are numbered from 0.
+
+        `offsets`: shape (n, 3), one for each vertex of the garment, in its coordinate system. `name`: for messages. Stage:
+        SETUP. Errors: INVALID_ARGUMENT (another number of offsets than the garment has vertices is found by `prepare`).
+        """
+        view = arrays.floats(offsets, 3, "garment morph", _POINTS)
+        self._handle.call("bespoke_session_add_garment_morph", name.encode(), view.pointer)
+
+    def clear_garment_morphs(self) -> None:
+        """Removes all morphs of the garment. Stage: SETUP."""
+        self._handle.call("bespoke_session_clear_garment_morphs")
+
+    def add_target_morph(self, offsets: npt.ArrayLike, name: str = "") -> None:
+        """Optional: a morph of the target avatar, such as a heavier body, to which the garment is to have an answer:
+        `solve_target_morphs`. Each call adds one; they are numbered from 0.
+
+        `offsets`: shape (n, 3), one for each vertex of the target avatar, in its coordinate system. `name`: for messages.
+        Stage: SETUP. Errors: INVALID_ARGUMENT (another number of offsets than the avatar has vertices is found by `prepare`).
+        """
+        view = arrays.floats(offsets, 3, "target morph", _POINTS)
+        self._handle.call("bespoke_session_add_target_morph", name.encode(), view.pointer)
+
+    def clear_target_morphs(self) -> None:
+        """Removes all morphs of the target avatar. Stage: SETUP."""
+        self._handle.call("bespoke_session_clear_target_morphs")
+
     def set_avatar_parts(self, roles: npt.ArrayLike | None) -> None:
         """Optional: what each triangle of the avatar is to the garment. Without it the library leaves out pieces that are no
         part of the body, with a diagnostic, and takes all else for body.
@@ -491,6 +534,101 @@ class Session:
         """
         return self._read("bespoke_session_read_distortion", out, dtype, None, "distortion")
 
+    def read_garment_normals(
+        self,
+        normals: npt.ArrayLike | None = None,
+        *,
+        triangles: npt.ArrayLike | None = None,
+        tangents: npt.ArrayLike | None = None,
+        dtype: npt.DTypeLike | None = None,
+    ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+        """Unit normals of the garment as it is now, shape (n, 3), and tangents, shape (n, 4), for the vertices with which it is
+        drawn: those of the design, turned as the surface around them has turned. Vertices in one place whose normals agree in
+        the design stay smooth; where they differ, the edge stays hard. A rigid motion turns each normal exactly.
+
+        `normals`: those of the design, shape (n, 3), in the garment's coordinate system; None: they follow from the
+        triangles, and vertices in one place are smooth where they differ by no more than 60 degrees. `triangles`: the garment's
+        in their order, by those vertices, shape (m, 3); None: the vertices of `set_garment`. `tangents`: x, y, z and the
+        handedness of the bitangent, shape (n, 4); None: the second array is empty. `dtype`: as for `read_garment_vertices`.
+        Stage: PREPARED or later. Errors: INVALID_ARGUMENT (other triangles than the garment's, arrays of different length).
+        """
+        name = "bespoke_session_read_garment_normals"
+        views = [
+            None if triangles is None else arrays.indices(triangles, 3, "triangles of the render vertices", "(m, 3)"),
+            None if normals is None else arrays.floats(normals, 3, "garment normals", _POINTS),
+            None if tangents is None else arrays.floats(tangents, 4, "garment tangents", "(n, 4)"),
+        ]
+        given = [None if view is None else view.pointer for view in views]
+        count = ctypes.c_size_t()
+        self._handle.call(name, *given, ctypes.byref(arrays.NOTHING), None, ctypes.byref(count))
+        kind = self._dtype if dtype is None else dtype
+        turned, first = arrays.buffer(None, kind, (count.value, 3), "garment normals")
+        along, second = arrays.buffer(None, kind, (count.value if tangents is not None else 0, 4), "garment tangents")
+        to_tangents = None if tangents is None else ctypes.byref(second)
+        self._handle.call(name, *given, ctypes.byref(first), to_tangents, None)
+        return turned, along
+
+    def read_garment_morph(self, morph: int, *, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+        """A morph of the garment as it is now, shape (n, 3): each offset turned, stretched and scaled as the surface around its
+        vertex has been, in the target's coordinate system.
+
+        `morph`: its number. `dtype`: as for `read_garment_vertices`. Stage: PREPARED or later. Errors: INVALID_ARGUMENT (no
+        such morph).
+        """
+        return self._read_one("bespoke_session_read_garment_morph", morph, dtype, "garment morph")
+
+    def solve_target_morphs(self) -> None:
+        """Finds what the garment answers to each morph of the target avatar with: from the result on, the body goes to the
+        morph at weight 1 and takes the garment along, with no triangle through another on the way, and the garment is fitted
+        there, which takes about as long as the fit. The result stays as it is. A morph without an answer is told by the
+        diagnostic MORPH_NOT_SOLVED, and one whose answer intersects halfway by MORPH_INTERSECTS.
+
+        Stage: DONE. Errors: INVALID_ARGUMENT (a morph that is far larger than the body), CANCELLED (the stage stays DONE),
+        MEMORY_LIMIT.
+        """
+        self._handle.call_long("bespoke_session_solve_target_morphs")
+
+    def read_target_morph(self, morph: int, *, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+        """The garment's answer to a morph of the target avatar, shape (n, 3): offsets from the result. With both at weight 1
+        the garment is verified as the result is.
+
+        `morph`: the number of the avatar's morph. `dtype`: as for `read_garment_vertices`. Stage: DONE, after
+        `solve_target_morphs`. Errors: INVALID_ARGUMENT (no such morph), INVALID_STATE (also where there is no answer).
+        """
+        return self._read_one("bespoke_session_read_target_morph", morph, dtype, "target morph")
+
+    def read_follower_vertices(self, follower: int, *, dtype: npt.DTypeLike | None = None) -> npt.NDArray[Any]:
+        """The vertices of a follower where the result takes them, shape (n, 3), in the target's coordinate system.
+
+        `follower`: its number. `dtype`: as for `read_garment_vertices`. Stage: DONE. Errors: INVALID_ARGUMENT (no such
+        follower).
+        """
+        return self._read_one("bespoke_session_read_follower_vertices", follower, dtype, "follower vertices")
+
+    def read_follower_skin_influences(
+        self, follower: int, influences: int = 4
+    ) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.float32], int]:
+        """Skin weights of a follower: those of the garment where it is bound to it; else as `read_garment_skin_influences`.
+
+        `follower`: its number. Errors: INVALID_ARGUMENT (no such follower), and as there.
+        """
+        if influences < 1:
+            raise ValueError(f"a vertex has at least one influence, not {influences}")
+        vertices = len(self.read_follower_vertices(follower))
+        joints = np.zeros((vertices, influences), np.uint32)
+        weights = np.zeros((vertices, influences), np.float32)
+        count = ctypes.c_size_t()
+        self._handle.call_long(
+            "bespoke_session_read_follower_skin_influences",
+            follower,
+            influences,
+            joints.ctypes.data_as(ctypes.POINTER(ctypes.c_uint32)),
+            weights.ctypes.data_as(ctypes.POINTER(ctypes.c_float)),
+            vertices,
+            ctypes.byref(count),
+        )
+        return joints, weights, count.value
+
     def read_report(self) -> Report:
         """Measurements of the session so far. Stage: any."""
         native = BespokeReport()
@@ -610,6 +748,15 @@ class Session:
         shape = (count.value,) if columns is None else (count.value, columns)
         array, buffer = arrays.buffer(out, self._dtype if dtype is None else dtype, shape, what)
         self._handle.call(function, ctypes.byref(buffer), None)
+        return array
+
+    def _read_one(self, function: str, index: int, dtype: npt.DTypeLike | None, what: str) -> npt.NDArray[Any]:
+        if index < 0:
+            raise ValueError(f"{what}: they count from 0, and {index} is below")
+        count = ctypes.c_size_t()
+        self._handle.call(function, index, ctypes.byref(arrays.NOTHING), ctypes.byref(count))
+        array, buffer = arrays.buffer(None, self._dtype if dtype is None else dtype, (count.value, 3), what)
+        self._handle.call(function, index, ctypes.byref(buffer), None)
         return array
 
     def _list(self, function: str, kind: Any, pointed: Any = None) -> Any:
