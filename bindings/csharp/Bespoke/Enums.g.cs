@@ -271,9 +271,8 @@ namespace Bespoke
         PoseBlocked = 30,
 
         /// <summary>
-        /// A mesh that follows the garment (<c>Session.AddFollower</c>) passes through the avatar, a layer or the
-        /// garment in the result, and did not in the design. Its first such triangle is named, and the one that it
-        /// meets.
+        /// A mesh that follows the garment (<c>Session.AddFollower</c>) is in the avatar, a layer or the garment in the
+        /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
         /// </summary>
         FollowerIntersects = 35,
 

@@ -250,6 +250,19 @@ class DiagnosticKind(_Number):
     """With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it
     was posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which
     it stalled is named, and the angle between the poses.
+    FOLLOWER_INTERSECTS = 35
+    """A mesh that follows the garment (`Session.add_follower`) is in the avatar, a layer or the garment in the result,
+    and was not in the design. Its first such triangle is named, and the one that it passes through.
+    """
+
+    MORPH_NOT_SOLVED = 36
+    """A morph of the target avatar (`Session.add_target_morph`) to which the garment has no answer, because it gives
+    way only up to the weight in the message.
+    """
+
+    MORPH_INTERSECTS = 37
+    """The garment's answer to a morph of the target avatar is good at weight 0 and 1, but intersects halfway. The first
+    two triangles that meet there are named.
     """
 
     JOINTS_UNSURE = 33
@@ -330,7 +343,9 @@ class Severity(_Number):
 
 
 class Subject(_Number):
-    """Which of the inputs an element belongs to. Any number from `Subject.LAYER` on is a layer."""
+    """Which of the inputs an element belongs to. Any number from `Subject.LAYER` on is a layer, and from
+    `Subject.FOLLOWER` on a follower.
+    """
 
     GARMENT = 1
     """The garment."""
@@ -349,6 +364,9 @@ class Subject(_Number):
 
     LAYER = 256
     """The first layer that was added with `Session.add_layer`; layer k, counted from 0, is this plus k."""
+
+    FOLLOWER = 1073741824
+    """The first mesh that was added with `Session.add_follower`; follower k, counted from 0, is this plus k."""
 
 
 class ElementKind(_Number):

@@ -77,6 +77,19 @@ class BespokeMappedJoint(ctypes.Structure):
     part: bytes
 
 
+class BespokeBuffer(ctypes.Structure):
+    _fields_ = [
+        ("data", ctypes.c_void_p),
+        ("capacity", ctypes.c_size_t),
+        ("stride", ctypes.c_size_t),
+        ("component", ctypes.c_uint32),
+    ]
+    data: int | None
+    capacity: int
+    stride: int
+    component: int
+
+
 class BespokeOptions(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
@@ -176,19 +189,6 @@ class BespokeProgress(ctypes.Structure):
     fit_seconds: float
     verify_seconds: float
     energies: ctypes.Array[ctypes.c_double]
-
-
-class BespokeBuffer(ctypes.Structure):
-    _fields_ = [
-        ("data", ctypes.c_void_p),
-        ("capacity", ctypes.c_size_t),
-        ("stride", ctypes.c_size_t),
-        ("component", ctypes.c_uint32),
-    ]
-    data: int | None
-    capacity: int
-    stride: int
-    component: int
 
 
 class BespokeStageReport(ctypes.Structure):
@@ -488,6 +488,73 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     ),
     "bespoke_session_clear_layers": (ctypes.c_uint32, [ctypes.c_void_p]),
     "bespoke_session_set_avatar_parts": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.POINTER(BespokeView)]),
+    "bespoke_session_add_garment_morph": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(ctypes.c_char),
+            ctypes.POINTER(BespokeView),
+        ],
+    ),
+    "bespoke_session_clear_garment_morphs": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_read_garment_morph": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_add_target_morph": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(ctypes.c_char),
+            ctypes.POINTER(BespokeView),
+        ],
+    ),
+    "bespoke_session_clear_target_morphs": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_solve_target_morphs": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_read_target_morph": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_add_follower": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+        ],
+    ),
+    "bespoke_session_clear_followers": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_read_follower_vertices": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_read_follower_skin_influences": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_uint32),
+            ctypes.POINTER(ctypes.c_float),
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
     "bespoke_session_set_options": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.POINTER(BespokeOptions)]),
     "bespoke_options_read_defaults": (ctypes.c_uint32, [ctypes.POINTER(BespokeOptions)]),
     "bespoke_session_prepare": (ctypes.c_uint32, [ctypes.c_void_p]),
@@ -541,6 +608,18 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     ),
     "bespoke_session_read_report": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.POINTER(BespokeReport)]),
     "bespoke_session_read_energy": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.c_uint32, ctypes.POINTER(BespokeEnergy)]),
+    "bespoke_session_read_garment_normals": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
     "bespoke_session_read_garment_skin_influences": (
         ctypes.c_uint32,
         [

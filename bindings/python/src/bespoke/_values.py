@@ -283,8 +283,9 @@ class Element:
     """A vertex, triangle or bone of an input."""
 
     subject: Subject
-    """One of `Subject`, `Subject.LAYER` plus the number of a layer, `Subject.FOLLOWER` plus that of a follower; 0 where there is
-    no element."""
+    """One of `Subject`, `Subject.LAYER` plus the number of a layer, `Subject.FOLLOWER` plus that of a follower; 0 where
+    there is no element.
+    """
 
     kind: ElementKind
     """One of `ElementKind`."""
@@ -295,13 +296,7 @@ class Element:
     @property
     def layer(self) -> int | None:
         """The layer that it belongs to, from 0; None where it belongs to something else."""
-        is_layer = Subject.LAYER <= self.subject < Subject.FOLLOWER
-        return self.subject - Subject.LAYER if is_layer else None
-
-    @property
-    def follower(self) -> int | None:
-        """The follower that it belongs to, from 0; None where it belongs to something else."""
-        return self.subject - Subject.FOLLOWER if self.subject >= Subject.FOLLOWER else None
+        return self.subject - Subject.LAYER if self.subject >= Subject.LAYER else None
 
     @classmethod
     def _from_native(cls, native: BespokeElement) -> Element:
