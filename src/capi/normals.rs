@@ -25,7 +25,7 @@ const TANGENTS: &str = "garment tangents";
 /// target's coordinate system. `result_tangents`: the same with four, perpendicular to the normals; the fourth number is the one
 /// given, with the other sign where one coordinate system is the mirror image of the other. Null: none. With null data and
 /// capacity 0 nothing is written. `*count`, unless null: render vertices, also where they do not fit. What is given as 0, and
-/// without normals what no triangle uses, comes out as 0. State: PREPARED or later; until DONE it is that of a preview. Errors:
+/// without normals what no triangle uses, comes out as 0. Ownership: what is given is read during the call and not kept. State: PREPARED or later; until DONE it is that of a preview. Errors:
 /// INVALID_ARGUMENT (a capacity that is too small, arrays of different length, other triangles than the garment's, a
 /// number that is not finite, room for tangents without any given), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
