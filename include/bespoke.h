@@ -321,6 +321,10 @@ enum BespokeDiagnosticKind
   /// to its own, because parts of it, which are named, meet: the result is in the pose of the design, whose transforms are
   /// read with bespoke_session_read_pose_transforms.
   BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED = 30,
+  /// With the target in its own pose, which is another one than the garment was designed in, the inflation stalled: it was
+  /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
+  /// stalled is named, and the angle between the poses.
+  BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED = 34,
   /// A mesh that follows the garment (bespoke_session_add_follower) is in the avatar, a layer or the garment in the
   /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
   BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS = 35,
@@ -1394,7 +1398,7 @@ BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
 /// target's coordinate system. `result_tangents`: the same with four, perpendicular to the normals; the fourth number is the one
 /// given, with the other sign where one coordinate system is the mirror image of the other. Null: none. With null data and
 /// capacity 0 nothing is written. `*count`, unless null: render vertices, also where they do not fit. What is given as 0, and
-/// without normals what no triangle uses, comes out as 0. State: PREPARED or later; until DONE it is that of a preview. Errors:
+/// without normals what no triangle uses, comes out as 0. Ownership: what is given is read during the call and not kept. State: PREPARED or later; until DONE it is that of a preview. Errors:
 /// INVALID_ARGUMENT (a capacity that is too small, arrays of different length, other triangles than the garment's, a
 /// number that is not finite, room for tangents without any given), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_garment_normals(const struct BespokeSession *session,

@@ -271,6 +271,13 @@ namespace Bespoke
         PoseBlocked = 30,
 
         /// <summary>
+        /// With the target in its own pose, which is another one than the garment was designed in, the inflation
+        /// stalled: it was posed as in the design, by its own skin weights, dressed there, and brought back. The share
+        /// of its size at which it stalled is named, and the angle between the poses.
+        /// </summary>
+        SolvedPosed = 34,
+
+        /// <summary>
         /// A mesh that follows the garment (<c>Session.AddFollower</c>) is in the avatar, a layer or the garment in the
         /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
         /// </summary>

@@ -296,7 +296,13 @@ class Element:
     @property
     def layer(self) -> int | None:
         """The layer that it belongs to, from 0; None where it belongs to something else."""
-        return self.subject - Subject.LAYER if self.subject >= Subject.LAYER else None
+        is_layer = Subject.LAYER <= self.subject < Subject.FOLLOWER
+        return self.subject - Subject.LAYER if is_layer else None
+
+    @property
+    def follower(self) -> int | None:
+        """The follower that it belongs to, from 0; None where it belongs to something else."""
+        return self.subject - Subject.FOLLOWER if self.subject >= Subject.FOLLOWER else None
 
     @classmethod
     def _from_native(cls, native: BespokeElement) -> Element:
