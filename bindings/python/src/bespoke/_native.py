@@ -15,6 +15,7 @@ BESPOKE_PART_NAME_SIZE = 32
 BESPOKE_WEIGHT_OFF = -1.0
 BESPOKE_MAX_TERMS = 12
 BESPOKE_ENERGY_NAME_SIZE = 32
+BESPOKE_NO_LAYER = 4294967295
 BESPOKE_MESSAGE_SIZE = 512
 BESPOKE_MAX_ELEMENTS = 4
 
@@ -645,6 +646,18 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         [
             ctypes.c_void_p,
             ctypes.POINTER(ctypes.c_double),
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_read_covered_triangles": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.c_uint32,
+            ctypes.c_double,
+            ctypes.POINTER(ctypes.c_uint32),
             ctypes.c_size_t,
             ctypes.POINTER(ctypes.c_size_t),
         ],
