@@ -216,7 +216,7 @@ class Running(scenes.Case):
     def test_a_system_without_another_thread(self) -> None:
         original = threading.Thread.start
 
-        def start(thread: threading.Thread) -> None:
+        def start(self: threading.Thread) -> None:
             raise RuntimeError("can't start new thread")
 
         with scenes.tubes().session(threads=1) as session:
