@@ -10,6 +10,7 @@ pub mod diagnostic_text;
 pub mod diagnostic_words;
 pub mod element;
 mod mesh;
+pub mod morph;
 pub mod near_seams;
 pub mod placement;
 pub mod precision;

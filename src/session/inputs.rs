@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use glam::DVec3;
 
-use super::morphs::Morph;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::way::Way;
 use super::{Session, Stage};
@@ -16,6 +15,7 @@ use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::{AxisTurn, CoordinateSystem};
 use crate::input::curve::Curve;
 use crate::input::diagnostic::{Diagnostic, Subject};
+use crate::input::morph::Morph;
 use crate::input::placement;
 use crate::input::placement::scene::Scene;
 use crate::input::precision::Precision;

@@ -7,37 +7,7 @@ use glam::DVec3;
 use super::Session;
 use super::inputs::Inputs;
 use crate::error::{Error, ErrorKind, Result};
-use crate::memory::bytes;
-
-/// Offsets of the vertices of a mesh, in its coordinate system.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Morph {
-    /// What it is called; for messages.
-    pub name: String,
-    /// One for each vertex.
-    pub offsets: Vec<DVec3>,
-}
-
-impl Morph {
-    /// `garment morph 2 ("smile")`.
-    pub(super) fn title(&self, what: &str, index: usize) -> String {
-        if self.name.is_empty() { format!("{what} {index}") } else { format!("{what} {index} (\"{}\")", self.name) }
-    }
-
-    pub(super) fn check(&self, what: &str, index: usize) -> Result<()> {
-        match self.offsets.iter().position(|p| !p.is_finite()) {
-            None => Ok(()),
-            Some(v) => Err(Error::new(
-                ErrorKind::InvalidArgument,
-                format!("{}: the offset of vertex {v} is not finite", self.title(what, index)),
-            )),
-        }
-    }
-
-    pub(super) fn memory(&self) -> u64 {
-        bytes(&self.offsets) + self.name.len() as u64
-    }
-}
+use crate::input::morph::Morph;
 
 pub(super) const GARMENT_MORPH: &str = "garment morph";
 

@@ -7,10 +7,11 @@ use glam::DVec3;
 use super::Session;
 use super::inputs::Inputs;
 use super::morph_solve::{MorphSolve, Outcome};
-use super::morphs::{Morph, check_size};
+use super::morphs::check_size;
 use crate::control::{Cancel, Cancelled, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::Diagnostic;
+use crate::input::morph::Morph;
 use crate::input::precision::Precision;
 
 const TARGET_MORPH: &str = "target morph";
