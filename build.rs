@@ -10,6 +10,10 @@ const ROOT: &str = "OPENVDB_ROOT";
 /// and the C++ runtime with them, so that it needs none of them on the machine it runs on.
 const STATIC_ROOT: &str = "BESPOKE_STATIC_OPENVDB";
 
+/// Folder that `packaging/dist/floor/stubs.sh` made: libraries to link against in place of the system's C library, so that
+/// the library runs with older ones.
+const FLOOR: &str = "BESPOKE_GLIBC_FLOOR";
+
 /// The number in the name by which the loader finds the library, `BESPOKE_ABI_VERSION`; a test compares them.
 const ABI: u32 = 2;
 
@@ -25,6 +29,7 @@ fn shim() {
     }
     println!("cargo:rerun-if-env-changed={ROOT}");
     println!("cargo:rerun-if-env-changed={STATIC_ROOT}");
+    println!("cargo:rerun-if-env-changed={FLOOR}");
     let static_root = env::var_os(STATIC_ROOT).map(PathBuf::from);
     let root = static_root.clone().or_else(|| env::var_os(ROOT).map(PathBuf::from));
 
@@ -68,6 +73,10 @@ fn shim() {
     }
     // GCC asks for it weakly, which draws nothing out of a static library, and leaves it to the host to have one.
     println!("cargo:rustc-cdylib-link-arg=-Wl,--undefined=__cxa_pure_virtual");
+    if let Some(floor) = env::var_os(FLOOR) {
+        println!("cargo:rustc-cdylib-link-arg=-L{}", Path::new(&floor).display());
+        println!("cargo:rustc-cdylib-link-arg=-lfloor");
+    }
 }
 
 /// The folder in which the compiler has its C++ runtime as a static library.
