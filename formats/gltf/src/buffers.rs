@@ -82,7 +82,6 @@ pub(crate) fn data(uri: &str) -> Result<(String, Vec<u8>), String> {
 }
 
 /// A data URI of `bytes`.
-#[allow(dead_code)]
 pub(crate) fn to_data(media: &str, bytes: &[u8]) -> String {
     format!("data:{media};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }

@@ -88,7 +88,6 @@ pub(crate) fn layout(bytes: &[u8]) -> Result<Layout> {
 }
 
 /// A GLB file of a JSON text, a binary chunk and further chunks (with their headers). Fails where it were above 4 GiB.
-#[allow(dead_code)]
 pub(crate) fn glb(json: &[u8], binary: Option<&[u8]>, others: &[u8]) -> Result<Vec<u8>> {
     let padded = |length: usize| length.next_multiple_of(4);
     let length = 12 + 8 + padded(json.len()) + binary.map_or(0, |b| 8 + padded(b.len())) + others.len();

@@ -52,7 +52,10 @@ impl Document {
     /// # Errors
     /// Where they are not glTF 2, or a buffer is shorter than the file says.
     pub fn from_bytes(bytes: Vec<u8>, resolver: Resolver) -> Result<Self> {
-        let layout = layout(&bytes)?;
+        let mut layout = layout(&bytes)?;
+        // Padded by zeros instead of spaces, as some exporters do.
+        let zeros = bytes[layout.json.clone()].iter().rev().take_while(|b| **b == 0).count();
+        layout.json.end -= zeros;
         let text = &bytes[layout.json.clone()];
         let json: Value = serde_json::from_slice(text).map_err(|reason| {
             let before = text.split_inclusive(|b| *b == b'\n').take(reason.line().saturating_sub(1));
@@ -154,6 +157,27 @@ impl Document {
     #[must_use]
     pub fn other_chunks(&self) -> &[u8] {
         &self.bytes[self.layout.others.clone()]
+    }
+
+    /// Whether the first buffer is the binary chunk.
+    pub(crate) fn has_chunk_buffer(&self) -> bool {
+        matches!(self.buffers.first(), Some(Bytes::Chunk(_)))
+    }
+
+    /// The bytes of a buffer, as many as there are: the file may say fewer.
+    ///
+    /// # Errors
+    /// Where there is no such buffer, or its data exist in compressed form only.
+    pub fn buffer(&self, index: usize) -> Result<&[u8]> {
+        match self.buffers.get(index) {
+            Some(Bytes::Chunk(range)) => Ok(&self.bytes[range.clone()]),
+            Some(Bytes::Own(bytes)) => Ok(bytes),
+            Some(Bytes::Missing) => Err(self.entry("buffers", index)?.error("has no data but in compressed form")),
+            None => Err(Error::json(
+                "/buffers",
+                format!("there are {}, and number {index} was asked for", self.buffers.len()),
+            )),
+        }
     }
 
     /// How many bytes the file and its buffers have: the measure for what reading it may take.

@@ -116,6 +116,8 @@ pub(crate) struct Accessor<'a> {
 /// Elements that differ from the others.
 struct Sparse<'a> {
     indices: Vec<usize>,
+    /// Type of the indices in the file.
+    kind: Component,
     values: &'a [u8],
 }
 
@@ -211,7 +213,7 @@ impl<'a> Reader<'a> {
             return Err(indices_at.error(format!("{said}; they must rise and stay below the accessor's {count}")));
         }
         let values = bytes(&at.need("values")?, element, last)?;
-        Ok(Sparse { indices, values })
+        Ok(Sparse { indices, kind: component, values })
     }
 
     /// The elements of an accessor with `N` numbers each.
@@ -261,6 +263,29 @@ impl<'a> Accessor<'a> {
                 _ => see(element),
             }
         }
+    }
+
+    /// Whether the file has data for all elements.
+    pub fn has_data(&self) -> bool {
+        self.data.is_some()
+    }
+
+    /// Indices, their type, and values of sparse elements where the file has no others.
+    pub fn sparse_alone(&self) -> Option<(&[usize], Component, &'a [u8])> {
+        let sparse = self.sparse.as_ref().filter(|_| self.data.is_none())?;
+        Some((&sparse.indices, sparse.kind, sparse.values))
+    }
+
+    /// All elements as they are held, `stride` bytes apart.
+    pub fn packed(&self, stride: usize) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.count * stride);
+        let last = self.places[self.width - 1] + self.component.size();
+        self.each(|element| {
+            let end = bytes.len() + stride;
+            bytes.extend(element.map_or(&[][..], |element| &element[..last]));
+            bytes.resize(end, 0);
+        });
+        bytes
     }
 
     fn number(&self, element: &[u8], k: usize) -> f64 {
