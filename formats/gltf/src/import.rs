@@ -12,6 +12,12 @@ use crate::mesh::Mesh;
 use crate::output::image_type;
 use crate::reader::Reader;
 
+/// What a morph target adds: vertices that it moves, in order, with how far.
+pub type Deltas = Vec<(u32, [f64; 3])>;
+
+/// The attributes of a primitive, and its morph targets.
+type Vertices = (Map<String, Value>, Vec<Value>);
+
 /// What of a mesh is new; what is none is taken over as it is. Lists are by the vertices of [`Document::mesh`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Change<'a> {
@@ -24,7 +30,7 @@ pub struct Change<'a> {
     /// Joints (places in the list of the skin that the mesh will have) and weights; empty takes them off the mesh.
     pub influences: Option<&'a [Vec<(u32, f64)>]>,
     /// For each morph target what it adds to the positions.
-    pub morphs: Option<&'a [Vec<(u32, [f64; 3])>]>,
+    pub morphs: Option<&'a [Deltas]>,
     /// Turns the triangles around: for positions that are written in a space that mirrors the mesh's own.
     pub turned: bool,
 }
@@ -260,7 +266,7 @@ impl<'s> Import<'s> {
         check(&at, &mesh, change)?;
         let mut primitives = Vec::new();
         // Vertices that primitives share are written once.
-        let mut written: HashMap<(usize, usize), (Map<String, Value>, Vec<Value>)> = HashMap::new();
+        let mut written: HashMap<(usize, usize), Vertices> = HashMap::new();
         for primitive in &mesh.primitives {
             let at = at.need("primitives")?.list()?.nth(primitive.index);
             let at = at.ok_or_else(|| Error::file("a primitive that was read is there no more"))?;
@@ -342,7 +348,7 @@ impl<'s> Import<'s> {
         range: std::ops::Range<usize>,
         attributes: &[(String, usize)],
         change: &Change,
-    ) -> Result<(Map<String, Value>, Vec<Value>)> {
+    ) -> Result<Vertices> {
         let mut new = Map::new();
         for (name, accessor) in attributes {
             let accessor = match name.as_str() {

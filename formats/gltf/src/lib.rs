@@ -36,7 +36,7 @@ pub use document::Document;
 pub use edit::{Edit, INDICES, VERTICES};
 pub use error::{Error, Place, Result};
 pub use humanoid::{Humanoid, Vrm};
-pub use import::{Change, Import};
+pub use import::{Change, Deltas, Import};
 pub use mesh::{Mesh, Morph, Primitive};
 pub use nodes::{Local, Matrix, Node, Nodes};
 pub use output::Output;

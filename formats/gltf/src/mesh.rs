@@ -55,7 +55,7 @@ pub struct Morph {
     /// How much of it the mesh has as it lies in the file; a node may say otherwise.
     pub weight: f64,
     /// Vertices that it moves, in order, with how far.
-    pub deltas: Vec<(u32, [f64; 3])>,
+    pub deltas: crate::import::Deltas,
 }
 
 impl Document {

@@ -1,3 +1,5 @@
 //! Reading and writing files: over small ones that the tests make, and over real ones where there are any.
 
+mod broken;
+mod everything;
 mod twin;
