@@ -1,0 +1,135 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+
+/// Dresses characters in files: takes an outfit that was made for one character and puts it on another, with no triangle
+/// through another.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "bespoke", version, after_help = EXIT_CODES)]
+pub struct CommandLine {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "Exit: 0 when it is done, 1 when there is no result, 2 for a wrong command line, 3 when `dress` has a \
+                          verified result that is not worn as designed or `check` found intersections, 130 for Ctrl-C. \
+                          Files appear whole or not at all.";
+
+/// What can be done.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Puts the outfit of one file on the character of another.
+    Dress(Dress),
+    /// Says what is in a file: rig, parts, poses, and what will need attention.
+    Inspect(Inspect),
+    /// Counts intersections of garments and body in a file.
+    Check(Check),
+    /// Writes completions for a shell to standard output.
+    #[command(hide = true)]
+    Completions {
+        /// Which shell.
+        shell: Shell,
+    },
+    /// Writes the manual page to standard output.
+    #[command(hide = true)]
+    Man,
+}
+
+/// What of the avatar stays in the result, beside the outfit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Keep {
+    /// Its body, without the clothes that it wore.
+    Body,
+    /// Nothing but its skeleton: the outfit alone, to be put on elsewhere.
+    Outfit,
+    /// All of it: body and clothes, over which the outfit is fitted.
+    #[default]
+    Both,
+}
+
+/// `bespoke dress`.
+#[derive(Clone, Debug, Args)]
+pub struct Dress {
+    /// The file with the outfit: GLB, glTF or VRM.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub outfit: PathBuf,
+    /// The character to dress: GLB, glTF or VRM.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub avatar: PathBuf,
+    /// Where the result goes, in the form of the avatar's file: .glb, .vrm or .gltf.
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: PathBuf,
+    /// The character that the outfit was made for, where it is not in the outfit's file.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub source: Option<PathBuf>,
+    /// What of the avatar stays beside the outfit.
+    #[arg(long, value_enum, default_value_t)]
+    pub keep: Keep,
+    /// The garments in the outfit's file, where their names do not say it: NODE or NODE:MATERIAL between commas, with * for any
+    /// text and ! before what is left out. `bespoke inspect` lists them.
+    #[arg(long, value_name = "NAMES")]
+    pub nodes: Option<String>,
+    /// The body in the outfit's or source's file, in the same way.
+    #[arg(long, value_name = "NAMES")]
+    pub source_nodes: Option<String>,
+    /// The body in the avatar's file, in the same way; everything else stays in the file and is passed through.
+    #[arg(long, value_name = "NAMES")]
+    pub avatar_nodes: Option<String>,
+    /// Joints that correspond where the names do not say it: a line for each, the outfit's joint and the avatar's with a tab or
+    /// blanks between them, by name or number, or - where there is none.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub map: Option<PathBuf>,
+    /// How tight; 0 switches the fit off.
+    #[arg(long, value_name = "W", default_value_t = 2.0)]
+    pub fit: f64,
+    /// Clearance to aim at everywhere, beside the designed one, in the avatar's unit.
+    #[arg(long, value_name = "D", default_value_t = 0.0)]
+    pub offset: f64,
+    /// How much of the looseness that it had on its own body to aim at; 0 is tight.
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    pub looseness: f64,
+    /// Joints for each vertex of the result: what the engine takes.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub influences: u32,
+    /// Threads; 0 takes all cores.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: u32,
+    /// Writes a report of all garments, findings and the joint map as JSON; - is standard output.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub json: Option<PathBuf>,
+    /// No progress and no findings, errors alone.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `bespoke inspect`.
+#[derive(Clone, Debug, Args)]
+pub struct Inspect {
+    /// The file: GLB, glTF or VRM.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Another character: which of its joints correspond to those of the first.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub against: Option<PathBuf>,
+    /// As JSON, for programs.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `bespoke check`.
+#[derive(Clone, Debug, Args)]
+pub struct Check {
+    /// The file: GLB, glTF or VRM.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// The garments, where their names do not say it: as for `dress`.
+    #[arg(long, value_name = "NAMES")]
+    pub nodes: Option<String>,
+    /// As JSON, for programs.
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,223 @@
+//! `bespoke dress`: the outfit of one file on the character of another.
+
+use std::path::Path;
+
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::options::Options;
+use bespoke::rig::joint_map::{CallersPair, JointMap};
+use bespoke::rig::reading::Reading;
+
+use crate::args::{Dress, Keep};
+use crate::bodies::{self, joined};
+use crate::failure::{Failure, Result};
+use crate::figure::{Choice, Figure, Part};
+use crate::fit::{Fitted, Job, Refused, Skinned};
+use crate::joint_pairs;
+use crate::outfit::{self, Garment};
+use crate::output;
+use crate::parts::Role;
+use crate::parts::pattern::Patterns;
+use crate::report::{self, DressReport, GarmentLine};
+use crate::say::{say, say_findings};
+
+/// Dresses, writes the result and the report. The exit code.
+///
+/// # Errors
+/// Where there is no result; nothing is written then, but the report.
+pub fn run(args: &Dress) -> Result<u8> {
+    let patterns = |text: &Option<String>| text.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage);
+    let outfit_choice = Choice { garments: patterns(&args.nodes)?, body: None };
+    let source_choice = Choice { garments: None, body: patterns(&args.source_nodes)? };
+    let avatar_choice = Choice { garments: None, body: patterns(&args.avatar_nodes)? };
+    output::form(&args.output)?;
+
+    let avatar_figure = Figure::open(&args.avatar, Role::Avatar, &avatar_choice)?;
+    avatar_figure.need_rig("it cannot be dressed; give a character with a skeleton and skin weights")?;
+    let outfit = match &args.source {
+        Some(_) => Figure::open(&args.outfit, Role::Outfit, &outfit_choice)?,
+        None => {
+            Figure::open(&args.outfit, Role::Outfit, &Choice { body: source_choice.body.clone(), ..outfit_choice })?
+        }
+    };
+    let source = args.source.as_ref().map(|file| Figure::open(file, Role::Avatar, &source_choice)).transpose()?;
+    let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
+    let garments = outfit::in_order(&outfit, outfit::garments(&outfit), made_for.body.as_ref());
+    if garments.is_empty() {
+        return Err(no_garment(&args.outfit, &outfit));
+    }
+    let pairs = match &args.map {
+        Some(file) => joint_pairs::read(file, made_for.rig(), &avatar_figure.rig)?,
+        None => Vec::new(),
+    };
+    let dressing = Dressing { args, outfit: &outfit, avatar: &avatar_figure, made_for: &made_for, pairs: &pairs };
+    dressing.run(&garments)
+}
+
+fn no_garment(file: &Path, outfit: &Figure) -> Failure {
+    let parts: Vec<String> =
+        outfit.parts.iter().map(|part| format!("{} ({})", part.name(), part.sorted.kind)).collect();
+    Failure::no_result(format!(
+        "{}: no part is known as a garment by its name; the parts are {}. Choose garments with --nodes",
+        file.display(),
+        parts.join(", ")
+    ))
+}
+
+/// Whom the outfit was made for.
+struct MadeFor<'a> {
+    outfit: &'a Figure,
+    source: Option<&'a Figure>,
+    body: Option<Skinned>,
+}
+
+impl<'a> MadeFor<'a> {
+    fn new(outfit: &'a Figure, source: Option<&'a Figure>, args: &Dress) -> Result<Self> {
+        let body = match source {
+            Some(source) => bodies::source(source),
+            None => bodies::source(outfit),
+        };
+        let made_for = Self { outfit, source, body };
+        if made_for.rig().joints.is_empty() {
+            let file = args.source.as_ref().unwrap_or(&args.outfit);
+            return Err(Failure::no_result(format!(
+                "{}: it has no skin, so it cannot be known where the body is for which the outfit was made; give the \
+                 character that it was made for with --source",
+                file.display()
+            )));
+        }
+        Ok(made_for)
+    }
+
+    /// The outfit's own joints, or those of the character that it stands on.
+    fn rig(&self) -> &'a bespoke::input::rig::Rig {
+        match self.source {
+            Some(source) if self.outfit.rig.joints.is_empty() => &source.rig,
+            _ => &self.outfit.rig,
+        }
+    }
+
+    /// The body on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with the
+    /// one above.
+    fn body(&self) -> Option<Skinned> {
+        let body = self.body.clone()?;
+        let Some(source) = self.source.filter(|_| !self.outfit.rig.joints.is_empty()) else { return Some(body) };
+        Some(Skinned { skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?, mesh: body.mesh })
+    }
+}
+
+struct Dressing<'a> {
+    args: &'a Dress,
+    outfit: &'a Figure,
+    avatar: &'a Figure,
+    made_for: &'a MadeFor<'a>,
+    pairs: &'a [CallersPair],
+}
+
+/// A garment with its result.
+pub struct Dressed<'a> {
+    /// Which parts it is.
+    pub garment: &'a Garment,
+    /// Its result.
+    pub fitted: Fitted,
+}
+
+impl Dressing<'_> {
+    fn run(&self, garments: &[Garment]) -> Result<u8> {
+        let args = self.args;
+        let options = Options {
+            threads: args.threads,
+            fit_weight: args.fit,
+            offset: args.offset,
+            designed_clearance: args.looseness,
+            ..Options::default()
+        };
+        let avatar = bodies::avatar(self.avatar, args.keep == Keep::Both);
+        let notes = self.outfit.notes.iter().chain(&self.avatar.notes).chain(&avatar.notes);
+        notes.for_each(|note| say(args.quiet, note));
+        let source = self.made_for.body();
+        let (mut dressed, mut refused) = (Vec::<Dressed>::new(), Vec::new());
+        let mut layers: Vec<TriangleMesh> = Vec::new();
+        for garment in garments {
+            let parts: Vec<&Part> = garment.parts.iter().map(|&part| &self.outfit.parts[part]).collect();
+            let (cloth, _) = joined(parts.iter().copied(), self.outfit.rig.joints.len());
+            let drawn = outfit::drawn(self.outfit, &parts)?;
+            let morphs = outfit::morphs(self.outfit, &parts);
+            let job = Job {
+                name: &garment.name,
+                garment: &cloth,
+                drawn: &drawn,
+                morphs: &morphs,
+                has_skin: !self.outfit.rig.joints.is_empty(),
+                source: source.as_ref(),
+                source_rig: self.made_for.rig(),
+                avatar: &avatar.body,
+                roles: &avatar.roles,
+                target_rig: &self.avatar.rig,
+                layers: &layers,
+                pairs: self.pairs,
+                influences: args.influences as usize,
+                options: &options,
+                quiet: args.quiet,
+            };
+            match job.run() {
+                Ok(fitted) => {
+                    say_findings(args.quiet, &garment.name, &fitted.findings, fitted.flaw.is_some());
+                    layers.push(TriangleMesh {
+                        positions: fitted.positions.clone(),
+                        triangles: cloth.mesh.triangles.clone(),
+                    });
+                    dressed.push(Dressed { garment, fitted });
+                }
+                Err(why) => {
+                    say_findings(args.quiet, &garment.name, &why.findings, true);
+                    if why.failure == Failure::interrupted() {
+                        return Err(why.failure);
+                    }
+                    refused.push((garment, why));
+                }
+            }
+        }
+        if let Some(file) = &args.json {
+            report::write(file, &self.report(&dressed, &refused, &avatar.notes)?)?;
+        }
+        if let Some((_, why)) = refused.first() {
+            let mut sentence = why.failure.sentence.clone();
+            for (_, why) in &refused[1..] {
+                sentence = format!("{sentence}\n{}", why.failure.sentence);
+            }
+            let choices: Vec<String> = refused.iter().map(|(garment, _)| format!("!{}", garment.node)).collect();
+            return Err(Failure::no_result(format!(
+                "{sentence}\nnothing was written; --nodes '{}' leaves {} out",
+                choices.join(","),
+                if refused.len() == 1 { "it" } else { "these" }
+            )));
+        }
+        output::write(args, self.outfit, self.avatar, &dressed)?;
+        let flaws: Vec<_> = dressed.iter().filter_map(|d| Some((d.garment, d.fitted.flaw.as_ref()?))).collect();
+        flaws.iter().for_each(|(garment, flaw)| say(false, &format!("{}: {flaw}", garment.name)));
+        Ok(if flaws.is_empty() { 0 } else { 3 })
+    }
+}
+
+impl Dressing<'_> {
+    fn report(
+        &self,
+        dressed: &[Dressed],
+        refused: &[(&Garment, Box<Refused>)],
+        notes: &[String],
+    ) -> Result<DressReport> {
+        let (source, target) = (self.made_for.rig(), &self.avatar.rig);
+        let readings = [Reading::new(source, None), Reading::new(target, None)];
+        let map = JointMap::new(source, target, readings, self.pairs).map_err(|e| Failure::no_result(e.message))?;
+        let done = dressed.iter().map(|d| GarmentLine::dressed(&d.garment.name, &d.fitted));
+        let not = refused.iter().map(|(g, why)| GarmentLine::refused(&g.name, &why.failure, &why.findings));
+        Ok(DressReport {
+            outfit: self.args.outfit.display().to_string(),
+            avatar: self.args.avatar.display().to_string(),
+            output: refused.is_empty().then(|| self.args.output.display().to_string()),
+            garments: done.chain(not).collect(),
+            notes: self.outfit.notes.iter().chain(&self.avatar.notes).chain(notes).cloned().collect(),
+            joint_map: report::joint_map(&map, source, target),
+        })
+    }
+}

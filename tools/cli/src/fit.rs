@@ -1,0 +1,194 @@
+//! One garment through one session of the library.
+
+use bespoke::error::ErrorKind;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::diagnostic::{DiagnosticKind, Severity};
+use bespoke::input::rig::Rig;
+use bespoke::input::skin::SkinWeights;
+use bespoke::options::Options;
+use bespoke::report::Report;
+use bespoke::rig::joint_map::CallersPair;
+use bespoke::rig::weights::own_joints::AddedJoint;
+use bespoke::session::{Morph, PartRole, Precision, RenderMesh, Session};
+use glam::{DVec3, DVec4};
+
+use crate::failure::{Failure, Result};
+use crate::progress::{is_stopped, watched};
+
+/// A mesh that a rig moves.
+#[derive(Clone, Debug)]
+pub struct Skinned {
+    /// Vertices in the bind pose, and triangles.
+    pub mesh: TriangleMesh,
+    /// Joints of each vertex.
+    pub skin: SkinWeights,
+}
+
+/// What a garment is dressed with.
+#[derive(Clone, Debug)]
+pub struct Job<'a> {
+    /// As the user knows it.
+    pub name: &'a str,
+    /// The garment on its own body.
+    pub garment: &'a Skinned,
+    /// Its normals and tangents, one for each vertex, where its file has some.
+    pub drawn: &'a RenderMesh,
+    /// Its morph targets.
+    pub morphs: &'a [Morph],
+    /// Whether its weights mean anything.
+    pub has_skin: bool,
+    /// The body that it was made for, if there is one.
+    pub source: Option<&'a Skinned>,
+    /// The joints of garment and source body.
+    pub source_rig: &'a Rig,
+    /// The body to dress.
+    pub avatar: &'a Skinned,
+    /// What each of its triangles is to the garment.
+    pub roles: &'a [PartRole],
+    /// Its joints.
+    pub target_rig: &'a Rig,
+    /// Garments that it wears already, inside this one.
+    pub layers: &'a [TriangleMesh],
+    /// Joints that the user says correspond.
+    pub pairs: &'a [CallersPair],
+    /// Joints for each vertex of the result.
+    pub influences: usize,
+    /// How it fits.
+    pub options: &'a Options,
+    /// No progress on the terminal.
+    pub quiet: bool,
+}
+
+/// Something that the library has to say.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What kind of thing it is; none of an error.
+    pub kind: Option<DiagnosticKind>,
+    /// In words.
+    pub sentence: String,
+}
+
+/// A garment that is dressed and verified.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// Its vertices on the avatar in the avatar's bind pose.
+    pub positions: Vec<DVec3>,
+    /// Its normals there.
+    pub normals: Vec<DVec3>,
+    /// Its tangents, with the handedness of the bitangent, where it had some.
+    pub tangents: Vec<DVec4>,
+    /// What each of its morph targets adds to its vertices there.
+    pub morphs: Vec<Vec<DVec3>>,
+    /// Its skin weights on the avatar's joints and, after them, the added ones.
+    pub skin: SkinWeights,
+    /// Joints of its own that come along.
+    pub added: Vec<AddedJoint>,
+    /// What is not as designed, if anything.
+    pub flaw: Option<String>,
+    /// What the library has to say.
+    pub findings: Vec<Finding>,
+    /// What was measured.
+    pub report: Report,
+}
+
+/// A garment that is not dressed.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// Why.
+    pub failure: Failure,
+    /// What else the library has to say.
+    pub findings: Vec<Finding>,
+}
+
+impl Job<'_> {
+    /// Dresses the garment.
+    ///
+    /// # Errors
+    /// Where there is no verified result.
+    pub fn run(&self) -> Result<Fitted, Box<Refused>> {
+        let mut session = Session::new();
+        let outcome = self.fill(&mut session).and_then(|()| {
+            let control = session.control();
+            watched(self.name, &control, self.quiet, || session.run().map(|_| ()))
+        });
+        let findings = findings(&session);
+        let flaw = match outcome {
+            Ok(()) => None,
+            Err(error) if error.kind == ErrorKind::ImplausibleResult && session.pose_transforms().is_none() => {
+                Some(error.message)
+            }
+            Err(error) => return Err(self.refused(error, findings)),
+        };
+        let read = || -> bespoke::error::Result<Fitted> {
+            let (normals, tangents) = session.garment_normals(self.drawn)?;
+            Ok(Fitted {
+                positions: session.garment_positions()?,
+                normals,
+                tangents,
+                morphs: (0..self.morphs.len())
+                    .map(|k| session.garment_morph(k))
+                    .collect::<bespoke::error::Result<_>>()?,
+                skin: session.garment_skin(self.influences)?,
+                added: session.added_joints()?,
+                flaw,
+                findings: findings.clone(),
+                report: session.report(),
+            })
+        };
+        match read() {
+            Ok(fitted) => Ok(fitted),
+            Err(error) => Err(self.refused(error, findings)),
+        }
+    }
+
+    /// What the library says of the garment before it is dressed, refusals included.
+    pub fn look(&self) -> Vec<Finding> {
+        let mut session = Session::new();
+        let outcome = self.fill(&mut session).and_then(|()| session.prepare());
+        let mut findings = findings(&session);
+        if let Err(error) = outcome {
+            findings.push(Finding { severity: Severity::Error, kind: None, sentence: error.message });
+        }
+        findings
+    }
+
+    fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>) -> Box<Refused> {
+        let failure = if error.kind == ErrorKind::Cancelled || is_stopped() {
+            Failure::interrupted()
+        } else {
+            Failure::no_result(format!("{}: {error}", self.name))
+        };
+        Box::new(Refused { failure, findings })
+    }
+
+    fn fill(&self, session: &mut Session) -> bespoke::error::Result<()> {
+        session.set_options(self.options.clone())?;
+        session.set_garment(self.garment.mesh.clone(), Precision::F32)?;
+        if self.has_skin {
+            session.set_garment_skin(self.garment.skin.clone())?;
+        }
+        for morph in self.morphs {
+            session.add_garment_morph(morph.clone())?;
+        }
+        session.set_source_rig(self.source_rig.clone())?;
+        if let Some(source) = self.source {
+            session.set_source_avatar(source.mesh.clone())?;
+            session.set_source_skin(source.skin.clone())?;
+        }
+        session.set_target_rig(self.target_rig.clone())?;
+        session.set_target_avatar(self.avatar.mesh.clone())?;
+        session.set_target_skin(self.avatar.skin.clone())?;
+        session.set_avatar_parts(self.roles.to_vec())?;
+        for layer in self.layers {
+            session.add_layer(layer.clone())?;
+        }
+        session.set_joint_pairs(self.pairs.to_vec())
+    }
+}
+
+fn findings(session: &Session) -> Vec<Finding> {
+    let said = session.diagnostics().iter();
+    said.map(|d| Finding { severity: d.severity(), kind: Some(d.kind()), sentence: session.sentence(d) }).collect()
+}

@@ -1,0 +1,46 @@
+//! The program `bespoke`, in pieces: reads characters and outfits from files (`figure`), sorts what they hold (`parts`),
+//! dresses each garment with the library (`fit`), and writes the result into the avatar's file (`output`).
+
+pub mod args;
+pub mod bodies;
+pub mod check;
+pub mod dress;
+pub mod failure;
+pub mod figure;
+mod files;
+pub mod fit;
+pub mod inspect;
+pub mod joint_pairs;
+pub mod outfit;
+mod output;
+pub mod parts;
+mod progress;
+mod report;
+mod say;
+
+use args::{Command, CommandLine};
+use clap::CommandFactory;
+use failure::{Failure, Result};
+
+/// Does what the command line says. The exit code.
+///
+/// # Errors
+/// Where there is no result.
+pub fn run(line: &CommandLine) -> Result<u8> {
+    match &line.command {
+        Command::Dress(args) => {
+            progress::listen_to_interrupts()?;
+            dress::run(args)
+        }
+        Command::Inspect(args) => inspect::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Completions { shell } => {
+            clap_complete::generate(*shell, &mut CommandLine::command(), "bespoke", &mut std::io::stdout());
+            Ok(0)
+        }
+        Command::Man => clap_mangen::Man::new(CommandLine::command())
+            .render(&mut std::io::stdout())
+            .map(|()| 0)
+            .map_err(|e| Failure::no_result(format!("the manual page cannot be written: {e}"))),
+    }
+}
