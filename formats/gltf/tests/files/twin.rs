@@ -60,7 +60,8 @@ fn compare(path: &Path) -> usize {
                     .map(|&(joint, weight)| (joint as usize, weight))
                     .collect();
                 let mut y = other.influences[b].clone();
-                (pairs(&mut x), pairs(&mut y));
+                pairs(&mut x);
+                pairs(&mut y);
                 assert!(x.iter().zip(&y).all(|(x, y)| x.0 == y.0 && (x.1 - y.1).abs() < 1e-6), "{name}: {x:?} {y:?}");
                 assert_eq!(x.len(), y.len(), "{name}: influences");
             }
