@@ -1,4 +1,5 @@
 # make        build/retarget and build/libbespoke.so
+# make build/bespoke  the program that dresses characters in GLB, glTF and VRM files (docs/program.md)
 # make demo   makes a sample, dresses two bodies in it and says what came out
 # make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
 #             makes the paper's figures
@@ -69,7 +70,11 @@ build/libbespoke.$(SHARED): FORCE | build
 build/retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED)
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)'
 
-# The same program as it is installed: it finds the library from where it will lie.
+build/bespoke: FORCE dependencies | build
+	cargo build --release -p bespoke-cli
+	cp $(CARGO_TARGET_DIR)/release/bespoke $@.new && mv $@.new $@
+
+# `retarget` as it is installed: it finds the library from where it will lie.
 build/bespoke-retarget: $(C_SOURCES) $(C_HEADERS) build/libbespoke.$(SHARED) build/run-path
 	$(CC) $(C_FLAGS) $(C_SOURCES) -o $@ -Lbuild -lbespoke -lm '-Wl,-rpath,$(ORIGIN)/'"$$(cat build/run-path)"
 

@@ -6,6 +6,7 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
 use bespoke::rig::reading::Reading;
+use bespoke::verify::intersections;
 
 use crate::args::{Dress, Keep};
 use crate::bodies::{self, joined};
@@ -17,6 +18,7 @@ use crate::outfit::{self, Garment};
 use crate::output;
 use crate::parts::Role;
 use crate::parts::pattern::Patterns;
+use crate::progress::is_stopped;
 use crate::report::{self, DressReport, GarmentLine};
 use crate::say::{say, say_findings};
 
@@ -159,7 +161,7 @@ impl Dressing<'_> {
                 options: &options,
                 quiet: args.quiet,
             };
-            match job.run() {
+            match dressed_over(&job) {
                 Ok(fitted) => {
                     say_findings(args.quiet, &garment.name, &fitted.findings, fitted.flaw.is_some());
                     layers.push(TriangleMesh {
@@ -220,4 +222,26 @@ impl Dressing<'_> {
             joint_map: report::joint_map(&map, source, target),
         })
     }
+}
+
+/// Dresses a garment over those that are worn already. Where it cannot give way to them, as where the shells of a shirt and of
+/// trousers meet edge to edge, it is dressed over the body alone, and it is told how many of their triangles it passes through.
+fn dressed_over(job: &Job) -> Result<Fitted, Box<Refused>> {
+    let refused = match job.run() {
+        Err(why) if !job.layers.is_empty() && !is_stopped() => why,
+        outcome => return outcome,
+    };
+    let Ok(mut fitted) = (Job { layers: &[], ..job.clone() }).run() else { return Err(refused) };
+    let cloth = TriangleMesh { positions: fitted.positions.clone(), triangles: job.garment.mesh.triangles.clone() };
+    let through = job.layers.iter().map(|layer| intersections(&cloth, Some(layer), 0).map_or(0, |found| found.count));
+    let through: u64 = through.sum();
+    if through > 0 {
+        let said = format!(
+            "it could not be dressed over the garments beneath it and passes through them in {through} pairs of triangles \
+             ({})",
+            refused.failure.sentence
+        );
+        fitted.flaw = Some(fitted.flaw.map_or(said.clone(), |flaw| format!("{flaw}; {said}")));
+    }
+    Ok(fitted)
 }
