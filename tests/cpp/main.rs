@@ -75,7 +75,16 @@ impl Flavour {
     /// The program of all the tests in C++ comes to its end, and each mistake ends it with a sentence.
     fn passes(&self) {
         let folder = root().join("tests/cpp");
-        let names = ["main.cpp", "views.cpp", "results.cpp", "inputs.cpp", "rigs.cpp", "sessions.cpp", "stops.cpp"];
+        let names = [
+            "main.cpp",
+            "views.cpp",
+            "results.cpp",
+            "inputs.cpp",
+            "rigs.cpp",
+            "sessions.cpp",
+            "stops.cpp",
+            "follow.cpp",
+        ];
         let sources: Vec<_> = names.iter().map(|name| folder.join(name)).collect();
         let Some(program) = self.compile("tests", &sources, &root().join("include")) else { return };
         let whole = run(&program, &[]);

@@ -77,6 +77,11 @@ class Inputs(scenes.Case):
             joints, weights, count = session.read_follower_skin_influences(0, 2)
             self.assertEqual((joints.shape, weights[0, 0], count), ((len(garment), 2), 1.0, 3))
             self.assertEqual(session.read_garment_morph(0).shape, fitted.shape)
+            near = session.read_covered_triangles(margin=0)
+            self.assertEqual(near.dtype, np.uint32)
+            self.assertTrue(set(session.read_covered_triangles(margin=2)) <= set(near) < set(range(len(scene.avatar[1]))))
+            with self.assertRaises(bespoke.BespokeError):
+                session.read_covered_triangles(layer=0)
             with self.assertRaises(bespoke.BespokeError):
                 session.read_target_morph(0)
             session.solve_target_morphs()

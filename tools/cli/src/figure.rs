@@ -181,15 +181,20 @@ impl Figure {
         for (part, mut sorted) in self.parts.iter_mut().zip(sorted) {
             let is_in = |patterns: &Patterns| patterns.choose(&part.node_name, &part.material);
             match choice.body.as_ref().map(is_in) {
-                Some(true) => sorted = Sorted { kind: Kind::Body, reason: "as given".into() },
+                Some(true) => sorted = Sorted { kind: Kind::Body, reason: "as given".into(), by_material: false },
                 Some(false) if sorted.kind == Kind::Body => {
-                    sorted = Sorted { kind: Kind::Prop, reason: "not among the given body".into() };
+                    sorted = Sorted { kind: Kind::Prop, reason: "not among the given body".into(), by_material: false };
                 }
                 _ => {}
             }
-            match choice.garments.as_ref().map(is_in) {
+            // Skin and hair of a node are no garment, unless just they are meant.
+            let is_bare = matches!(sorted.kind, Kind::Body | Kind::Hair) && sorted.by_material;
+            let is_meant = |patterns: &Patterns| {
+                is_in(patterns) && (!is_bare || patterns.choose_by_material(&part.node_name, &part.material))
+            };
+            match choice.garments.as_ref().map(is_meant) {
                 Some(true) => {
-                    sorted = Sorted { kind: Kind::Garment, reason: "as given".into() };
+                    sorted = Sorted { kind: Kind::Garment, reason: "as given".into(), by_material: false };
                     part.chosen = true;
                 }
                 Some(false) => {}
@@ -233,7 +238,7 @@ fn part(index: usize, instance: &Instance, primitive: &Primitive, materials: &[S
         influences: vertices.iter().map(influences).collect(),
         triangles,
         vertices,
-        sorted: Sorted { kind: Kind::Body, reason: String::new() },
+        sorted: Sorted { kind: Kind::Body, reason: String::new(), by_material: false },
         chosen: false,
     }
 }

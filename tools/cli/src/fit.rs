@@ -2,6 +2,7 @@
 
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::diagnostic::{DiagnosticKind, Severity};
 use bespoke::input::rig::Rig;
 use bespoke::input::skin::SkinWeights;
@@ -172,6 +173,9 @@ impl Job<'_> {
         for morph in self.morphs {
             session.add_garment_morph(morph.clone())?;
         }
+        // Garment, body and joints of a file are bound to each other, in the axes and the unit of glTF. Only which way a character
+        // faces is not said, and matters for the target alone.
+        session.set_source_coordinate_system(CoordinateSystem { trusted: true, ..CoordinateSystem::default() })?;
         session.set_source_rig(self.source_rig.clone())?;
         if let Some(source) = self.source {
             session.set_source_avatar(source.mesh.clone())?;

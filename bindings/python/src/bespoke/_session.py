@@ -16,6 +16,7 @@ from ._handle import Control, Handle
 from ._joints import AddedJoint, CoordinateSystem, Joint, MappedJoint, matrices, rig
 from ._library import load
 from ._native import (
+    BESPOKE_NO_LAYER,
     BESPOKE_TRANSFORM_SIZE,
     BespokeAddedJoint,
     BespokeEnergy,
@@ -707,6 +708,26 @@ class Session:
         """
         name = "bespoke_session_read_pose_transforms"
         return matrices(self._list(name, ctypes.c_double * BESPOKE_TRANSFORM_SIZE, ctypes.c_double))
+
+    def read_covered_triangles(
+        self, layer: int | None = None, *, margin: int = 1, openness: float = 0.0
+    ) -> npt.NDArray[np.uint32]:
+        """The triangles of the avatar, or of a layer, that the garment covers, ascending, shape (n,): from outside nobody sees
+        them in the pose that the result is in, so that a game may leave them out while the garment is worn.
+
+        `layer`: None for the avatar, or a layer, from 0; of a layer both sides have to be covered. `margin`: so many rings of
+        triangles are left beside those that are not covered; 0 is for nothing that moves. `openness`: the share of directions,
+        from 0 to 1, in which a covered triangle may be seen all the same; 0.2 is for what is seen from the floor alone.
+        Stage: DONE. Errors: INVALID_ARGUMENT (no such layer, an openness that is no share), CANCELLED.
+        """
+        name = "bespoke_session_read_covered_triangles"
+        given = (BESPOKE_NO_LAYER if layer is None else layer, margin, openness)
+        count = ctypes.c_size_t()
+        self._handle.call(name, *given, None, 0, ctypes.byref(count))
+        covered = np.empty(count.value, np.uint32)
+        into = covered.ctypes.data_as(ctypes.POINTER(ctypes.c_uint32))
+        self._handle.call(name, *given, into, count.value, ctypes.byref(count))
+        return covered
 
     # What these share.
 

@@ -60,6 +60,8 @@ pub struct Sorted {
     pub kind: Kind,
     /// In words, for `inspect`.
     pub reason: String,
+    /// The name of its material says it.
+    pub by_material: bool,
 }
 
 /// What each of `parts` is.
@@ -70,11 +72,19 @@ pub fn sort(parts: &[Named], role: Role) -> Vec<Sorted> {
     let firm: Vec<_> = spoken.iter().map(|s| s.kind(names_skin)).collect();
     let has = |kind: Kind| firm.iter().flatten().any(|sorted| sorted.kind == kind);
     let rest = match role {
-        Role::Outfit if has(Kind::Body) || !has(Kind::Garment) => {
-            Sorted { kind: Kind::Garment, reason: "no name says what it is, and the file brings an outfit".into() }
+        Role::Outfit if has(Kind::Body) || !has(Kind::Garment) => Sorted {
+            kind: Kind::Garment,
+            reason: "no name says what it is, and the file brings an outfit".into(),
+            by_material: false,
+        },
+        Role::Outfit => Sorted {
+            kind: Kind::Body,
+            reason: "no name says what it is, and others are garments".into(),
+            by_material: false,
+        },
+        Role::Avatar => {
+            Sorted { kind: Kind::Body, reason: "no name says that it is anything else".into(), by_material: false }
         }
-        Role::Outfit => Sorted { kind: Kind::Body, reason: "no name says what it is, and others are garments".into() },
-        Role::Avatar => Sorted { kind: Kind::Body, reason: "no name says that it is anything else".into() },
     };
     firm.into_iter().map(|sorted| sorted.unwrap_or_else(|| rest.clone())).collect()
 }
@@ -115,7 +125,10 @@ impl Spoken {
     /// What the part is, as far as its own names and those of the whole file say. Materials are nearer to a surface than
     /// nodes, which may hold several; where a file names its skin, other materials of a region cover it.
     fn kind(&self, names_skin: bool) -> Option<Sorted> {
-        let sorted = |kind, reason: String| Some(Sorted { kind, reason });
+        let sorted = |kind, reason: String| {
+            let by_material = reason.starts_with("material");
+            Some(Sorted { kind, reason, by_material })
+        };
         if let Some(slot) = &self.slot {
             return sorted(Kind::Prop, format!("it hangs on '{slot}'"));
         }

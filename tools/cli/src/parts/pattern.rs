@@ -39,6 +39,12 @@ impl Patterns {
         (self.wanted.is_empty() || any(&self.wanted)) && !any(&self.unwanted)
     }
 
+    /// Whether a part is chosen by a pattern that names its material, or the text of one.
+    pub fn choose_by_material(&self, node: &str, material: &str) -> bool {
+        let by_material = |[n, m]: &[String; 2]| m != "*" && matches(n, node) && matches(m, material);
+        self.choose(node, material) && self.wanted.iter().any(by_material)
+    }
+
     /// The patterns that match none of `parts`, (node, material), as they were written.
     pub fn idle(&self, parts: &[(&str, &str)]) -> Vec<String> {
         let idle =
