@@ -74,18 +74,22 @@ pub fn avatar(figure: &Figure, clothed: bool) -> Avatar {
     Avatar { roles: owners.iter().map(role).collect(), body, notes }
 }
 
-/// The body that the garments of `figure` were made for. Where a maker has taken away the skin beneath them, it is the whole
-/// character with its clothes: a garment then aims to lie as close as it did.
-pub fn source(figure: &Figure) -> Option<Skinned> {
+/// The bodies that the garments of `figure` may have been made for, the likelier first: its skin, and the whole character with
+/// its clothes, on which a garment aims to lie as close as it did. The latter is all there is where a maker has taken away the
+/// skin beneath the garments; and it helps where the skin passes through them, as a head through its hat.
+pub fn sources(figure: &Figure) -> Vec<Skinned> {
     let clothes: Vec<&Part> = figure.of(Kind::Garment).collect();
-    let whole = !clothes.is_empty() && !has_skin_beneath(figure, &clothes);
-    let takes_part = |part: &&Part| match part.sorted.kind {
-        Kind::Body => true,
-        Kind::Hair | Kind::Garment => whole,
-        Kind::Prop => false,
+    let of_kinds = |kinds: &[Kind]| {
+        let parts: Vec<&Part> = figure.parts.iter().filter(|part| kinds.contains(&part.sorted.kind)).collect();
+        (!parts.is_empty()).then(|| joined(parts, figure.rig.joints.len()).0)
     };
-    let parts: Vec<&Part> = figure.parts.iter().filter(takes_part).collect();
-    (!parts.is_empty()).then(|| joined(parts, figure.rig.joints.len()).0)
+    let skin = of_kinds(&[Kind::Body]);
+    if clothes.is_empty() {
+        return skin.into_iter().collect();
+    }
+    let whole = of_kinds(&[Kind::Body, Kind::Hair, Kind::Garment]);
+    let skin = skin.filter(|_| has_skin_beneath(figure, &clothes));
+    skin.into_iter().chain(whole).collect()
 }
 
 /// Whether there is body under most of the area of `clothes`, joint by joint.

@@ -43,7 +43,7 @@ pub fn run(args: &Dress) -> Result<u8> {
     };
     let source = args.source.as_ref().map(|file| Figure::open(file, Role::Avatar, &source_choice)).transpose()?;
     let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
-    let garments = outfit::in_order(&outfit, outfit::garments(&outfit), made_for.body.as_ref());
+    let garments = outfit::in_order(&outfit, outfit::garments(&outfit), made_for.bodies.first());
     if garments.is_empty() {
         return Err(no_garment(&args.outfit, &outfit));
     }
@@ -69,16 +69,13 @@ fn no_garment(file: &Path, outfit: &Figure) -> Failure {
 struct MadeFor<'a> {
     outfit: &'a Figure,
     source: Option<&'a Figure>,
-    body: Option<Skinned>,
+    bodies: Vec<Skinned>,
 }
 
 impl<'a> MadeFor<'a> {
     fn new(outfit: &'a Figure, source: Option<&'a Figure>, args: &Dress) -> Result<Self> {
-        let body = match source {
-            Some(source) => bodies::source(source),
-            None => bodies::source(outfit),
-        };
-        let made_for = Self { outfit, source, body };
+        let bodies = bodies::sources(source.unwrap_or(outfit));
+        let made_for = Self { outfit, source, bodies };
         if made_for.rig().joints.is_empty() {
             let file = args.source.as_ref().unwrap_or(&args.outfit);
             return Err(Failure::no_result(format!(
@@ -98,12 +95,19 @@ impl<'a> MadeFor<'a> {
         }
     }
 
-    /// The body on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with the
-    /// one above.
-    fn body(&self) -> Option<Skinned> {
-        let body = self.body.clone()?;
-        let Some(source) = self.source.filter(|_| !self.outfit.rig.joints.is_empty()) else { return Some(body) };
-        Some(Skinned { skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?, mesh: body.mesh })
+    /// The bodies on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with
+    /// the one above.
+    fn bodies(&self) -> Vec<Skinned> {
+        let Some(source) = self.source.filter(|_| !self.outfit.rig.joints.is_empty()) else {
+            return self.bodies.clone();
+        };
+        let there = |body: &Skinned| {
+            Some(Skinned {
+                skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?,
+                mesh: body.mesh.clone(),
+            })
+        };
+        self.bodies.iter().filter_map(there).collect()
     }
 }
 
@@ -136,7 +140,7 @@ impl Dressing<'_> {
         let avatar = bodies::avatar(self.avatar, args.keep == Keep::Both);
         let notes = self.outfit.notes.iter().chain(&self.avatar.notes).chain(&avatar.notes);
         notes.for_each(|note| say(args.quiet, note));
-        let source = self.made_for.body();
+        let sources = self.made_for.bodies();
         let (mut dressed, mut refused) = (Vec::<Dressed>::new(), Vec::new());
         let mut layers: Vec<TriangleMesh> = Vec::new();
         for garment in garments {
@@ -150,7 +154,7 @@ impl Dressing<'_> {
                 drawn: &drawn,
                 morphs: &morphs,
                 has_skin: !self.outfit.rig.joints.is_empty(),
-                source: source.as_ref(),
+                source: sources.first(),
                 source_rig: self.made_for.rig(),
                 avatar: &avatar.body,
                 roles: &avatar.roles,
@@ -161,7 +165,7 @@ impl Dressing<'_> {
                 options: &options,
                 quiet: args.quiet,
             };
-            match dressed_over(&job) {
+            match put_on(&job, &sources) {
                 Ok(fitted) => {
                     say_findings(args.quiet, &garment.name, &fitted.findings, fitted.flaw.is_some());
                     layers.push(TriangleMesh {
@@ -224,14 +228,25 @@ impl Dressing<'_> {
     }
 }
 
-/// Dresses a garment over those that are worn already. Where it cannot give way to them, as where the shells of a shirt and of
-/// trousers meet edge to edge, it is dressed over the body alone, and it is told how many of their triangles it passes through.
-fn dressed_over(job: &Job) -> Result<Fitted, Box<Refused>> {
+/// Dresses a garment, with one after the other of the bodies that it may have been made for, over those that are worn already.
+/// Where it cannot give way to them, as where the shells of a shirt and of trousers meet edge to edge, it is dressed over the
+/// body alone, and it is told how many of their triangles it passes through.
+fn put_on(job: &Job, sources: &[Skinned]) -> Result<Fitted, Box<Refused>> {
     let refused = match job.run() {
-        Err(why) if !job.layers.is_empty() && !is_stopped() => why,
+        Err(why) if !is_stopped() => why,
         outcome => return outcome,
     };
-    let Ok(mut fitted) = (Job { layers: &[], ..job.clone() }).run() else { return Err(refused) };
+    for source in sources.iter().skip(1) {
+        if let Ok(fitted) = (Job { source: Some(source), ..job.clone() }).run() {
+            return Ok(fitted);
+        }
+    }
+    let over_body = |source| (Job { layers: &[], source, ..job.clone() }).run().ok();
+    let alone = match job.layers.is_empty() || is_stopped() {
+        true => None,
+        false => sources.iter().map(Some).find_map(over_body),
+    };
+    let Some(mut fitted) = alone else { return Err(refused) };
     let cloth = TriangleMesh { positions: fitted.positions.clone(), triangles: job.garment.mesh.triangles.clone() };
     let through = job.layers.iter().map(|layer| intersections(&cloth, Some(layer), 0).map_or(0, |found| found.count));
     let through: u64 = through.sum();

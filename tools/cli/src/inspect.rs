@@ -143,7 +143,7 @@ fn findings(figure: &Figure, garment: &Garment) -> Vec<Finding> {
     }
     let parts = garment.parts.iter().map(|&part| &figure.parts[part]);
     let (cloth, _) = joined(parts, figure.rig.joints.len());
-    let Some(body) = bodies::source(figure) else { return Vec::new() };
+    let Some(body) = bodies::sources(figure).into_iter().next() else { return Vec::new() };
     let roles = vec![PartRole::Automatic; body.mesh.triangles.len()];
     let job = Job {
         name: &garment.name,
