@@ -1,6 +1,7 @@
 //! The program on files.
 
 mod files;
+mod judges;
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -125,6 +126,7 @@ fn dress() {
     let alone = Document::open(&folder.join("alone.glb")).unwrap().scene().unwrap();
     let names: Vec<&str> = alone.characters[0].meshes.iter().map(|m| m.name.as_str()).collect();
     assert_eq!(names, ["Mannequin_Vest"]);
+    judges::valid(&[&folder.join("out.glb"), &folder.join("alone.glb")]);
 }
 
 /// What cannot be done is said, and nothing is written.
