@@ -43,7 +43,13 @@ impl Files {
         fs::create_dir_all(&folder).unwrap();
         sheet.write(&folder.join("sheet.json")).unwrap();
         let text = fs::read_to_string(folder.join("sheet.json")).unwrap();
-        Self { sheet: serde_json::from_str(&text).unwrap(), data: fs::read(folder.join("sheet.bin")).unwrap(), folder }
+        // By way of a value: the numbers of enums are texts to a reader that keeps all their digits, as the file formats' does.
+        let sheet: serde_json::Value = serde_json::from_str(&text).unwrap();
+        Self {
+            sheet: serde_json::from_value(sheet).unwrap(),
+            data: fs::read(folder.join("sheet.bin")).unwrap(),
+            folder,
+        }
     }
 
     fn words(&self, array: Array) -> Vec<[u8; 4]> {
