@@ -39,6 +39,6 @@ pub use humanoid::{Humanoid, Vrm};
 pub use import::{Change, Deltas, Import};
 pub use mesh::{Mesh, Morph, Primitive};
 pub use nodes::{Local, Matrix, Node, Nodes};
-pub use output::Output;
+pub use output::{Output, replace};
 pub use scene::{Character, Instance, Joint, Scene};
 pub use skin::Skin;

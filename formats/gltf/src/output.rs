@@ -1,6 +1,7 @@
 //! An edited file as bytes, with the files that belong beside it.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
@@ -166,14 +167,22 @@ impl Output {
     }
 }
 
-/// Writes a file beside the one that it is to be, then puts it there.
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// Writes a file beside the one that it is to be, then puts it there: it appears whole or not at all.
+///
+/// # Errors
+/// Where it cannot be written or moved; what was there stays then.
+pub fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.new", std::process::id()));
     let new = path.with_file_name(name);
-    let written = fs::write(&new, bytes).and_then(|()| fs::rename(&new, path));
-    if written.is_err() {
+    let written = fs::File::create(&new).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()
+    });
+    let moved = written.and_then(|()| fs::rename(&new, path));
+    if moved.is_err() {
+        // That it cannot be removed is not what has gone wrong.
         let _ = fs::remove_file(&new);
     }
-    written
+    moved
 }

@@ -1,12 +1,12 @@
-//! `bespoke check`: intersections of garments and body, in the bind pose and in those of an animation.
+//! `bespoke check`: intersections of garments and body in the bind pose.
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::weld::Weld;
 use bespoke::verify::intersections;
-use glam::DVec3;
 use serde::Serialize;
 
 use crate::args::Check;
+use crate::bodies::joined;
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure, Part};
 use crate::outfit::{self, Garment};
@@ -17,7 +17,7 @@ use crate::report;
 /// What was counted in one pose.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counted {
-    /// In words: the bind pose, or animation and second.
+    /// In words.
     pub pose: String,
     /// Pairs of triangles of each garment that intersect.
     pub garments: Vec<CountedGarment>,
@@ -43,14 +43,8 @@ pub struct CountedGarment {
 pub fn run(args: &Check) -> Result<u8> {
     let garments = args.nodes.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage)?;
     let figure = Figure::open(&args.file, Role::Outfit, &Choice { garments, body: None })?;
-    let garments = outfit::garments(&figure);
-    if garments.is_empty() {
-        return Err(Failure::no_result(format!(
-            "{}: no part is known as a garment by its name; choose some with --nodes (`bespoke inspect` lists the parts)",
-            args.file.display()
-        )));
-    }
-    let counted = vec![count(&figure, &garments, "bind pose", |part| part.positions.clone())?];
+    let garments = outfit::need_garments(&figure)?;
+    let counted = vec![count(&figure, &garments)?];
     if args.json {
         print!("{}", report::text(&counted)?);
     } else {
@@ -68,21 +62,10 @@ pub fn run(args: &Check) -> Result<u8> {
     Ok(if clean { 0 } else { 3 })
 }
 
-fn count(
-    figure: &Figure,
-    garments: &[Garment],
-    pose: &str,
-    positions: impl Fn(&Part) -> Vec<DVec3>,
-) -> Result<Counted> {
+fn count(figure: &Figure, garments: &[Garment]) -> Result<Counted> {
     let mesh = |parts: &mut dyn Iterator<Item = &Part>| {
-        let mut mesh = TriangleMesh::default();
-        for part in parts {
-            let first = mesh.positions.len() as u32;
-            mesh.positions.extend(positions(part));
-            mesh.triangles.extend(part.triangles.iter().map(|t| t.map(|v| v + first)));
-        }
         // Triangles on both sides of a seam share its vertices; files split them.
-        Weld::new(&mesh).0.mesh
+        Weld::new(&joined(parts, figure.rig.joints.len()).0.mesh).0.mesh
     };
     let body = mesh(&mut figure.of(Kind::Body));
     let counts = |a: &TriangleMesh, b: Option<&TriangleMesh>| {
@@ -104,5 +87,5 @@ fn count(
         });
         meshes.push(cloth);
     }
-    Ok(Counted { pose: pose.to_string(), garments: counted })
+    Ok(Counted { pose: "bind pose".to_string(), garments: counted })
 }

@@ -1,7 +1,5 @@
 //! `bespoke dress`: the outfit of one file on the character of another.
 
-use std::path::Path;
-
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
@@ -43,26 +41,13 @@ pub fn run(args: &Dress) -> Result<u8> {
     };
     let source = args.source.as_ref().map(|file| Figure::open(file, Role::Avatar, &source_choice)).transpose()?;
     let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
-    let garments = outfit::in_order(&outfit, outfit::garments(&outfit), made_for.bodies.first());
-    if garments.is_empty() {
-        return Err(no_garment(&args.outfit, &outfit));
-    }
+    let garments = outfit::in_order(&outfit, outfit::need_garments(&outfit)?, made_for.bodies.first());
     let pairs = match &args.map {
         Some(file) => joint_pairs::read(file, made_for.rig(), &avatar_figure.rig)?,
         None => Vec::new(),
     };
     let dressing = Dressing { args, outfit: &outfit, avatar: &avatar_figure, made_for: &made_for, pairs: &pairs };
     dressing.run(&garments)
-}
-
-fn no_garment(file: &Path, outfit: &Figure) -> Failure {
-    let parts: Vec<String> =
-        outfit.parts.iter().map(|part| format!("{} ({})", part.name(), part.sorted.kind)).collect();
-    Failure::no_result(format!(
-        "{}: no part is known as a garment by its name; the parts are {}. Choose garments with --nodes",
-        file.display(),
-        parts.join(", ")
-    ))
 }
 
 /// Whom the outfit was made for.
@@ -203,9 +188,7 @@ impl Dressing<'_> {
         flaws.iter().for_each(|(garment, flaw)| say(false, &format!("{}: {flaw}", garment.name)));
         Ok(if flaws.is_empty() { 0 } else { 3 })
     }
-}
 
-impl Dressing<'_> {
     fn report(
         &self,
         dressed: &[Dressed],

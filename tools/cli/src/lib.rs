@@ -7,7 +7,6 @@ pub mod check;
 pub mod dress;
 pub mod failure;
 pub mod figure;
-mod files;
 pub mod fit;
 pub mod inspect;
 pub mod joint_pairs;

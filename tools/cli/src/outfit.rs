@@ -48,6 +48,24 @@ pub fn garments(outfit: &Figure) -> Vec<Garment> {
         .collect()
 }
 
+/// The same, where there has to be one.
+///
+/// # Errors
+/// Where there is none; the sentence lists the parts.
+pub fn need_garments(outfit: &Figure) -> Result<Vec<Garment>> {
+    let garments = garments(outfit);
+    if !garments.is_empty() {
+        return Ok(garments);
+    }
+    let parts: Vec<String> =
+        outfit.parts.iter().map(|part| format!("{} ({})", part.name(), part.sorted.kind)).collect();
+    Err(Failure::no_result(format!(
+        "{}: no part is known as a garment by its name; the parts are {}. Choose garments with --nodes",
+        outfit.file.display(),
+        parts.join(", ")
+    )))
+}
+
 /// `garments` in the order in which they are put on: as they lie one in the other on the body that they were made for.
 pub fn in_order(outfit: &Figure, garments: Vec<Garment>, body: Option<&Skinned>) -> Vec<Garment> {
     let parts = |garment: &Garment| garment.parts.iter().map(|&part| &outfit.parts[part]).collect::<Vec<_>>();

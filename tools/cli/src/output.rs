@@ -77,14 +77,14 @@ struct Garments<'a> {
     outfit: &'a Figure,
     avatar: &'a Figure,
     import: Import<'a>,
-    /// The place in the skin of each joint that moves something: the avatar's by their number, then the added ones of each garment
-    /// by (garment, number).
+    /// The place in the skin of each joint that moves something: the avatar's, then those of the outfit that come along.
     joints: BTreeMap<Joint, u32>,
 }
 
 /// A joint of the avatar, or one that came with a garment.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Joint {
+    /// A joint of the avatar's rig.
     Avatar(u32),
     /// A joint of the outfit's rig, which several garments may share.
     Own(u32),

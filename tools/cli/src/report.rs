@@ -10,7 +10,6 @@ use bespoke::rig::part_name;
 use serde::Serialize;
 
 use crate::failure::{Failure, Result};
-use crate::files;
 use crate::fit::{Finding, Fitted};
 use crate::say::word;
 
@@ -54,7 +53,7 @@ pub fn joint_map(map: &JointMap, source: &Rig, target: &Rig) -> Vec<JointLine> {
     let line = |(joint, mapped): (usize, &bespoke::rig::joint_map::MappedJoint)| JointLine {
         source: label(source, joint as u32),
         target: mapped.target.map(|joint| label(target, joint)),
-        part: mapped.part.map(part_name::name),
+        part: part_words(mapped.part),
         confidence: mapped.confidence,
         reason: reason(mapped.reason),
     };
@@ -175,7 +174,8 @@ pub fn write(file: &Path, report: &impl Serialize) -> Result<()> {
         print!("{text}");
         return Ok(());
     }
-    files::write(file, text.as_bytes())
+    bespoke_gltf::replace(file, text.as_bytes())
+        .map_err(|e| Failure::no_result(format!("{}: it cannot be written: {e}", file.display())))
 }
 
 /// A report as text.
