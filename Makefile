@@ -13,6 +13,8 @@
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make dist   the folder to ship and its archive (build/dist; docs/dist.md)
 # make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
+# make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
+# make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
@@ -107,6 +109,19 @@ SHIPPED = build/dist/bespoke-$(VERSION)-linux-x86_64
 wheel: dist python-environment
 	sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel
 
+# The Blender extension. Blender as a Python module, which has the tool that packs it, is fetched once, for each version.
+BPY = 4.5.15
+BLENDER = build/blender/bpy-$(BPY)
+.PHONY: blender
+blender: wheel
+	sh packaging/blender/environment.sh $(BLENDER) $(BPY)
+	sh packaging/blender/pack.sh $(BLENDER) build/wheel build/blender/extension
+
+.PHONY: test-blender
+test-blender: wheel
+	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
+	sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY)
+
 # The TBB that hosts bring along.
 .PHONY: host-tbb
 host-tbb: dependencies
@@ -187,10 +202,13 @@ test: dependencies
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
+	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
+	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY))
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]
-	@[ -d $(PYTHON) ] || echo "skipped: the tests of the Python package, for there is no NumPy"
+	@[ -d $(PYTHON) ] || echo "skipped: the tests of the Python package and of the Blender extension, for there is no NumPy"
+	$(if $(SHIPS),,@echo "skipped: the tests of the Blender extension, for there is no wheel for this system")
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

@@ -1,0 +1,154 @@
+"""From what the library leaves to objects: the garment as it is, on another body and another armature."""
+
+from __future__ import annotations
+
+import bpy
+import mathutils
+import numpy as np
+
+from . import meshes, rigs, work
+from .inputs import Inputs, cloth, garment_mesh
+from .meshes import Array, SceneError
+
+
+def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> bpy.types.Object:
+    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature.
+
+    Errors: SceneError, where the garment has changed since it was read.
+    """
+    thing = inputs.garments[index].object
+    garment = inputs.task.garments[index]
+    with meshes.as_modelled([thing]) as depsgraph:
+        with garment_mesh(thing, depsgraph) as now:
+            _, vertices = cloth(now, thing, inputs.source)
+            if not np.array_equal(vertices, garment.vertices):
+                raise SceneError(f"{thing.name}: it was changed while it was fitted; dress it again")
+            # With shape keys these come along; else with the modifiers applied.
+            mesh = (thing.data if meshes.has_morphs(thing) else now).copy()
+    mesh.name = thing.data.name
+    result = thing.copy()
+    result.animation_data_clear()
+    result.constraints.clear()
+    old = result.data
+    result.data = mesh
+    _set_shapes(mesh, outcome)
+    if old.users == 0:
+        bpy.data.meshes.remove(old)
+    if not meshes.has_morphs(thing):
+        for name in [modifier.name for modifier in meshes.shaping(thing)]:
+            result.modifiers.remove(result.modifiers[name])
+    names = [bone.name for bone in inputs.target.data.bones]
+    if outcome.skin is not None:
+        names += _add_bones(context, inputs, outcome)
+    _bind(result, inputs, outcome, names)
+    result["bespoke_garment"], result["bespoke_avatar"] = thing.name, inputs.target.name
+    result.name = f"{thing.name} on {inputs.target.name}"
+    _place(context, result, inputs.target)
+    return result
+
+
+def remove_earlier(scene: bpy.types.Scene, garment: str, target: str) -> None:
+    """Takes earlier results of the same garment on the same character away."""
+    for old in [thing for thing in scene.objects if thing.get("bespoke_garment") == garment]:
+        if old.get("bespoke_avatar") == target:
+            mesh = old.data
+            bpy.data.objects.remove(old)
+            if mesh.users == 0:
+                bpy.data.meshes.remove(mesh)
+
+
+def _set_shapes(mesh: bpy.types.Mesh, outcome: work.Outcome) -> None:
+    vertices = outcome.vertices
+    if mesh.shape_keys is not None:
+        keys = mesh.shape_keys.key_blocks
+        offsets = dict(zip([key.name for key in keys[1:]], outcome.morphs))
+        shapes: dict[str, Array] = {mesh.shape_keys.reference_key.name: vertices.astype(np.float64)}
+
+        def shape(key: bpy.types.ShapeKey) -> Array:
+            if key.name not in shapes:
+                shapes[key.name] = shape(key.relative_key) + offsets[key.name]
+            return shapes[key.name]
+
+        for key in keys:
+            key.data.foreach_set("co", shape(key).astype(np.float32).ravel())
+    mesh.vertices.foreach_set("co", np.ascontiguousarray(vertices, np.float32).ravel())
+    mesh.update()
+
+
+def _bind(result: bpy.types.Object, inputs: Inputs, outcome: work.Outcome, names: list[str]) -> None:
+    target = inputs.target
+    bones = {bone.name for bone in inputs.source.data.bones}.union(names)
+    for group in [group for group in result.vertex_groups if group.name in bones]:
+        result.vertex_groups.remove(group)
+    if outcome.skin is not None:
+        joints, weights = outcome.skin
+        for joint in np.unique(joints[weights > 0.0]):
+            group = result.vertex_groups.new(name=names[joint])
+            vertex, slot = np.nonzero((joints == joint) & (weights > 0.0))
+            for v, weight in zip(vertex.tolist(), weights[vertex, slot].tolist()):
+                group.add([v], weight, "REPLACE")
+    posing = [modifier for modifier in result.modifiers if modifier.type == "ARMATURE"]
+    for modifier in posing[1:]:
+        result.modifiers.remove(modifier)
+    if posing:
+        modifier = posing[0]
+    else:
+        modifier = result.modifiers.new("Armature", "ARMATURE")
+        result.modifiers.move(len(result.modifiers) - 1, 0)
+    modifier.object = target
+    modifier.use_vertex_groups, modifier.use_bone_envelopes = True, False
+    modifier.show_viewport = modifier.show_render = True
+
+
+def _place(context: bpy.types.Context, result: bpy.types.Object, target: bpy.types.Object) -> None:
+    """Below the target's armature, with no transform of its own but the place of that armature, so that every vertex is
+    stored as it was verified."""
+    result.parent, result.parent_type, result.parent_bone = target, "OBJECT", ""
+    frame = rigs.frame(target).inverted()
+    result.matrix_parent_inverse = target.matrix_world.inverted() @ frame
+    result.matrix_basis = mathutils.Matrix.Identity(4)
+    result.hide_viewport = result.hide_render = False
+    collections = [c for c in target.users_collection if c.library is None] or [context.scene.collection]
+    collections[0].objects.link(result)
+    result.hide_set(False)
+
+
+def _add_bones(context: bpy.types.Context, inputs: Inputs, outcome: work.Outcome) -> list[str]:
+    """Adds the garment's own bones to the target's armature, where they are not there yet. Their names, in order."""
+    if not outcome.added:
+        return []
+    target, source = inputs.target, inputs.source
+    names = [bone.name for bone in target.data.bones]
+    there = len(names)
+    to_armature = np.linalg.inv(np.array(rigs.frame(target) @ target.matrix_world, np.float64))
+    bones = source.data.bones
+    before = context.view_layer.objects.active
+    hidden = target.hide_get()
+    target.hide_set(False)
+    context.view_layer.objects.active = target
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        edited = target.data.edit_bones
+        for added in outcome.added:
+            own = bones[added.source]
+            name = own.name
+            if name in names[:there] and not edited[name].get("bespoke_own"):
+                name = f"{name} ({source.name})"
+            bone = edited.get(name)
+            if bone is None:
+                bone = edited.new(name)
+                bone["bespoke_own"] = True
+                bind = to_armature @ added.bind
+                size = np.cbrt(abs(np.linalg.det(bind[:3, :3])))
+                bone.head, bone.tail = (0.0, 0.0, 0.0), (0.0, max(own.length * size, 1e-4), 0.0)
+                axes = bind[:3, :3] / max(size, 1e-12)
+                bone.matrix = mathutils.Matrix.Translation(bind[:3, 3]) @ mathutils.Matrix(axes.tolist()).to_4x4()
+                if added.parent is not None:
+                    bone.parent = edited[names[added.parent]]
+                bone.use_deform = True
+            names.append(bone.name)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        target.hide_set(hidden)
+        context.view_layer.objects.active = before
+    return names[there:]

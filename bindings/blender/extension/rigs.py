@@ -1,0 +1,59 @@
+"""From armatures to rigs, and from vertex groups to skin weights."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bespoke
+import bpy
+import mathutils
+import numpy as np
+
+from .meshes import Array, Mesh, SceneError, rest_matrix
+
+
+def frame(armature: bpy.types.Object) -> mathutils.Matrix:
+    """From the world to the space in which a character is handed over: the world's axes and unit, around its armature,
+    so that numbers stay small wherever it stands."""
+    return mathutils.Matrix.Translation(-armature.matrix_world.translation)
+
+
+def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
+    """All bones in the rest pose, in the order of the armature."""
+    bones = armature.data.bones
+    if not bones:
+        raise SceneError(f"{armature.name}: the armature has no bones")
+    place = frame(armature) @ rest_matrix(armature)
+    if abs(place.determinant()) < 1e-12:
+        raise SceneError(f"{armature.name}: the armature is scaled to nothing; give it a scale")
+    number = {bone.name: k for k, bone in enumerate(bones)}
+    return [
+        bespoke.Joint(
+            bone.name,
+            number[bone.parent.name] if bone.parent is not None else None,
+            np.array(place @ bone.matrix_local, np.float64),
+        )
+        for bone in bones
+    ]
+
+
+def influences(meshes: Sequence[Mesh], armature: bpy.types.Object) -> tuple[Array, Array] | None:
+    """Joints and weights of all vertices, mesh after mesh, each of shape (n, influences); None: none is on a bone."""
+    number = {bone.name: k for k, bone in enumerate(armature.data.bones)}
+    rows: list[list[tuple[int, float]]] = []
+    for mesh in meshes:
+        bone = mesh.object.parent_bone if mesh.object.parent_type == "BONE" else None
+        if bone in number and mesh.object.parent == armature:
+            rows.extend([[(number[bone], 1.0)]] * len(mesh.vertices))
+            continue
+        of_group = {group.index: number.get(group.name) for group in mesh.object.vertex_groups}
+        for groups in mesh.groups:
+            rows.append([(of_group[g], weight) for g, weight in groups if of_group.get(g) is not None])
+    most = max((len(row) for row in rows), default=0)
+    if most == 0:
+        return None
+    bones, weights = np.zeros((len(rows), most), np.uint32), np.zeros((len(rows), most), np.float32)
+    for vertex, row in enumerate(rows):
+        for k, (joint, weight) in enumerate(row):
+            bones[vertex, k], weights[vertex, k] = joint, weight
+    return bones, weights
