@@ -15,6 +15,7 @@
 # make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
 # make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
 # make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
+# make unity  the Unity package and its tarball (build/unity; bindings/unity/README.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
@@ -121,6 +122,12 @@ blender: wheel
 test-blender: wheel
 	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
 	sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY)
+
+# The Unity package. The library for Windows is in it where there is one.
+.PHONY: unity
+unity: dist
+	sh .ci/dependencies npm
+	sh packaging/unity/pack.sh $(SHIPPED) build/dist-windows build/unity
 
 # The TBB that hosts bring along.
 .PHONY: host-tbb

@@ -1,8 +1,10 @@
 //! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files and rigged
-//! characters, callers of the C API, programs to run, the library as others link it, the sample of bindings.
+//! characters, also as engines have them, callers of the C API, programs to run, the library as others link it, the sample of
+//! bindings.
 
 pub mod caller;
 pub mod character;
+pub mod engine;
 pub mod fuzz;
 pub mod gltf;
 pub mod library;
