@@ -6,6 +6,7 @@ pub mod caller;
 pub mod character;
 pub mod engine;
 pub mod fuzz;
+pub mod glb;
 pub mod gltf;
 pub mod library;
 pub mod obj;

@@ -13,9 +13,10 @@ use bespoke_gltf::{Document, Instance};
 use closet::avatars::Avatar;
 use closet::garments;
 use closet::rigs::{Body, Character, Naming, character, y_up};
-use files::{Part, folder, glb};
+use files::folder;
 use glam::DVec3;
 use serde_json::Value;
+use testing::glb::{Part, glb};
 
 /// The mannequin in a vest, whose joints have the names of Unreal.
 static OUTFIT: LazyLock<Vec<u8>> = LazyLock::new(|| {
