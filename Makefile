@@ -16,6 +16,8 @@
 # make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
 # make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
 # make unity  the Unity package and its tarball (build/unity; bindings/unity/README.md)
+# make godot  the add-on for Godot 4, with the library of `make dist` (build/godot-addon; bindings/godot/README.md)
+# make test-godot  its tests alone, in the engine, which is fetched from Debian's unstable suite (build/godot)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
@@ -143,6 +145,20 @@ python-environment: dependencies
 	sh tests/python/environment.sh $(PYTHON) || \
 		{ rm -rf $(PYTHON); echo "skipped: the tests of the Python package, for NumPy cannot be had"; }
 
+# The add-on for Godot. Its tests take the library of the folder to ship where there is one.
+.PHONY: godot
+godot: dist
+	sh bindings/godot/build.sh $(SHIPPED)/lib/libbespoke.so build/godot-addon
+
+.PHONY: godot-environment
+godot-environment: dependencies | build
+	[ -f $(SHIPPED)/lib/libbespoke.so ] || $(MAKE) build/libbespoke.$(SHARED)
+	sh tests/godot/environment.sh "$$(ls $(SHIPPED)/lib/libbespoke.so build/libbespoke.$(SHARED) 2>/dev/null | head -n 1)" build
+
+.PHONY: test-godot
+test-godot: godot-environment
+	cargo test --release --test godot
+
 .PHONY: dependencies
 dependencies:
 	sh .ci/dependencies
@@ -207,6 +223,7 @@ test: dependencies
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
+	$(MAKE) godot-environment
 	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)

@@ -3,6 +3,7 @@
 //! - `bindings/bespoke.json`, the description itself, for whoever writes a binding;
 //! - `bindings/csharp/Bespoke/*.g.cs`, the enums, structs, calls and options of C#;
 //! - `bindings/python/src/bespoke/_*.py` of the same kind: enums, what a session tells, options, the raw layer;
+//! - `bindings/godot/src/{native,constants,words}.rs`, the raw layer, constants and texts of the Godot add-on;
 //! - the enums and the options of `include/bespoke.hpp`, between two marks;
 //! - `tests/capi/layout.inc`, the layout that every compiler proves.
 //!
@@ -12,6 +13,7 @@ pub mod description;
 
 mod cpp;
 mod csharp;
+mod godot;
 mod layout;
 mod options;
 mod parse;
@@ -90,6 +92,9 @@ pub fn generate(root: &Path) -> Result<Vec<Generated>> {
     }
     for (name, text) in python::files(&description)? {
         files.push(at(&format!("bindings/python/src/bespoke/{name}"), text));
+    }
+    for (name, text) in godot::files(&description)? {
+        files.push(at(&format!("bindings/godot/src/{name}"), text));
     }
     Ok(files)
 }

@@ -1,0 +1,215 @@
+//! Meshes on a skeleton, joined to one, in the space of the skeleton as it rests.
+
+use glam::{DAffine3, DMat3, DVec3};
+use godot::builtin::Variant;
+use godot::classes::Node3D;
+use godot::obj::Gd;
+
+use crate::engine;
+use crate::mesh::{Arrays, BlendShape};
+use crate::scene::{Binds, Shown, Skeleton, place, skeleton_of};
+use crate::session::{Influences, Result};
+
+/// One mesh of a figure.
+pub struct Part {
+    /// Where it is from.
+    pub shown: Shown,
+    /// As it was read, in its own space.
+    pub arrays: Arrays,
+    /// Its vertices are these of the figure.
+    pub first_vertex: usize,
+    /// Its triangles are these of the figure.
+    pub first_triangle: usize,
+}
+
+/// Meshes on a skeleton.
+#[derive(Default)]
+pub struct Figure {
+    /// Its meshes.
+    pub parts: Vec<Part>,
+    /// Vertices of all meshes.
+    pub positions: Vec<[f32; 3]>,
+    /// Triangles of all meshes.
+    pub triangles: Vec<[u32; 3]>,
+    /// Skin weights on the bones of the skeleton; none where no mesh has any.
+    pub skin: Option<Influences>,
+    /// Normals of the first mesh, as it stands in the skeleton's space.
+    pub normals: Vec<[f32; 3]>,
+    /// Its tangents.
+    pub tangents: Vec<[f32; 4]>,
+    /// Its blend shapes.
+    pub shapes: Vec<BlendShape>,
+}
+
+/// Binds that differ by less than this share of their size are the same: the skeleton rests as the mesh was bound.
+const SAME: f64 = 1e-4;
+
+impl Figure {
+    /// Reads all meshes. One that another skeleton moves than `skeleton` comes onto its bones by their names, unless `given` says that
+    /// the skeleton is that of the meshes.
+    ///
+    /// # Errors
+    /// A mesh or a skin that cannot be used.
+    pub fn read(shown: Vec<Shown>, skeleton: &Skeleton, given: &Variant) -> Result<Self> {
+        let mut figure = Self::default();
+        let mut skins = Vec::new();
+        for shown in shown {
+            let arrays = Arrays::read(&shown.mesh, &shown.name)?;
+            let own = match given.try_to::<Gd<Node3D>>() {
+                Ok(given) => Some(given),
+                Err(_) => shown.node.and_then(engine::Node::get).and_then(|node| skeleton_of(&node)),
+            };
+            let placed = match own.filter(|own| engine::Node::new(own) != skeleton.node) {
+                Some(own) => {
+                    let own = Skeleton::read(&own, None, &shown.name)?;
+                    let mut placed = Placed::new(&shown, &arrays, &own)?;
+                    let there = own.onto(skeleton);
+                    placed.bones.iter_mut().for_each(|bone| *bone = there[*bone as usize]);
+                    placed
+                }
+                None => Placed::new(&shown, &arrays, skeleton)?,
+            };
+            let first = figure.positions.len();
+            let place = |(v, &p): (usize, &[f32; 3])| placed.point(v, p);
+            figure.positions.extend(arrays.positions.iter().enumerate().map(place));
+            let first_triangle = figure.triangles.len();
+            figure.triangles.extend(arrays.triangles.iter().map(|t| t.map(|v| v.saturating_add(first as u32))));
+            if figure.parts.is_empty() {
+                figure.take_shading(&arrays, &placed);
+            }
+            skins.push((placed.bones, arrays.width, arrays.positions.len()));
+            figure.parts.push(Part { shown, arrays, first_vertex: first, first_triangle });
+        }
+        figure.join_skins(skins);
+        Ok(figure)
+    }
+
+    fn take_shading(&mut self, arrays: &Arrays, placed: &Placed) {
+        let normal = |(v, &n): (usize, &[f32; 3])| placed.normal(v, n);
+        let tangent = |(v, &t): (usize, &[f32; 4])| placed.tangent(v, t);
+        self.normals = arrays.normals.iter().enumerate().map(normal).collect();
+        self.tangents = arrays.tangents.iter().enumerate().map(tangent).collect();
+        let shape = |shape: &BlendShape| BlendShape {
+            name: shape.name.clone(),
+            offsets: shape.offsets.iter().enumerate().map(|(v, &d)| placed.direction(v, d)).collect(),
+            normals: shape.normals.iter().enumerate().map(normal).collect(),
+            tangents: shape.tangents.iter().enumerate().map(tangent).collect(),
+        };
+        self.shapes = arrays.shapes.iter().map(shape).collect();
+    }
+
+    /// One width for all.
+    fn join_skins(&mut self, skins: Vec<(Vec<u32>, usize, usize)>) {
+        let width = skins.iter().map(|skin| skin.1).max().unwrap_or(0);
+        if width == 0 {
+            return;
+        }
+        let mut joined = Influences { width, ..Influences::default() };
+        for ((bones, own, vertices), part) in skins.into_iter().zip(&self.parts) {
+            for v in 0..vertices {
+                for k in 0..width {
+                    let at = v * own + k;
+                    joined.joints.push(if k < own { bones[at] } else { 0 });
+                    joined.weights.push(if k < own { part.arrays.weights[at] } else { 0.0 });
+                }
+            }
+        }
+        self.skin = joined.weights.iter().any(|&w| w > 0.0).then_some(joined);
+    }
+}
+
+/// How a mesh comes into the space of its skeleton.
+struct Placed {
+    /// Where all vertices go alike.
+    all: Option<DAffine3>,
+    /// Each on its own, where the skeleton rests otherwise than the mesh was bound.
+    each: Vec<DAffine3>,
+    /// Bones in place of binds.
+    bones: Vec<u32>,
+}
+
+impl Placed {
+    fn new(shown: &Shown, arrays: &Arrays, skeleton: &Skeleton) -> Result<Self> {
+        if arrays.width == 0 {
+            let all = shown.node.map_or(DAffine3::IDENTITY, |node| place(node, skeleton.node));
+            return Ok(Self { all: Some(snapped(all)), each: Vec::new(), bones: Vec::new() });
+        }
+        let binds = Binds::read(shown, skeleton)?;
+        let known = |bind: u32| (bind as usize).min(binds.bones.len().saturating_sub(1));
+        let bones =
+            arrays.binds.iter().map(|&bind| binds.bones.get(known(bind)).map_or(0, |&bone| bone as u32)).collect();
+        let used = || {
+            let influences = arrays.binds.iter().zip(&arrays.weights);
+            influences.filter(|&(_, &weight)| weight > 0.0).map(|(&bind, _)| binds.places[known(bind)])
+        };
+        let Some(first) = used().next() else {
+            return Ok(Self { all: Some(DAffine3::IDENTITY), each: Vec::new(), bones });
+        };
+        let size = arrays.positions.iter().flatten().fold(0.0_f64, |size, &x| size.max(f64::from(x).abs()));
+        if used().all(|other| difference(first, other, size) <= SAME * size) {
+            return Ok(Self { all: Some(snapped(first)), each: Vec::new(), bones });
+        }
+        let vertex = |v: usize| {
+            let (mut matrix, mut translation, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
+            for k in v * arrays.width..(v + 1) * arrays.width {
+                let weight = f64::from(arrays.weights[k]);
+                if weight > 0.0 {
+                    let place = binds.places[known(arrays.binds[k])];
+                    matrix += place.matrix3 * weight;
+                    translation += place.translation * weight;
+                    sum += weight;
+                }
+            }
+            if sum == 0.0 { first } else { DAffine3 { matrix3: matrix * (1.0 / sum), translation: translation / sum } }
+        };
+        Ok(Self { all: None, each: (0..arrays.positions.len()).map(vertex).collect(), bones })
+    }
+
+    fn of(&self, v: usize) -> DAffine3 {
+        self.all.unwrap_or_else(|| self.each[v])
+    }
+
+    fn point(&self, v: usize, p: [f32; 3]) -> [f32; 3] {
+        let place = self.of(v);
+        if place == DAffine3::IDENTITY { p } else { narrow(place.transform_point3(wide(p))) }
+    }
+
+    fn direction(&self, v: usize, d: [f32; 3]) -> [f32; 3] {
+        let place = self.of(v);
+        if place == DAffine3::IDENTITY { d } else { narrow(place.matrix3 * wide(d)) }
+    }
+
+    fn normal(&self, v: usize, n: [f32; 3]) -> [f32; 3] {
+        let place = self.of(v);
+        if place == DAffine3::IDENTITY {
+            return n;
+        }
+        narrow((place.matrix3.inverse().transpose() * wide(n)).normalize_or_zero())
+    }
+
+    fn tangent(&self, v: usize, t: [f32; 4]) -> [f32; 4] {
+        let [x, y, z] = self.direction(v, [t[0], t[1], t[2]]);
+        let turned = narrow(wide([x, y, z]).normalize_or_zero());
+        if self.of(v) == DAffine3::IDENTITY { t } else { [turned[0], turned[1], turned[2], t[3]] }
+    }
+}
+
+/// How far two places of a mesh of this size are apart.
+fn difference(a: DAffine3, b: DAffine3, size: f64) -> f64 {
+    let columns = a.matrix3 - b.matrix3;
+    let turned = columns.x_axis.length().max(columns.y_axis.length()).max(columns.z_axis.length());
+    (a.translation - b.translation).length() + size * turned
+}
+
+/// What is the identity but for rounding is the identity, so that numbers stay as they are.
+fn snapped(place: DAffine3) -> DAffine3 {
+    if place.abs_diff_eq(DAffine3::IDENTITY, 1e-5) { DAffine3::IDENTITY } else { place }
+}
+
+fn wide(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}
+
+fn narrow(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|x| x as f32)
+}

@@ -1,0 +1,86 @@
+//! Projects with the add-on, and the engine that runs them.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use testing::process::{root, scratch};
+
+/// A project of its own for one test.
+pub struct Project {
+    engine: PathBuf,
+    folder: PathBuf,
+}
+
+/// A file or folder that `make test-godot` leaves.
+fn made(variable: &str, usual: &str) -> Option<PathBuf> {
+    let path = env::var_os(variable).map_or_else(|| root().join(usual), PathBuf::from);
+    let is_there = path.exists();
+    if !is_there {
+        println!("SKIPPED: there is no {} (make test-godot)", path.display());
+    }
+    is_there.then_some(path)
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder to copy") {
+        let path = entry.expect("an entry").path();
+        let there = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copy(&path, &there);
+        } else {
+            fs::copy(&path, &there).expect("a file can be copied");
+        }
+    }
+}
+
+/// The project of the tests with the add-on in it, or none where engine or add-on are missing.
+pub fn project(name: &str) -> Option<Project> {
+    let engine = made("BESPOKE_GODOT", "build/godot/godot")?;
+    let addon = made("BESPOKE_GODOT_ADDON", "build/godot-addon")?;
+    let folder = scratch(&format!("godot-{name}"));
+    copy(&root().join("tests/godot/project"), &folder);
+    copy(&addon, &folder);
+    fs::create_dir_all(folder.join("data")).expect("a folder");
+    fs::write(folder.join("data/.gdignore"), "").expect("a file");
+    // Known before the first start: one that imports a project with a new extension may crash as it ends, in 4.5 to 4.7.
+    fs::create_dir_all(folder.join(".godot")).expect("a folder");
+    fs::write(folder.join(".godot/extension_list.cfg"), "res://addons/bespoke/bespoke.gdextension\n").expect("a file");
+    let classes = "list=[{\"base\": &\"Node\", \"class\": &\"Checks\", \"icon\": \"\", \"is_abstract\": false, \"is_tool\": \
+                   false, \"language\": &\"GDScript\", \"path\": \"res://checks.gd\"}]\n";
+    fs::write(folder.join(".godot/global_script_class_cache.cfg"), classes).expect("a file");
+    Some(Project { engine, folder })
+}
+
+impl Project {
+    /// Where tests read and write.
+    pub fn data(&self) -> PathBuf {
+        self.folder.join("data")
+    }
+
+    /// Runs the engine in the project, for so many seconds at most: a script that fails early leaves it running for ever.
+    pub fn run(&self, seconds: u32, arguments: &[&str]) -> Output {
+        let mut command = Command::new("timeout");
+        command.arg("--kill-after=5").arg(seconds.to_string()).arg(&self.engine).arg("--path").arg(&self.folder);
+        // A home of its own: settings and caches of whoever runs the tests stay as they are.
+        for variable in ["HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"] {
+            command.env(variable, self.folder.join("home"));
+        }
+        command.args(arguments).output().expect("timeout is a program of every system")
+    }
+}
+
+/// All tests of one file pass.
+pub fn passes(project: &Project, file: &str) {
+    let output = project.run(240, &["--headless", "--script", "run.gd", "--", &format!("{file}.gd"), "data"]);
+    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    let all = format!("{file}: {}\n{said}\n{complained}", output.status);
+    assert!(output.status.success() && said.contains("\nran "), "{all}");
+    // What the engine complains of is a fault as well: leaks, errors in scripts that go on.
+    for line in complained.lines() {
+        assert!(!line.contains("ERROR") && !line.contains("WARNING"), "{all}");
+    }
+    println!("{said}");
+}

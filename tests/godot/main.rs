@@ -1,0 +1,90 @@
+//! The Godot add-on in the real engine: what tests/godot/project/*.gd say of it holds, and characters of files come out with the
+//! bits that the C API gives for the same arrays.
+//!
+//! `make test-godot` fetches the engine (engine.sh) and builds the add-on. Without these, all of this is skipped.
+
+mod bits;
+mod engine;
+
+use std::fs;
+use std::path::Path;
+
+use closet::avatars::Avatar;
+use closet::garments;
+use closet::rigs::{Body, Character, Naming, character, y_up};
+use engine::{passes, project};
+use glam::{DAffine3, DQuat, DVec3};
+use testing::glb::{Part, glb};
+use testing::process::root;
+
+/// The mannequin, whose joints have the names of Unreal.
+fn source() -> Character {
+    character(&Body::Mannequin.model(), Naming::Unreal).placed(y_up())
+}
+
+/// Its vest.
+fn vest() -> Character {
+    let mut mesh = garments::vest(2.5).mesh;
+    mesh.positions.iter_mut().for_each(|p| *p = y_up().transform_point3(*p));
+    source().wears(&mesh)
+}
+
+/// The slim body, whose joints have the names of Mixamo, in another place and facing another way.
+fn avatar() -> Character {
+    let turn = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
+    let frame = DAffine3::from_rotation_translation(turn, DVec3::new(0.3, 0.0, -0.2));
+    character(&Body::Avatar(Avatar::Slim).model(), Naming::Mixamo).placed(y_up()).placed(frame)
+}
+
+/// The characters as files.
+fn write_characters(folder: &Path) {
+    let write =
+        |name: &str, parts: &[Part]| fs::write(folder.join(name), glb(parts)).expect("the folder can be written");
+    write(
+        "outfit.glb",
+        &[
+            Part { node: "Mannequin_Body", material: "Skin", mesh: &source() },
+            Part { node: "Mannequin_Vest", material: "Wool", mesh: &vest() },
+        ],
+    );
+    write("avatar.glb", &[Part { node: "Body", material: "Body", mesh: &avatar() }]);
+}
+
+/// A test for each file.
+macro_rules! files {
+    ($($name:ident)*) => {
+        const FILES: &[&str] = &[$(stringify!($name)),*, "test_scenes"];
+        $(
+            #[test]
+            fn $name() {
+                let Some(project) = project(stringify!($name)) else { return };
+                write_characters(&project.data());
+                passes(&project, stringify!($name));
+            }
+        )*
+    };
+}
+
+files! { test_inputs test_running }
+
+#[test]
+fn same_bits_as_in_c() {
+    let Some(project) = project("test_scenes") else { return };
+    write_characters(&project.data());
+    passes(&project, "test_scenes");
+    bits::compare(&project.data());
+}
+
+#[test]
+fn every_file_is_run() {
+    let files = fs::read_dir(root().join("tests/godot/project")).expect("the folder");
+    let mut found: Vec<_> = files
+        .filter_map(|entry| entry.expect("an entry").file_name().into_string().ok())
+        .filter_map(|name| name.strip_suffix(".gd").map(str::to_string))
+        .filter(|name| name.starts_with("test_"))
+        .collect();
+    let mut run_here = FILES.to_vec();
+    found.sort_unstable();
+    run_here.sort_unstable();
+    assert_eq!(found, run_here);
+}
