@@ -27,7 +27,7 @@ LIMIT = 240.0
 
 def view() -> tuple[bpy.types.Area, bpy.types.Region]:
     """The 3D viewport."""
-    area = max((a for a in bpy.context.window.screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width)
+    area = max((a for a in bpy.context.window_manager.windows[0].screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width)
     return area, next(region for region in area.regions if region.type == "WINDOW")
 
 
@@ -147,6 +147,34 @@ def steps() -> Iterator[float]:
         bpy.ops.bespoke.help("INVOKE_DEFAULT", anchor=anchor, message=about.message if about else "")
     yield 1.0
     yield from picture("help")
+    press("ESC")
+
+    # All that is folded up at first, which Blender remembers by its name.
+    panel = sys.modules[operator.__package__].panel
+    for each in (panel.BESPOKE_PT_joints, panel.BESPOKE_PT_more, panel.BESPOKE_PT_expert):
+        bpy.utils.unregister_class(each)
+        each.bl_options = set()
+        each.bl_idname += "_open"
+    panel.BESPOKE_PT_expert.bl_parent_id += "_open"
+    for each in (panel.BESPOKE_PT_joints, panel.BESPOKE_PT_more, panel.BESPOKE_PT_expert):
+        bpy.utils.register_class(each)
+    yield from picture("unfolded")
+    bpy.ops.screen.userpref_show("INVOKE_DEFAULT")
+    bpy.context.preferences.active_section = "ADDONS"
+    bpy.context.window_manager.addon_search = "Bespoke"
+    bpy.ops.preferences.addon_expand(module=operator.__package__)
+    yield from picture("preferences")
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[1]):
+        bpy.ops.wm.window_close()
+    yield 0.5
+
+    dress()
+    yield from until("progress", lambda: operator.running().progress()[0] > 0.1)
+    run = operator.running()
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    yield from until("an end with another file", lambda: operator.running() is None and run.is_over)
+    assert len(run.outcomes) == 0
+    print("another file stopped it", flush=True)
 
 
 def main() -> float | None:

@@ -54,14 +54,16 @@ class BespokeMesh(bpy.types.PropertyGroup):
 
 
 def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any, garments: Any) -> None:
-    """Where nothing is chosen yet, all meshes on an armature are its body."""
+    """Where nothing is chosen yet, all meshes that an armature bends, and that can be seen, are its body. What only hangs on a
+    bone may be a prop."""
     if armature is None or any(item.object for item in bodies):
         return
     bodies.clear()
     worn = {item.object for item in garments}
     for thing in scene.objects:
-        is_result = "bespoke_garment" in thing
-        if thing.type == "MESH" and thing not in worn and not is_result and armature_of(thing) == armature:
+        if thing.type != "MESH" or thing in worn or "bespoke_garment" in thing or not thing.visible_get():
+            continue
+        if armature_of(thing) == armature and thing.parent_type != "BONE":
             bodies.add().object = thing
 
 

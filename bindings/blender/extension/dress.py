@@ -31,16 +31,16 @@ def finish(context: bpy.types.Context, given: inputs.Inputs, run: work.Run) -> l
     """
     if run.defect is not None:
         raise run.defect
-    _check(given)
+    results.check(given)
     if context.object is not None and context.object.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     made: list[bpy.types.Object | None] = [None] * len(run.outcomes)
     for index, outcome in enumerate(run.outcomes):
         if outcome.vertices is None:
             continue
-        if not context.scene.bespoke.keep_results:
-            results.remove_earlier(context.scene, given.garments[index].object.name, given.target.name)
         made[index] = results.write(context, given, index, outcome)
+        if not context.scene.bespoke.keep_results:
+            results.remove_earlier(context.scene, made[index])
     findings.tell(context.scene, given, run.outcomes, made)
     objects = [thing for thing in made if thing is not None]
     if objects:
@@ -50,18 +50,6 @@ def finish(context: bpy.types.Context, given: inputs.Inputs, run: work.Run) -> l
             thing.select_set(True)
         context.view_layer.objects.active = objects[-1]
     return objects
-
-
-def _check(given: inputs.Inputs) -> None:
-    """Whether all objects are still there: a file may be closed and things deleted meanwhile."""
-    try:
-        meshes = [*given.garments, *given.source_bodies, *given.target_bodies]
-        for thing in [given.source, given.target, *(mesh.object for mesh in meshes)]:
-            thing.name  # noqa: B018
-    except ReferenceError:
-        raise SceneError(
-            "something that takes part was deleted or undone while it was fitted; dress it again"
-        ) from None
 
 
 class BESPOKE_OT_dress(bpy.types.Operator):

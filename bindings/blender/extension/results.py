@@ -11,18 +11,30 @@ from .inputs import Inputs, cloth, garment_mesh
 from .meshes import Array, SceneError
 
 
-def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> bpy.types.Object:
-    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature.
+def check(inputs: Inputs) -> None:
+    """Errors: SceneError, where something that takes part has gone, or a garment has changed, since they were read."""
+    try:
+        found = [*inputs.garments, *inputs.source_bodies, *inputs.target_bodies]
+        for thing in [inputs.source, inputs.target, *(mesh.object for mesh in found)]:
+            _ = thing.name
+    except ReferenceError:
+        raise SceneError(
+            "something that takes part was deleted or undone while it was fitted; dress it again"
+        ) from None
+    things = [mesh.object for mesh in inputs.garments]
+    with meshes.as_modelled(things) as depsgraph:
+        for thing, garment in zip(things, inputs.task.garments, strict=True):
+            with garment_mesh(thing, depsgraph) as now:
+                if not now.polygons or not np.array_equal(cloth(now, thing, inputs.source)[1], garment.vertices):
+                    raise SceneError(f"{thing.name}: it was changed while it was fitted; dress it again")
 
-    Errors: SceneError, where the garment has changed since it was read.
-    """
+
+def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> bpy.types.Object:
+    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature. `check`
+    was called before."""
     thing = inputs.garments[index].object
-    garment = inputs.task.garments[index]
     with meshes.as_modelled([thing]) as depsgraph:
         with garment_mesh(thing, depsgraph) as now:
-            _, vertices = cloth(now, thing, inputs.source)
-            if not np.array_equal(vertices, garment.vertices):
-                raise SceneError(f"{thing.name}: it was changed while it was fitted; dress it again")
             # With shape keys these come along; else with the modifiers applied.
             mesh = (thing.data if meshes.has_morphs(thing) else now).copy()
     mesh.name = thing.data.name
@@ -42,19 +54,25 @@ def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.
         names += _add_bones(context, inputs, outcome)
     _bind(result, inputs, outcome, names)
     result["bespoke_garment"], result["bespoke_avatar"] = thing.name, inputs.target.name
-    result.name = f"{thing.name} on {inputs.target.name}"
+    result.name = _name(thing.name, inputs.target.name)
     _place(context, result, inputs.target)
     return result
 
 
-def remove_earlier(scene: bpy.types.Scene, garment: str, target: str) -> None:
-    """Takes earlier results of the same garment on the same character away."""
-    for old in [thing for thing in scene.objects if thing.get("bespoke_garment") == garment]:
-        if old.get("bespoke_avatar") == target:
+def remove_earlier(scene: bpy.types.Scene, result: bpy.types.Object) -> None:
+    """Takes earlier results of the same garment on the same character away, and their name."""
+    mark = result["bespoke_garment"], result["bespoke_avatar"]
+    for old in [thing for thing in scene.objects if thing != result]:
+        if (old.get("bespoke_garment"), old.get("bespoke_avatar")) == mark:
             mesh = old.data
             bpy.data.objects.remove(old)
             if mesh.users == 0:
                 bpy.data.meshes.remove(mesh)
+    result.name = _name(*mark)
+
+
+def _name(garment: str, avatar: str) -> str:
+    return f"{garment} on {avatar}"
 
 
 def _set_shapes(mesh: bpy.types.Mesh, outcome: work.Outcome) -> None:
