@@ -15,7 +15,7 @@ def _corners(things: Sequence[bpy.types.Object]) -> list[mathutils.Vector]:
 
 def _shade(thing: bpy.types.Object) -> None:
     for slot in thing.material_slots:
-        if slot.material is None or slot.material.use_nodes:
+        if slot.material is None or slot.material.node_tree is not None:
             continue
         colour = slot.material.diffuse_color[:]
         slot.material.use_nodes = True
@@ -39,22 +39,25 @@ def draw(
     low = mathutils.Vector([min(c[k] for c in corners) for k in range(3)])
     high = mathutils.Vector([max(c[k] for c in corners) for k in range(3)])
     middle, size = (low + high) / 2, high - low
-    width = math.hypot(size.x, size.y) * 0.95
+    across = 0.0
     for k, turn in enumerate(turns):
         empty = bpy.data.objects.new(f"turn {k}", None)
         empty.instance_type, empty.instance_collection = "COLLECTION", collection
         rotation = mathutils.Matrix.Rotation(math.radians(turn), 4, "Z")
-        place = mathutils.Matrix.Translation(((k - (len(turns) - 1) / 2) * width, 0.0, -low.z))
+        sides = [(rotation @ (corner - middle)).x for corner in corners]
+        across += 0.04 * size.z - min(sides)
+        place = mathutils.Matrix.Translation((across, 0.0, -low.z))
+        across += max(sides)
         empty.matrix_world = place @ rotation @ mathutils.Matrix.Translation((-middle.x, -middle.y, 0.0))
         scene.collection.objects.link(empty)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     scene.collection.objects.link(camera)
     camera.data.type = "ORTHO"
-    across, up = width * len(turns), size.z * 1.08
+    across, up = across + 0.04 * size.z, size.z * 1.08
     camera.data.ortho_scale = max(across, up)
-    camera.location, camera.rotation_euler = (0.0, -20.0, size.z / 2), (math.pi / 2, 0.0, 0.0)
+    camera.location, camera.rotation_euler = (across / 2, -20.0, size.z / 2), (math.pi / 2, 0.0, 0.0)
     scene.camera = camera
-    for energy, angles in ((3.0, (50, 0, 30)), (1.2, (60, 0, -60))):
+    for energy, angles in ((2.4, (50, 0, 30)), (0.9, (60, 0, -60))):
         sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
         sun.data.energy, sun.data.angle = energy, 0.3
         sun.rotation_euler = [math.radians(angle) for angle in angles]
@@ -62,7 +65,7 @@ def draw(
     scene.world = bpy.data.worlds.new("picture")
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.85, 0.87, 0.9, 1.0)
-    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.55
+    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.max_bounces = 24, False, 3
     scene.view_settings.view_transform = "Standard"

@@ -27,7 +27,9 @@ LIMIT = 240.0
 
 def view() -> tuple[bpy.types.Area, bpy.types.Region]:
     """The 3D viewport."""
-    area = max((a for a in bpy.context.window_manager.windows[0].screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width)
+    area = max(
+        (a for a in bpy.context.window_manager.windows[0].screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width
+    )
     return area, next(region for region in area.regions if region.type == "WINDOW")
 
 
@@ -76,8 +78,8 @@ def steps() -> Iterator[float]:
     characters.fill()
     bpy.context.preferences.view.show_splash = False
     characters.choose()
-    bpy.data.objects["mannequin rig"].location.x = -0.75
-    bpy.data.objects["heavy rig"].location.x = 0.75
+    bpy.data.objects["mannequin rig"].location.x = -1.25
+    bpy.data.objects["heavy rig"].location.x = 0.1
     bpy.ops.bespoke.map_joints()
     area, region = view()
     space = area.spaces.active
@@ -94,6 +96,9 @@ def steps() -> Iterator[float]:
     with bpy.context.temp_override(area=area, region=region):
         bpy.ops.view3d.view_axis(type="FRONT")
         bpy.ops.view3d.view_all()
+    # Beside the sidebar, and not under it.
+    space.region_3d.view_location.x += 0.5
+    space.region_3d.view_location.z -= 0.3
     yield 1.0
     yield from picture("panel")
 

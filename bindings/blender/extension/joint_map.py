@@ -46,19 +46,12 @@ class BESPOKE_UL_joints(bpy.types.UIList):
     )
 
     def draw_item(
-        self, context: Any, layout: Any, _data: Any, item: Any, _icon: int, _active: Any, _property: str, _index: int
+        self, _context: Any, layout: Any, _data: Any, item: Any, _icon: int, _active: Any, _property: str, _index: int
     ) -> None:
         """A row."""
-        split = layout.split(factor=0.42, align=True)
+        split = layout.split(factor=0.5, align=True)
         split.label(text=item.name, icon="BONE_DATA")
-        row = split.row(align=True)
-        target = context.scene.bespoke.target
-        if target is not None:
-            row.prop_search(item, "target", target.data, "bones", text="")
-        if item.is_mended:
-            row.prop(item, "is_mended", text="", icon="PINNED")
-        else:
-            row.label(text="", icon="BLANK1" if not is_unsure(item) else "QUESTION")
+        split.label(text=item.target or "nothing", icon=_icon_of(item))
 
     def draw_filter(self, _context: Any, layout: Any) -> None:
         """The line below the list."""
@@ -76,6 +69,12 @@ class BESPOKE_UL_joints(bpy.types.UIList):
         if self.only_unsure:
             flags = [flag if is_unsure(item) else 0 for flag, item in zip(flags, items)]
         return flags, []
+
+
+def _icon_of(item: Any) -> str:
+    if item.is_mended:
+        return "PINNED"
+    return "QUESTION" if is_unsure(item) else "BLANK1"
 
 
 def is_unsure(item: Any) -> bool:

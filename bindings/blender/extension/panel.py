@@ -102,6 +102,10 @@ class BESPOKE_PT_joints(_Panel, bpy.types.Panel):
         if 0 <= settings.joint_index < len(settings.joints):
             joint = settings.joints[settings.joint_index]
             column = layout.column(align=True)
+            if settings.target is not None:
+                row = column.row(align=True)
+                row.prop_search(joint, "target", settings.target.data, "bones", text="")
+                row.prop(joint, "is_mended", text="", icon="PINNED" if joint.is_mended else "UNPINNED")
             if joint.part:
                 column.label(text=joint.part.capitalize())
             column.label(text=f"{joint.reason} (confidence {joint.confidence:.0%})")

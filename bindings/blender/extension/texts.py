@@ -66,7 +66,7 @@ def described(kind: type[enum.IntEnum]) -> list[tuple[str, str, str, int]]:
 
 def label(name: str) -> str:
     """`NEAR_CONTACT` or `fit_distance` as a person reads it."""
-    return name.replace("_", " ").capitalize()
+    return name.replace("_", " ").title()
 
 
 def description(comment: str) -> str:
