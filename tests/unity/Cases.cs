@@ -18,6 +18,7 @@ internal static class Cases
             { "influences", (characters, root) => Parts.Weights() },
             { "pairs", (characters, root) => Parts.Pairs() },
             { "transforms", (characters, root) => Parts.Transforms() },
+            { "package_tests", (characters, root) => Words.OfThePackage() },
             { "dials", (characters, root) => Words.Dials(root) },
             { "stages", (characters, root) => Words.AllStages() },
             { "troubleshooting", (characters, root) => Words.Sections(root) },

@@ -56,6 +56,18 @@ internal static class Words
         }
     }
 
+    // What Unity's own runner would run, all of it.
+    public static void OfThePackage()
+    {
+        var tests = typeof(Bespoke.Unity.Tests.PackageTests).GetMethods()
+            .Where(method => method.IsDefined(typeof(NUnit.Framework.TestAttribute), false)).ToArray();
+        Check.Same(tests.Length, 2, "tests");
+        foreach (var test in tests)
+        {
+            test.Invoke(new Bespoke.Unity.Tests.PackageTests(), null);
+        }
+    }
+
     // Every status leads to a section of the page.
     public static void Sections(string root)
     {

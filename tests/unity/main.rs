@@ -33,8 +33,23 @@ fn compile() -> PathBuf {
     library("Bespoke.dll", &["-target:library", "-unsafe"], &[], &["bindings/csharp/Bespoke/*.cs"]);
     let documented = format!("-doc:{}", folder.join("core.xml").display());
     library(core, &["-target:library", &documented], &["Bespoke.dll"], &["bindings/unity/Runtime/Core/*.cs"]);
-    let cases = ["tests/unity/*.cs", "tests/csharp/Check.cs"];
+    let package_tests = "bindings/unity/Tests/Runtime/*.cs";
+    let cases = ["tests/unity/*.cs", "tests/unity/stubs/NUnit.cs", package_tests, "tests/csharp/Check.cs"];
     library("Cases.exe", &[], &["Bespoke.dll", core], &cases);
+    // The rest is compiled against stubs, which says that it is C# and fits together, and nothing about the engine.
+    let is_library = &["-target:library"];
+    library("UnityEngine.dll", is_library, &[], &["tests/unity/stubs/UnityEngine.cs"]);
+    library("UnityEditor.dll", is_library, &["UnityEngine.dll"], &["tests/unity/stubs/UnityEditor.cs"]);
+    library("nunit.framework.dll", is_library, &[], &["tests/unity/stubs/NUnit.cs"]);
+    let engine = ["Bespoke.dll", core, "UnityEngine.dll"];
+    let documented = format!("-doc:{}", folder.join("engine.xml").display());
+    library("Bespoke.Unity.dll", &["-target:library", &documented], &engine, &["bindings/unity/Runtime/Engine/*.cs"]);
+    let engine = [&engine[..], &["Bespoke.Unity.dll"]].concat();
+    let editor = [&engine[..], &["UnityEditor.dll"]].concat();
+    library("Bespoke.Unity.Editor.dll", is_library, &editor, &["bindings/unity/Editor/*.cs"]);
+    library("Sample.dll", is_library, &engine, &["bindings/unity/Samples~/DressFromScript/*.cs"]);
+    let tests = [&engine[..], &["nunit.framework.dll"]].concat();
+    library("Bespoke.Unity.Tests.dll", is_library, &tests, &[package_tests]);
     folder
 }
 
@@ -61,7 +76,7 @@ macro_rules! cases {
 
 cases! {
     dressed_as_in_rust stopped refused_and_over_it joint_map
-    figures impossible_figures influences pairs transforms dials stages troubleshooting
+    figures impossible_figures influences package_tests pairs transforms dials stages troubleshooting
 }
 
 #[test]

@@ -92,12 +92,17 @@ fn every_asset_has_its_meta_file_and_nothing_else_does() {
         "Runtime/Binding/Bespoke.asmdef",
         "Runtime/Binding/Session.cs",
         "Runtime/Core/Bespoke.Unity.Core.asmdef",
+        "Runtime/Engine/Bespoke.Unity.asmdef",
+        "Editor/BespokeWindow.cs",
+        "Tests/Runtime/Bespoke.Unity.Tests.asmdef",
         "Runtime/Plugins/Linux/x86_64/libbespoke.so",
         "Runtime/Plugins/Windows/x86_64/bespoke.dll",
     ] {
         assert!(guids.contains_key(path), "{path} is not in the package");
     }
-    for path in ["Documentation~/troubleshooting.md", "Licences~/README.md"] {
+    for path in
+        ["Documentation~/troubleshooting.md", "Samples~/DressFromScript/DressFromScript.cs", "Licences~/README.md"]
+    {
         assert!(package.join(path).is_file(), "{path} is not in the package");
     }
     // They stay with the path, whatever else is in the package: without the one library, all others are the same.
@@ -108,6 +113,48 @@ fn every_asset_has_its_meta_file_and_nothing_else_does() {
     assert!(again.iter().all(|(path, guid)| guids[path] == *guid), "a GUID has changed");
     // What projects refer to is not to change from version to version.
     assert_eq!(guids["Runtime/Core/Dials.cs"], "2d76f01f6eed9c1ed8efcd5f7bd6ec91");
+}
+
+/// What a tooltip says is what the header says, in the words of a window.
+#[test]
+fn tooltips_are_those_of_the_header() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).expect("a file of the repository");
+    let described: serde_json::Value = serde_json::from_str(&read("bindings/bespoke.json")).expect("JSON");
+    let texts = read("bindings/unity/Runtime/Core/DialTexts.cs");
+    let constants = texts.split("public const string ").skip(1).map(|rest| rest.split_once(" =").expect("a constant"));
+    let mut count = 0;
+    for (dial, rest) in constants {
+        let value = rest.split(";\n").next().expect("its end");
+        // Every other piece between quotation marks is one of the text.
+        let said: String = value.split('"').skip(1).step_by(2).collect();
+        let option = match dial {
+            "Fit" => "fit_weight",
+            "Looseness" => "designed_clearance",
+            "Offset" => "offset",
+            "FitDistance" => "fit_distance",
+            "WeldDistance" => "weld_distance",
+            "KeepCaps" => "keep_caps",
+            "Strict" => "strict",
+            "Threads" => "threads",
+            other => panic!("{other} is no dial"),
+        };
+        let options = described["options"].as_array().expect("options");
+        let found = options.iter().find(|known| known["name"] == option).expect("an option");
+        let mut doc = found["doc"].as_str().expect("a text").to_string();
+        for (of_c, of_window) in [
+            ("BESPOKE_WEIGHT_OFF", "0"),
+            ("bespoke_session_read_diagnostics", "the findings"),
+            ("BespokeReport.threads", "The report"),
+            ("1: a garment", "On: a garment"),
+            ("1: triangles", "On: triangles"),
+            ("Default 0: ", "Default off: "),
+        ] {
+            doc = doc.replace(of_c, of_window);
+        }
+        assert_eq!(said, doc, "{dial}");
+        count += 1;
+    }
+    assert_eq!(count, 8);
 }
 
 #[test]
