@@ -20,6 +20,7 @@ pub mod error;
 pub mod follow;
 pub mod geometry;
 pub mod input;
+pub mod maths;
 pub mod memory;
 pub mod options;
 mod panics;

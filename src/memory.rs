@@ -1,6 +1,7 @@
 //! Memory of a session: estimated from sizes before it is allocated, counted while it is held, and limited.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::maths;
 
 /// Bytes of a vector's capacity.
 pub(crate) fn bytes<T>(v: &Vec<T>) -> u64 {
@@ -102,7 +103,7 @@ impl Sizes {
     /// vertices: from half of the estimate (loose) to a sixth more (tight everywhere).
     pub fn estimate(self) -> [Part; 4] {
         let n = self.garment_vertices as f64;
-        let factor = 8.0 * FACTOR_SCALARS * n * (n + 2.0).log2();
+        let factor = 8.0 * FACTOR_SCALARS * n * maths::log2(n + 2.0);
         [
             Part { name: "the linear system of the garment", bytes: (factor + MATRIX_BYTES * n) as u64 },
             Part { name: "contacts of the garment", bytes: (CONTACT_BYTES * n) as u64 },

@@ -66,7 +66,7 @@ pub fn bends(pair_type: PairType, x: &[DVec3; 4], separation: &Separation) -> [O
         }
         a.iter_mut().zip(separation.weights).for_each(|(a, w)| *a += w * dual);
         // |M_k|^2 is 2.
-        let l = (0.5 * a.iter().map(|a| a.length_squared()).sum::<f64>()).powf(0.25);
+        let l = (0.5 * a.iter().map(|a| a.length_squared()).sum::<f64>()).sqrt().sqrt();
         let part = a.map(|a| a / l);
         if !part.iter().all(|a| a.is_finite()) {
             return None;

@@ -23,6 +23,7 @@ use rayon::prelude::*;
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
 use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, curvature, mollifier};
+use crate::maths;
 
 /// Candidates in one task.
 const CHUNK: usize = 2048;
@@ -239,7 +240,7 @@ impl Barrier {
             _ => (0.0, 0.0),
         };
         let big_dhat = dhat * dhat - min_separation;
-        let (q, ln) = ((big_d - big_dhat) / big_d, (big_d / big_dhat).ln());
+        let (q, ln) = ((big_d - big_dhat) / big_d, maths::ln(big_d / big_dhat));
         let slope = 2.0 * (ln + q + (big_d - big_dhat) / big_dhat);
         let by_s = 2.0 * d * self.settings.weight(group) * slope * 2.0 * dhat * dhat * by_dhat;
         (by_s + g * (rates.weight + own)) / h
@@ -365,7 +366,7 @@ impl Activity {
 /// b, db/dD and d2b/dD2 for `0 < big_d < dhat`, both squared and less the squared minimum separation.
 #[inline]
 fn barrier(big_d: f64, dhat: f64) -> [f64; 3] {
-    let (e, ln) = (big_d - dhat, (big_d / dhat).ln());
+    let (e, ln) = (big_d - dhat, maths::ln(big_d / dhat));
     let q = e / big_d;
     [-e * e * ln, -e * (2.0 * ln + q), q * q - 4.0 * q - 2.0 * ln]
 }

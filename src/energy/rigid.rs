@@ -15,10 +15,11 @@
 
 use std::ops::Range;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::triangle_frame::{BoundVertex, least_squares};
 use super::{Configuration, Energy, Row, Sink};
+use crate::geometry::turn;
 use crate::memory::bytes;
 
 /// A group whose third anchor is nearer than this share of its length to the line of the first two is collinear.
@@ -131,7 +132,7 @@ impl Group {
         match (self.anchors.len() > 2).then(|| arm(2).reject_from_normalized(first)).and_then(DVec3::try_normalize) {
             Some(second) => DMat3::from_cols(first, second, first.cross(second)),
             // About a line any rotation will do: the smallest from the rest direction.
-            None => DMat3::from_quat(DQuat::from_rotation_arc(self.line(), first)),
+            None => DMat3::from_quat(turn::arc(self.line(), first)),
         }
     }
 

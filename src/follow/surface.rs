@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::triangle_motion::TriangleMotion;
+use crate::maths;
 
 /// A surface in two states.
 pub struct MovedSurface {
@@ -59,5 +60,5 @@ impl MovedSurface {
 fn angle(points: &[DVec3], triangle: &[u32; 3], corner: usize) -> f64 {
     let [at, next, last] = [0, 1, 2].map(|k| points[triangle[(corner + k) % 3] as usize]);
     let (a, b) = (next - at, last - at);
-    a.cross(b).length().atan2(a.dot(b))
+    maths::atan2(a.cross(b).length(), a.dot(b))
 }

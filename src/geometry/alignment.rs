@@ -6,6 +6,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::geometry::turn;
+
 /// Rounds of the search for the rotation, at most; a few suffice where points hardly turn.
 const MAX_ROUNDS: usize = 100;
 /// A turn below this, in radians, ends it.
@@ -68,7 +70,7 @@ fn rotation_of(a: &DMat3) -> DQuat {
         if turn.length() <= SMALL_TURN || turn.is_nan() {
             break;
         }
-        rotation = (DQuat::from_scaled_axis(turn) * rotation).normalize();
+        rotation = (turn::about(turn) * rotation).normalize();
     }
     rotation
 }

@@ -7,6 +7,8 @@ use glam::DVec3;
 
 use super::closest_point::ClosestPoint;
 
+use crate::maths;
+
 /// Directions in which a point looks.
 pub const DIRECTIONS: usize = 64;
 
@@ -19,7 +21,7 @@ pub fn cover(surface: &ClosestPoint, p: DVec3) -> f64 {
 pub fn direction(k: usize, count: usize) -> DVec3 {
     let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let z = 1.0 - (2 * k + 1) as f64 / count as f64;
-    let (sin, cos) = (golden_angle * k as f64).sin_cos();
+    let (sin, cos) = maths::sin_cos(golden_angle * k as f64);
     let radius = (1.0 - z * z).sqrt();
     DVec3::new(radius * cos, radius * sin, z)
 }

@@ -19,3 +19,4 @@ pub mod sliver_caps;
 pub mod solid_angle;
 pub mod spread;
 pub mod triangle_motion;
+pub mod turn;

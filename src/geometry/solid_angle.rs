@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
+use crate::maths;
+
 /// The solid angle, in steradians, under which `p` sees a triangle with these corners: positive where it sees the back
 /// (Van Oosterom and Strackee 1983).
 pub fn solid_angle(p: DVec3, corners: [DVec3; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - p);
     let [la, lb, lc] = [a, b, c].map(DVec3::length);
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * a.dot(b.cross(c)).atan2(below)
+    2.0 * maths::atan2(a.dot(b.cross(c)), below)
 }

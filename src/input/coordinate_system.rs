@@ -6,6 +6,7 @@
 use glam::{DAffine3, DVec3};
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::maths;
 
 /// A direction along one of the caller's coordinate axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -270,7 +271,7 @@ impl AxisTurn {
     /// The angle of a rotation, from 0 to 180 degrees.
     pub fn degrees(&self) -> f64 {
         let trace: f64 = self.rows.iter().enumerate().filter(|(r, row)| *r == row.0).map(|(_, row)| row.1).sum();
-        (0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos().to_degrees().round()
+        maths::acos((0.5 * (trace - 1.0)).clamp(-1.0, 1.0)).to_degrees().round()
     }
 
     /// The axis of a rotation, in whole numbers; its sense is that of the right hand in right-handed coordinates.

@@ -4,6 +4,8 @@ use super::coordinate_system::{AxisTurn, CoordinateSystem};
 use super::diagnostic::{AvatarPart, Bone, Element, Subject};
 use super::placement::size::RATIOS;
 
+use crate::maths;
+
 /// The place of a bone with these joints; none is between bones that form a cycle.
 pub fn at_bone(joints: Option<[u32; 2]>) -> String {
     match joints {
@@ -56,7 +58,7 @@ pub(super) fn quoted(name: &str) -> String {
 
 /// A number with four digits and no zeros at its end: "39.37", "100", "0.01".
 pub(super) fn short(number: f64) -> String {
-    let places = (3 - number.abs().log10().floor() as i32).max(0) as usize;
+    let places = (3 - maths::log10(number.abs()).floor() as i32).max(0) as usize;
     let text = format!("{number:.places$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
@@ -64,7 +66,7 @@ pub(super) fn short(number: f64) -> String {
 /// A place with four digits in its largest coordinate: "(0.25, -1.75, 0)".
 pub(super) fn point(place: [f64; 3]) -> String {
     let largest = place.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let places = if largest > 0.0 { (3 - largest.log10().floor() as i32).clamp(0, 12) as usize } else { 0 };
+    let places = if largest > 0.0 { (3 - maths::log10(largest).floor() as i32).clamp(0, 12) as usize } else { 0 };
     let [x, y, z] = place.map(|x| {
         let text = format!("{x:.places$}");
         let short = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -17,6 +17,7 @@ use super::body_part::Side;
 use super::landmark::Landmark;
 use super::places::{Character, index};
 use super::reading::Reading;
+use crate::geometry::turn;
 use crate::input::skin::SkinWeights;
 
 /// A limb that points elsewhere by less than this many degrees stays as it is; the inflation takes it along.
@@ -96,12 +97,12 @@ impl Posing {
                 continue;
             };
             let want = (into_own * want).normalize_or(have);
-            posing.difference = posing.difference.max(have.angle_between(want));
+            posing.difference = posing.difference.max(turn::angle_between(have, want));
             let carried = before * have;
-            if carried.angle_between(want).to_degrees() < HARMLESS {
+            if turn::angle_between(carried, want).to_degrees() < HARMLESS {
                 continue;
             }
-            let turned = DQuat::from_rotation_arc(carried, want) * before;
+            let turned = turn::arc(carried, want) * before;
             whole[index(from)] = turned;
             posing.turns[joint as usize] = (before.inverse() * turned).normalize();
         }
@@ -120,7 +121,7 @@ impl Posing {
 
     /// The largest angle by which a joint turns.
     pub fn largest_turn(&self) -> f64 {
-        self.turns.iter().map(|turn| turn.to_axis_angle().1.abs()).fold(0.0, f64::max)
+        self.turns.iter().map(|&turn| turn::angle(turn)).fold(0.0, f64::max)
     }
 
     /// The motion of each joint at `share` of the way: 0 is the bind pose, 1 the other's.
@@ -129,7 +130,7 @@ impl Posing {
         for &joint in &self.order {
             let j = joint as usize;
             let above = self.parents[j].map_or(DAffine3::IDENTITY, |parent| motions[parent as usize]);
-            let turn = DQuat::IDENTITY.slerp(self.turns[j], share);
+            let turn = turn::between(DQuat::IDENTITY, self.turns[j], share);
             let place = self.places[j];
             let own = DAffine3::from_rotation_translation(turn, place - turn * place);
             motions[j] = above * own;

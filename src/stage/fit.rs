@@ -13,6 +13,7 @@
 
 use crate::energy::barrier::BarrierPathRates;
 use crate::error::Result;
+use crate::maths;
 use crate::options::Options;
 use crate::solver::newton::{Newton, State};
 
@@ -66,13 +67,13 @@ impl Path {
 
     /// Sets the barrier of `objective` at `s`.
     fn set(&self, s: f64, objective: &mut Objective, state: &State) {
-        let between = |[from, to]: [f64; 2]| if s == 1.0 { to } else { from * (to / from).powf(s) };
+        let between = |[from, to]: [f64; 2]| if s == 1.0 { to } else { from * maths::powf(to / from, s) };
         objective.set_contact(between(self.dhat), between(self.weight));
         objective.contact.rebuild_candidates(state.configuration());
     }
 
     fn rates(&self) -> BarrierPathRates {
-        let rate = |[from, to]: [f64; 2]| (to / from).ln();
+        let rate = |[from, to]: [f64; 2]| maths::ln(to / from);
         BarrierPathRates { dhat_avatar: rate(self.dhat), weight: rate(self.weight) }
     }
 }

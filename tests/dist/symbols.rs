@@ -60,3 +60,26 @@ fn nothing_of_the_host_is_asked_for() {
     }
     assert!(listed.contains("malloc@GLIBC_"), "malloc is not in the list: {listed}");
 }
+
+/// Their last bits differ between systems, and a result must not depend on them: the sources have their own
+/// (`src/maths.rs`), and OpenVDB and the crates beneath ask for none in what is linked. What is exact everywhere, such as
+/// `floor`, is left out.
+#[test]
+fn no_elementary_function_of_the_system_is_asked_for() {
+    let functions: Vec<&str> =
+        "acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp10 exp2 expm1 hypot \
+        lgamma log log10 log1p log2 pow sin sincos sinh tan tanh tgamma fma"
+            .split_whitespace()
+            .collect();
+    for (name, library) in libraries() {
+        let listed =
+            succeed(Command::new("nm").args(["--dynamic", "--undefined-only", "--format=posix"]).arg(&library));
+        let mut count = 0;
+        for symbol in listed.lines().filter_map(|line| line.split([' ', '@']).next()) {
+            count += 1;
+            let plain = symbol.strip_suffix(['f', 'l']).filter(|plain| functions.contains(plain)).unwrap_or(symbol);
+            assert!(!functions.contains(&plain), "the {name} library asks the system for {symbol}");
+        }
+        assert!(count > 20, "only {count} symbols were listed of the {name} library");
+    }
+}

@@ -14,6 +14,7 @@ use crate::geometry::mesh::{TriangleMesh, triangle_area};
 use crate::input::coordinate_system::AxisTurn;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
+use crate::maths;
 
 /// From here on in size the comparison says something.
 pub const LIKELY: f64 = 0.2;
@@ -64,8 +65,8 @@ fn third_direction(joints: &[DVec3], sideways: DVec3) -> DVec3 {
         (ee, ef, ff) = (ee + x * x, ef + x * y, ff + y * y);
     }
     // The direction of largest spread in the plane, turned by a right angle.
-    let angle = 0.5 * (2.0 * ef).atan2(ee - ff);
-    f * angle.cos() - e * angle.sin()
+    let angle = 0.5 * maths::atan2(2.0 * ef, ee - ff);
+    f * maths::cos(angle) - e * maths::sin(angle)
 }
 
 /// The mesh in the space in which its skeleton is normalised.

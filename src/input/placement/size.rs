@@ -12,6 +12,7 @@ use crate::geometry::spread::spread;
 use crate::input::coordinate_system::AxisTurn;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
+use crate::maths;
 
 /// Ratios of units: of foot, inch, decimetre, centimetre and millimetre among themselves and to the metre.
 pub const RATIOS: [f64; 9] = [2.54, 3.280_84, 10.0, 12.0, 25.4, 30.48, 39.370_1, 100.0, 1000.0];
@@ -179,7 +180,7 @@ impl Surroundings {
     /// The logarithm of what is bad about a reading.
     fn cost(&self, factor: f64, turn: AxisTurn) -> f64 {
         let distance = self.distance(factor, turn);
-        let beyond = |ratio: f64, [low, high]: [f64; 2]| (ratio / high).ln().max((low / ratio).ln()).max(0.0);
+        let beyond = |ratio: f64, [low, high]: [f64; 2]| maths::ln(ratio / high).max(maths::ln(low / ratio)).max(0.0);
         let unlikely = match self.expected {
             Expected::Body => beyond(factor * self.extents[0] / self.extents[1], BODY_EXTENTS),
             Expected::Garment(thickness) => {
@@ -188,7 +189,7 @@ impl Surroundings {
                 LOOSE * rule + most
             }
         };
-        (distance / (factor * self.radius)).ln() + unlikely
+        maths::ln(distance / (factor * self.radius)) + unlikely
     }
 
     /// The reading that suits the bones best: as it is where no other is better.
@@ -211,7 +212,7 @@ impl Surroundings {
             }
         }
         let (cost, ratio, turn) = best;
-        if now - cost < TOLD.ln() {
+        if now - cost < maths::ln(TOLD) {
             return as_it_is;
         }
         if ratio <= 1.0 / AROUND.2 && self.is_around_bones() {
@@ -229,7 +230,7 @@ impl Surroundings {
             return as_it_is;
         }
         let or = if factor == 1.0 { Vec::new() } else { self.others(factor, turn, cost) };
-        Mend { factor, or, turn, gain: (now - cost).exp() }
+        Mend { factor, or, turn, gain: maths::exp(now - cost) }
     }
 
     /// The mesh with its mean in the middle of the bones, its size and axes as they are.
@@ -247,7 +248,9 @@ impl Surroundings {
     fn others(&self, factor: f64, turn: AxisTurn, cost: f64) -> Vec<f64> {
         let others = RATIOS.into_iter().flat_map(|r| [1.0 / r, r]).filter(|other| *other != factor);
         let mut costs: Vec<(f64, f64)> = others.map(|other| (self.cost(other, turn), other)).collect();
-        costs.retain(|&(its, other)| its < cost + if (other / factor).ln().abs() > FAR { ALMOST_FAR } else { ALMOST });
+        costs.retain(|&(its, other)| {
+            its < cost + if maths::ln(other / factor).abs() > FAR { ALMOST_FAR } else { ALMOST }
+        });
         costs.sort_by(|a, b| a.0.total_cmp(&b.0));
         costs.into_iter().take(BESIDE).map(|(_, other)| other).collect()
     }
@@ -257,12 +260,16 @@ impl Surroundings {
         if ratio == 1.0 {
             return (cost, ratio);
         }
-        let steps = (-40..=40).map(|k| ratio * (0.02 * f64::from(k)).exp());
+        let steps = (-40..=40).map(|k| ratio * maths::exp(0.02 * f64::from(k)));
         let (least, factor) = steps
             .map(|factor| (self.cost(factor, turn), factor))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .unwrap_or((cost, ratio));
-        if (factor / ratio).ln().abs() < SAME_RATIO || cost - least < less { (cost, ratio) } else { (least, factor) }
+        if maths::ln(factor / ratio).abs() < SAME_RATIO || cost - least < less {
+            (cost, ratio)
+        } else {
+            (least, factor)
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::{Closest, ClosestPoint, barycentric};
 use crate::geometry::mesh::{NO_PIECE, TriangleMesh, label_pieces};
 use crate::input::skin::SkinWeights;
+use crate::maths;
 
 /// Vertices of one task. Fixed, so that the work is the same for any number of threads.
 const CHUNK: usize = 256;
@@ -61,7 +62,7 @@ pub fn sure_weights(
     let tree =
         ClosestPoint::new(&TriangleMesh { positions: body.positions.to_vec(), triangles: body.triangles.clone() });
     let normals = vertex_normals(&garment.positions, &garment.triangles);
-    let (near, least_cosine) = (options.nearness * size, options.normal_angle.to_radians().cos());
+    let (near, least_cosine) = (options.nearness * size, maths::cos(options.normal_angle.to_radians()));
 
     let matches: Result<Vec<Vec<Match>>, Cancelled> = garment
         .positions

@@ -21,6 +21,7 @@ use glam::{DQuat, DVec3};
 
 use crate::geometry::closest_point::segment_parameter;
 use crate::geometry::median::median;
+use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 
 /// e: bones nearer than this are equally near.
@@ -56,7 +57,7 @@ impl BoneMap {
                 [source, target].map(|s| ends.map(|j| s.joints[j as usize]));
             let (span, target_span) = (end - start, target_end - target_start);
             let turn = match (span.try_normalize(), target_span.try_normalize()) {
-                (Some(from), Some(to)) => DQuat::from_rotation_arc(from, to),
+                (Some(from), Some(to)) => turn::arc(from, to),
                 // A bone without a direction only moves.
                 _ => DQuat::IDENTITY,
             };

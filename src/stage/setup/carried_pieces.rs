@@ -289,6 +289,6 @@ impl Shell {
             a.cross(b).dot(c) / 6.0
         };
         let volume: f64 = self.mesh.triangles.iter().map(volume).sum();
-        volume.abs() > share * self.area.powf(1.5)
+        volume.abs() > share * self.area * self.area.sqrt()
     }
 }

@@ -20,6 +20,7 @@ use super::source_body::SourceBody;
 use crate::energy::pin::{Pin, Pins};
 use crate::geometry::alignment::Similarity;
 use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::turn;
 use crate::sdf::Field;
 
 /// A displacement by this share of a piece's size costs as much as a strain of 1.
@@ -277,8 +278,8 @@ impl Piece {
 
 /// `to`, or where that is farther from `from` than [`MAX_TURN`], the rotation so far on the way.
 fn turned(from: DQuat, to: DQuat) -> DQuat {
-    let angle = from.angle_between(to);
-    if angle > MAX_TURN { from.slerp(to, MAX_TURN / angle) } else { to }
+    let angle = turn::angle_apart(from, to);
+    if angle > MAX_TURN { turn::between(from, to, MAX_TURN / angle) } else { to }
 }
 
 /// The diagonal of the bounding box.

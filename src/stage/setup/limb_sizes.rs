@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use crate::geometry::closest_point::{ClosestPoint, segment_parameter};
 use crate::geometry::median::median;
 use crate::input::skeleton::Skeleton;
+use crate::maths;
 
 /// e: bones nearer than this are equally near.
 const EQUALLY_NEAR: f64 = 0.02;
@@ -102,7 +103,7 @@ fn sizes([a, b]: [DVec3; 2], body: &ClosestPoint) -> [Option<f64>; STATIONS] {
     std::array::from_fn(|station| {
         let start = a.lerp(b, (station as f64 + 0.5) / STATIONS as f64);
         let ray = |k: usize| {
-            let (sin, cos) = (std::f64::consts::TAU * (k as f64 + 0.5) / RAYS as f64).sin_cos();
+            let (sin, cos) = maths::sin_cos(std::f64::consts::TAU * (k as f64 + 0.5) / RAYS as f64);
             body.first_hit(start, cos * u + sin * v)
         };
         let mut lengths: Vec<f64> = (0..RAYS).filter_map(ray).collect();

@@ -10,6 +10,7 @@ use crate::energy::position::MovingAxis;
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::BoundaryLoop;
 use crate::input::skeleton::Skeleton;
+use crate::maths;
 
 /// A bone passes through a loop where the cosine of its angle to the loop's normal is above this: 60 degrees.
 const THROUGH: f64 = 0.5;
@@ -150,7 +151,7 @@ impl Opening {
     /// from there, the loop's points leave no angle of half a turn or more uncovered.
     fn hull_contains(&self, p: DVec3) -> bool {
         let (u, v) = self.normal.any_orthonormal_pair();
-        let angle_of = |q: &DVec3| (*q - p).dot(v).atan2((*q - p).dot(u));
+        let angle_of = |q: &DVec3| maths::atan2((*q - p).dot(v), (*q - p).dot(u));
         let mut angles: Vec<f64> = self.points.iter().map(angle_of).collect();
         angles.sort_by(f64::total_cmp);
         let wrapped = angles[0] + std::f64::consts::TAU;

@@ -9,11 +9,12 @@
 //!
 //! so that its parameter along the bone and its distance from it stay, and on the same skeleton it stays where it is.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use crate::energy::pin::Pin;
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, label_pieces};
+use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 
 /// A vertex to pin, and its target in the normalised space where the caller has given one.
@@ -72,5 +73,5 @@ fn carried(p: DVec3, bone: [u32; 2], source: &Skeleton, target: &Skeleton) -> DV
         return c + (p - a);
     };
     let along = (p - a).dot(span) / span.length_squared();
-    c + along * turned + DQuat::from_rotation_arc(from, to) * (p - a - along * span)
+    c + along * turned + turn::arc(from, to) * (p - a - along * span)
 }

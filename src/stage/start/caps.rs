@@ -9,7 +9,9 @@ use glam::DVec3;
 
 use super::section::Section;
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
+use crate::maths;
 
 /// A patch ends at edges that bend by more than one of these, in degrees; of those that give a cap, the one with the
 /// flattest patch and the sharpest rim is taken.
@@ -126,7 +128,7 @@ impl<'a> Search<'a> {
             let normals = [(b - a).cross(c - a), (a - b).cross(d - b)];
             // Without an area there is no bend.
             let bend = if normals.iter().all(|n| n.length_squared() > 0.0) {
-                normals[0].angle_between(normals[1]).to_degrees()
+                turn::angle_between(normals[0], normals[1]).to_degrees()
             } else {
                 0.0
             };
@@ -231,7 +233,7 @@ impl<'a> Search<'a> {
         let turned = |v: DVec3| if v.dot(largest) < 0.0 { -v } else { v };
         let sum: DVec3 = patch.iter().map(vector).map(turned).sum();
         let normal = sum.normalize_or_zero();
-        let is_wall = |v: &DVec3| v.dot(normal).abs() < WALL.to_radians().cos() * v.length();
+        let is_wall = |v: &DVec3| v.dot(normal).abs() < maths::cos(WALL.to_radians()) * v.length();
         (sum.length(), patch.iter().map(vector).filter(is_wall).map(DVec3::length).sum())
     }
 

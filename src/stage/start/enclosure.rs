@@ -19,6 +19,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
 use crate::geometry::spread::spread;
+use crate::maths;
 
 /// Between planes along a bone, in the normalised space.
 const SPACING: f64 = 0.02;
@@ -220,8 +221,8 @@ fn principal_axes(mut m: DMat3) -> [DVec3; 3] {
             if mixed == 0.0 {
                 continue;
             }
-            let angle = 0.5 * (2.0 * mixed).atan2(m.col(q)[q] - m.col(p)[p]);
-            let (sine, cosine) = angle.sin_cos();
+            let angle = 0.5 * maths::atan2(2.0 * mixed, m.col(q)[q] - m.col(p)[p]);
+            let (sine, cosine) = maths::sin_cos(angle);
             let mut turn = DMat3::IDENTITY;
             turn.col_mut(p)[p] = cosine;
             turn.col_mut(q)[q] = cosine;

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, IVec3};
 
+use crate::maths;
+
 /// The offsets in a plane of two axes up to `radius`, `spacing` apart, the shortest first; at most `count`.
 pub fn disc(radius: f64, spacing: f64, count: usize, [u, v]: [DVec3; 2]) -> Vec<DVec3> {
     // Only as far as the count can reach: a disc of n points has the radius sqrt(n / pi).
@@ -12,7 +14,7 @@ pub fn disc(radius: f64, spacing: f64, count: usize, [u, v]: [DVec3; 2]) -> Vec<
 
 /// The offsets up to `radius`, `spacing` apart, the shortest first; at most `count`.
 pub fn ball(radius: f64, spacing: f64, count: usize) -> Vec<DVec3> {
-    let reach = (radius / spacing).min((count as f64).cbrt()) as i32;
+    let reach = (radius / spacing).min(maths::cbrt(count as f64)) as i32;
     let row = move || -reach..=reach;
     let points = row().flat_map(move |i| row().flat_map(move |j| row().map(move |k| IVec3::new(i, j, k))));
     shortest(points, radius / spacing, count, |p| spacing * p.as_dvec3())

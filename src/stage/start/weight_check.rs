@@ -15,6 +15,7 @@ use crate::input::diagnostic::Diagnostic;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
 use crate::input::weld::weld_vertices;
+use crate::maths;
 
 /// A vertex contradicts where its own bone is farther than the nearest one by this, in the normalised space...
 const FARTHER: f64 = 0.25;
@@ -146,7 +147,7 @@ fn place(graph: &BoneGraph, target: &Skeleton, frames: &[[DVec3; 2]], p: DVec3, 
     }
     let (distance, bone, parameter) = near;
     let offset = p - target.point_at(bone, parameter);
-    let angle = offset.dot(frames[bone as usize][1]).atan2(offset.dot(frames[bone as usize][0]));
+    let angle = maths::atan2(offset.dot(frames[bone as usize][1]), offset.dot(frames[bone as usize][0]));
     let turn = (angle / std::f64::consts::TAU).rem_euclid(1.0);
     let around = ((turn * SECTORS as f64) as usize).min(SECTORS - 1);
     let along = ((parameter.clamp(0.0, 1.0) * STATIONS as f64) as usize).min(STATIONS - 1);

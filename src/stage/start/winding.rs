@@ -19,6 +19,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::geometry::mesh::{NO_PIECE, TriangleMesh};
+use crate::maths;
 
 /// Directions in which the ends go on, one after the other.
 const ENDS: usize = 5;
@@ -89,8 +90,8 @@ pub fn windings(
             let turn = TAU * k as f64 / ENDS as f64;
             let away = |&[tip, along]: &[DVec3; 2]| {
                 let (u, v) = along.any_orthonormal_pair();
-                let aside = turn.cos() * u + turn.sin() * v;
-                strand([tip, tip + far * (TILT.cos() * along + TILT.sin() * aside)])
+                let aside = maths::cos(turn) * u + maths::sin(turn) * v;
+                strand([tip, tip + far * (maths::cos(TILT) * along + maths::sin(TILT) * aside)])
             };
             let ends: Vec<Strand> = graph.ends.iter().map(away).collect();
             let beyond = crossings(edges, &vertices, &ends);

@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::{Figure, Misplaced};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::JointFault;
+use crate::maths;
 use crate::stage::start::section::Section;
 
 /// A bone goes on where another leaves its end within 60 degrees of its direction.
@@ -124,7 +125,7 @@ fn reach(mesh: &TriangleMesh, centre: DVec3, along: DVec3) -> [f64; 2] {
     let mut reach = [0.0_f64; SECTORS];
     for [a, b] in Section::cut(mesh, centre, along).segments() {
         for p in (0..=8).map(|k| a.lerp(*b, f64::from(k) / 8.0)) {
-            let turn = p.y.atan2(p.x).rem_euclid(TAU) / TAU;
+            let turn = maths::atan2(p.y, p.x).rem_euclid(TAU) / TAU;
             let sector = &mut reach[((turn * SECTORS as f64) as usize).min(SECTORS - 1)];
             *sector = sector.max(p.length());
         }

@@ -5,6 +5,7 @@
 
 use super::{Figure, Flesh, Misplaced};
 use crate::input::diagnostic::JointFault;
+use crate::maths;
 use crate::stage::start::projection::attach;
 
 /// At the tip, the body goes on beyond the joint by less than this share of the bone; before it, by more than the second.
@@ -78,6 +79,6 @@ impl Figure {
         let before = if first == bone { second } else { first };
         let ratio = |figure: &Self| figure.length(bone) / figure.length(before);
         let odds = ratio(self) / ratio(other);
-        (odds * share).ln().abs() < odds.ln().abs()
+        maths::ln(odds * share).abs() < maths::ln(odds).abs()
     }
 }
