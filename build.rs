@@ -2,6 +2,7 @@
 
 use std::env;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Folders to look in before the system's: `OPENVDB_ROOT` holds `include` and `lib`.
 const ROOT: &str = "OPENVDB_ROOT";
@@ -46,6 +47,8 @@ fn shim() {
             .flag("-fvisibility=hidden")
             .flag("-fvisibility-inlines-hidden");
         build.define("NDEBUG", None).cpp_link_stdlib(None);
+        // Without it the headers take every name for one of a library to load, where the compiler is MinGW's.
+        build.define("OPENVDB_STATICLIB", None);
     } else if let Some(root) = &root {
         build.include(root.join("include"));
     }
@@ -94,8 +97,43 @@ fn standard_library(build: &cc::Build) -> PathBuf {
     }
 }
 
+/// What Windows shows of a DLL in its properties, and installers compare.
+fn version_resource() {
+    let folder = PathBuf::from(env::var_os("OUT_DIR").expect("cargo says where to write"));
+    let version = env::var("CARGO_PKG_VERSION").expect("cargo says the version");
+    let numbers = format!("{},0", version.split(['-', '+']).next().unwrap_or_default().replace('.', ","));
+    let [description, licence] =
+        ["CARGO_PKG_DESCRIPTION", "CARGO_PKG_LICENSE"].map(|name| env::var(name).unwrap_or_default());
+    let text = format!(
+        "1 VERSIONINFO\nFILEVERSION {numbers}\nPRODUCTVERSION {numbers}\nFILEOS 0x40004\nFILETYPE 0x2\nBEGIN\n\
+         BLOCK \"StringFileInfo\"\nBEGIN\nBLOCK \"040904b0\"\nBEGIN\n\
+         VALUE \"ProductName\", \"Bespoke\"\nVALUE \"FileDescription\", \"{description}\"\n\
+         VALUE \"FileVersion\", \"{version}\"\nVALUE \"ProductVersion\", \"{version}\"\n\
+         VALUE \"Comments\", \"binary interface {ABI}\"\nVALUE \"LegalCopyright\", \"{licence}\"\n\
+         VALUE \"OriginalFilename\", \"bespoke.dll\"\nVALUE \"InternalName\", \"bespoke\"\nEND\nEND\n\
+         BLOCK \"VarFileInfo\"\nBEGIN\nVALUE \"Translation\", 0x409, 1200\nEND\nEND\n"
+    );
+    let (source, object) = (folder.join("version.rc"), folder.join("version.o"));
+    std::fs::write(&source, text).expect("OUT_DIR can be written to");
+    let made = Command::new("x86_64-w64-mingw32-windres").arg(&source).arg(&object).status();
+    // Elsewhere than on a cross-compiling machine it has no prefix.
+    let made = made.or_else(|_| Command::new("windres").arg(&source).arg(&object).status());
+    match made {
+        Ok(status) if status.success() => println!("cargo:rustc-cdylib-link-arg={}", object.display()),
+        _ => {
+            eprintln!("error: windres, which belongs to MinGW's tools, did not make the version of the library");
+            std::process::exit(1);
+        }
+    }
+}
+
 /// Name and manners of the shared library.
 fn shared_library() {
+    if env::var("TARGET").is_ok_and(|target| target.ends_with("-windows-gnu")) {
+        version_resource();
+        // The same bytes for the same sources.
+        println!("cargo:rustc-link-arg=-Wl,--no-insert-timestamp");
+    }
     let arguments: &[&str] = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
         Ok("linux") => &[
             &format!("-soname,libbespoke.so.{ABI}"),

@@ -1,13 +1,11 @@
-#define _XOPEN_SOURCE 700
-
 #include "report.h"
 
 #include "diagnostics.h"
 #include "json.h"
+#include "system.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
-#include <sys/resource.h>
 
 static void write_number(FILE *file, const char *name, double value, const char *end) {
     fprintf(file, "\"%s\": ", name);
@@ -20,18 +18,6 @@ static void write_work(FILE *file, const char *name, const BespokeStageReport *w
     write_number(file, "seconds", work->seconds, ", ");
     fprintf(file, "\"iterations\": %" PRIu32 ", \"factorisations\": %" PRIu32 ", \"symbolic_factorisations\": %" PRIu32 " },\n",
             work->iterations, work->factorisations, work->symbolic_factorisations);
-}
-
-static uint64_t peak_memory(void) {
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0) {
-        return 0;
-    }
-#ifdef __APPLE__
-    return (uint64_t)usage.ru_maxrss;
-#else
-    return (uint64_t)usage.ru_maxrss * 1024;
-#endif
 }
 
 /* Mean and maximum over the garment's triangles; nothing where nothing has moved yet. */
@@ -70,7 +56,7 @@ static bool write_measurements(const BespokeSession *session, double seconds, FI
     fprintf(file, "  \"threads\": %" PRIu32 ",\n  ", report.threads);
     write_number(file, "seconds", seconds, ",\n  ");
     fprintf(file, "\"memory_bytes\": %" PRIu64 ",\n  ", report.memory_bytes);
-    fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", peak_memory());
+    fprintf(file, "\"peak_memory_bytes\": %" PRIu64 ",\n  \"stages\": {\n", system_peak_memory());
     write_work(file, "prepare", &report.prepare);
     write_work(file, "inflate", &report.inflate);
     write_work(file, "repose", &report.repose);

@@ -1,10 +1,7 @@
 /* retarget: dresses an avatar in a garment that was modelled on another body. Knows the library by its header only. */
-#define _XOPEN_SOURCE 700
-
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "bespoke.h"
 #include "diagnostics.h"
@@ -13,6 +10,7 @@
 #include "options.h"
 #include "results.h"
 #include "session.h"
+#include "system.h"
 
 /* The signal that asked to stop, and the session that it stops. */
 static volatile sig_atomic_t stop_signal = 0;
@@ -22,18 +20,6 @@ static void on_signal(int number) {
     stop_signal = number;
     if (stop_control != NULL) {
         bespoke_control_cancel(stop_control);
-    }
-}
-
-static void watch_signal(int number) {
-    struct sigaction action;
-    /* Somebody who started us with the signal ignored (nohup) wants it ignored. */
-    if (sigaction(number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
-        memset(&action, 0, sizeof action);
-        action.sa_handler = on_signal;
-        action.sa_flags = SA_RESTART;
-        sigemptyset(&action.sa_mask);
-        sigaction(number, &action, NULL);
     }
 }
 
@@ -162,10 +148,10 @@ static bool begin(Run *run) {
     return true;
 }
 
-int main(int count, char **words) {
+static int run_program(int count, char **words) {
     Run run;
     memset(&run, 0, sizeof run);
-    run.is_terminal = isatty(STDOUT_FILENO) != 0;
+    run.is_terminal = system_is_terminal();
     Message message;
     if (!options_parse(&run.options, count, words, &message)) {
         options_free(&run.options);
@@ -180,12 +166,7 @@ int main(int count, char **words) {
         printf("retarget %s\n", bespoke_version_text());
         code = 0;
     } else {
-        watch_signal(SIGINT);
-        watch_signal(SIGTERM);
-        watch_signal(SIGHUP);
-        /* A reader that went away and a limit on file sizes are errors of writing, with a sentence. */
-        signal(SIGPIPE, SIG_IGN);
-        signal(SIGXFSZ, SIG_IGN);
+        system_on_stop(on_signal);
         if (begin(&run)) {
             code = !dress(&run) ? explain(&run) : run.implausible.text[0] != '\0' ? 3 : 0;
         }
@@ -195,5 +176,16 @@ int main(int count, char **words) {
     stop_control = NULL;
     session_close(&run.session);
     options_free(&run.options);
+    return code;
+}
+
+int main(int count, char **given) {
+    char **words = system_words(&count, given);
+    if (words == NULL) {
+        fputs("retarget: the command line does not fit into memory\n", stderr);
+        return 1;
+    }
+    const int code = run_program(count, words);
+    system_words_free(words, given);
     return code;
 }

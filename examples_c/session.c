@@ -1,20 +1,13 @@
-#define _XOPEN_SOURCE 700
-
 #include "session.h"
+
+#include "system.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 bool session_open(Session *session) {
     memset(session, 0, sizeof *session);
-    session->start = now();
+    session->start = system_seconds();
     if (bespoke_abi_version() != BESPOKE_ABI_VERSION) {
         return fail(&session->message, "the library that is installed (%s) is not the one this program was built for",
                     bespoke_version_text());
@@ -47,7 +40,7 @@ bool session_good(Session *session, BespokeStatus status, const char *path) {
 }
 
 double session_seconds(const Session *session) {
-    return now() - session->start;
+    return system_seconds() - session->start;
 }
 
 BespokeView view_of(const void *data, size_t count, uint32_t component) {

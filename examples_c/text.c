@@ -1,6 +1,6 @@
-#define _XOPEN_SOURCE 700
-
 #include "text.h"
+
+#include "system.h"
 
 #include <errno.h>
 #include <math.h>
@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 bool fail(Message *message, const char *format, ...) {
     va_list arguments;
@@ -28,14 +27,16 @@ void *array_new(size_t count, size_t size) {
 bool text_read(Text *text, const char *path, Message *message) {
     text->data = NULL;
     text->size = 0;
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        return fail(message, "%s: cannot be opened: %s", path, strerror(errno));
-    }
-    struct stat status;
-    if (fstat(fileno(file), &status) == 0 && S_ISDIR(status.st_mode)) {
-        fclose(file);
+    FILE *file = system_open(path, "rb");
+    const int reason = errno;
+    if (system_is_folder(path)) {
+        if (file != NULL) {
+            fclose(file);
+        }
         return fail(message, "%s: is a directory, not a file", path);
+    }
+    if (file == NULL) {
+        return fail(message, "%s: cannot be opened: %s", path, strerror(reason));
     }
     /* Grown while reading: a pipe does not know its size. */
     size_t capacity = 1 << 16;

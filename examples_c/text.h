@@ -11,10 +11,17 @@ typedef struct Message {
     char text[1024];
 } Message;
 
+/* MinGW's printf is not that of Windows' C library, whose words a compiler would check. */
+#ifdef __MINGW32__
+#define PRINTF_FORMAT gnu_printf
+#else
+#define PRINTF_FORMAT printf
+#endif
+
 /* Writes the message; always false, so that `return fail(...)` reads well. */
 bool fail(Message *message, const char *format, ...)
 #if defined(__GNUC__)
-    __attribute__((format(printf, 2, 3)))
+    __attribute__((format(PRINTF_FORMAT, 2, 3)))
 #endif
     ;
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Gathers the licences of everything that is inside the shipped library: licences.sh SOURCES FOLDER
+# Gathers the licences of everything that is inside the shipped library: licences.sh SOURCES FOLDER [windows]
 #
 # SOURCES is what sources.sh left. FOLDER gets README.md, which lists all parts, and a folder with texts for each. A
 # part without a text is an error: an answer to it is a line in licences/crates.txt.
@@ -39,7 +39,12 @@ boost=$(dpkg -S /usr/include/boost/version.hpp | cut -d : -f 1)
 gcc=$(basename "$(dirname "$(c++ -print-file-name=libstdc++.a)")")
 sysroot=$(rustc --print sysroot)
 {
-    cat "$here/licences/head.md"
+    # The programs of Windows have the same inside, and crates of their own.
+    if [ "${3:-}" = windows ]; then
+        sed 's/libbespoke\.so/bespoke.dll, bespoke.exe and retarget.exe/; s/its shared library/them/' "$here/licences/head.md"
+    else
+        cat "$here/licences/head.md"
+    fi
     part openvdb "$(version openvdb)" MPL-2.0 \
         "source: $debian/openvdb (\`openvdb_$(version openvdb).orig.tar.xz\`), unchanged; <https://www.openvdb.org>" \
         "$sources/openvdb/LICENSE"
@@ -53,15 +58,22 @@ sysroot=$(rustc --print sysroot)
     number=$(sed -n 's/^#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)
     part boost "$number" BSL-1.0 \
         "headers that OpenVDB uses; <https://www.boost.org>" "/usr/share/doc/$boost/copyright"
+    if [ "${3:-}" = windows ]; then
+        mingw=$(dpkg-query --show --showformat '${Version}' mingw-w64-x86-64-dev)
+        part mingw-w64 "$mingw" "ZPL-2.1, MIT and others for parts" "<https://www.mingw-w64.org>" \
+            /usr/share/doc/mingw-w64-x86-64-dev/copyright
+    fi
     part libstdc++ "$gcc" "GPL-3.0 with the GCC Runtime Library Exception 3.1" "<https://gcc.gnu.org>" \
         "/usr/share/doc/gcc-$gcc-base/copyright" /usr/share/common-licenses/GPL-3
     part rust "$(rustc --version | cut -d ' ' -f 2)" "MIT OR Apache-2.0, and others for parts" \
         "<https://www.rust-lang.org>" "$sysroot/share/doc/rust/COPYRIGHT-library.html"
-    cargo tree --locked --edges normal --prefix none --format '{p}|{l}' >"$folder/tree"
-    sed 's/ (\*)$//; s/ (proc-macro)//' "$folder/tree" | sort -u | while IFS='|' read -r crate licence; do
+    set -- ${3:+--target x86_64-pc-windows-gnu --package bespoke --package bespoke-cli}
+    cargo tree "$@" --locked --edges normal --prefix none --format '{p}|{l}' >"$folder/tree"
+    sed '/^$/d; s/ (\*)$//; s/ (proc-macro)//' "$folder/tree" | sort -u | while IFS='|' read -r crate licence; do
         name=${crate%% *}
         number=${crate#* v}
-        [ "$name" != bespoke ] || continue
+        # Those of this project.
+        case $name in bespoke | bespoke-cli | bespoke-gltf) continue ;; esac
         package=$(find "${CARGO_HOME:-$HOME/.cargo}/registry/src" -maxdepth 2 -type d -name "$name-$number" | head -n 1)
         if [ -z "$package" ]; then
             echo "licences: the sources of $name $number are not in cargo's registry; run cargo fetch" >&2

@@ -1,13 +1,17 @@
 # OpenVDB and oneTBB as static libraries with hidden symbols, only what the shim needs of them:
 #
-#   make -f static.mk -j SOURCES=folder OUT=folder
+#   make -f static.mk -j SOURCES=folder OUT=folder [CROSS=prefix]
 #
-# SOURCES is what sources.sh left. OUT gets include and lib, as build.rs takes them in BESPOKE_STATIC_OPENVDB.
+# SOURCES is what sources.sh left. OUT gets include and lib, as build.rs takes them in BESPOKE_STATIC_OPENVDB. CROSS is the
+# prefix of MinGW's tools where it is for Windows: x86_64-w64-mingw32-.
 #
 # No compression, no delayed loading, no logging, and half floats of OpenVDB's own: so that nothing but these two and
 # headers of Boost is linked in.
 
-CXX = c++
+CROSS =
+# With the threads of C++11, where MinGW has a choice.
+CXX = $(if $(CROSS),$(CROSS)g++-posix,c++)
+AR = $(CROSS)ar
 # Paths of this machine stay out of what is built.
 FLAGS = -std=c++17 -O2 -DNDEBUG -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections \
 	-fdata-sections -ffile-prefix-map=$(abspath $(OUT))/include=include -ffile-prefix-map=$(abspath $(SOURCES))=.
@@ -24,8 +28,16 @@ TBB_OBJECTS = $(patsubst $(TBB)/src/tbb/%.cpp,$(OUT)/objects/tbb/%.o,$(wildcard 
 # them in memory, and so die with them.
 TBB_FLAGS = -D__TBB_BUILD -D__TBB_SOURCE_DIRECTLY_INCLUDED=1 -D__TBB_DYNAMIC_LOAD_ENABLED=0 \
 	-D__TBB_WEAK_SYMBOLS_PRESENT=0 -flifetime-dse=1
-ifeq ($(shell uname -m),x86_64)
+ifneq ($(filter x86_64,$(shell uname -m))$(CROSS),)
 TBB_FLAGS += -mrtm -mwaitpkg
+endif
+# For Windows the names of OpenVDB are marked as those of a library to load, if it is not told otherwise, and those of both
+# would be exported by whatever links them: the marks are taken out. No name is kept back there unless it is marked.
+ifneq ($(CROSS),)
+FLAGS += -DOPENVDB_STATICLIB
+UNMARK = $(CROSS)objcopy --remove-section .drectve $@
+# The system's headers are not for this compiler; those of Boost are.
+BOOST = ln -s /usr/include/boost $(OUT)/include/boost
 endif
 
 .PHONY: all
@@ -49,19 +61,22 @@ $(HEADERS): $(MAKEFILE_LIST) $(SOURCES)/openvdb/.unpacked $(SOURCES)/onetbb/.unp
 		-e "s/\$${OPENVDB_PACKED_VERSION}/$$(($(MAJOR) << 24 | $(MINOR) << 16 | $(PATCH)))/" \
 		-e 's/^#cmakedefine .*//; s/@OPENVDB_[A-Z0-9_]*@//' $(VDB)/version.h.in >$(OUT)/include/openvdb/version.h
 	! grep -E '[$$]\{|cmakedefine' $(OUT)/include/openvdb/version.h
+	$(BOOST)
 	touch $@
 
 $(OUT)/objects/openvdb/%.o: $(VDB)/%.cc $(HEADERS)
 	@mkdir -p $(@D)
 	$(CXX) $(FLAGS) -DOPENVDB_PRIVATE -I$(OUT)/include -I$(OUT)/include/openvdb -c $< -o $@
+	@$(UNMARK)
 
 $(OUT)/objects/tbb/%.o: $(TBB)/src/tbb/%.cpp $(HEADERS)
 	@mkdir -p $(@D)
 	$(CXX) $(FLAGS) $(TBB_FLAGS) -I$(OUT)/include -c $< -o $@
+	@$(UNMARK)
 
 $(OUT)/lib/libopenvdb.a: $(VDB_OBJECTS)
 $(OUT)/lib/libtbb.a: $(TBB_OBJECTS)
 $(OUT)/lib/%.a:
 	@mkdir -p $(@D)
 	rm -f $@
-	ar -rcsD $@ $^
+	$(AR) -rcsD $@ $^

@@ -45,4 +45,5 @@ pub mod diagnostics;
 
 mod float_mode;
 mod sized;
+mod stay;
 mod text;

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crate::capi::float_mode::DefaultMode;
 use crate::capi::status::BespokeStatus;
+use crate::capi::stay::stay;
 use crate::capi::text;
 use crate::control::Control;
 use crate::error::{Error, ErrorKind, Result};
@@ -100,6 +101,7 @@ pub unsafe extern "C" fn bespoke_session_create(session: *mut *mut BespokeSessio
     if session.is_null() {
         return BespokeStatus::InvalidArgument;
     }
+    stay();
     let make = || {
         let session = Session::new();
         let (control, panics) = (session.control(), session.panics());

@@ -1,3 +1,4 @@
+#ifndef _WIN32
 #define _XOPEN_SOURCE 700
 
 #include "output.h"
@@ -104,3 +105,6 @@ void output_discard(Output *output) {
     free(output->path);
     memset(output, 0, sizeof *output);
 }
+#else
+typedef int not_for_this_system;
+#endif

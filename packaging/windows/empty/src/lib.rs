@@ -1,0 +1,1 @@
+//! Nothing: cargo builds the standard library for it.
