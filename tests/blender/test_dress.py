@@ -337,6 +337,43 @@ class Garments(Case):
             self.same_bits(stored(outer.data), session.read_garment_vertices())
             self.assertEqual(session.verify().garment_avatar, 0)
 
+    def test_over_what_was_dressed_before(self) -> None:
+        tubes.scene()
+        self.dress()
+        inner = bpy.data.objects["sleeve on other rig"]
+        coat = tubes.tube("coat", 0.36, 0.4, 16, 9)
+        tubes.bind(coat, bpy.data.objects["rig"])
+        self.settings.garments.clear()
+        tubes.choose("coat")
+        self.settings.target_bodies.add().object = inner
+        outer = self.dress()
+        with directly(coat, "", bpy.data.objects["other"], "other rig") as session:
+            session.add_layer(stored(inner.data), triangles(inner.data))
+            session.run()
+            self.same_bits(stored(outer.data), session.read_garment_vertices())
+
+    def test_covered_skin_is_masked(self) -> None:
+        tubes.scene()
+        other = bpy.data.objects["other"]
+        self.settings.mask_covered, self.settings.looseness = True, 0.0
+        for _ in range(2):
+            made = self.dress()
+        with directly(bpy.data.objects["sleeve"], "", other, "other rig") as session:
+            session.set_options(designed_clearance=0.0)
+            session.run()
+            covered = np.zeros(len(triangles(other.data)), bool)
+            covered[session.read_covered_triangles()] = True
+        self.assertTrue(covered.any())
+        there = triangles(other.data)
+        expected = set(there[covered].ravel().tolist()) - set(there[~covered].ravel().tolist())
+        group = other.vertex_groups["Bespoke Covered"].index
+        found = {v.index for v in other.data.vertices if any(g.group == group and g.weight == 1.0 for g in v.groups)}
+        self.assertEqual(found, expected)
+        self.assertEqual([m.type for m in other.modifiers], ["ARMATURE", "MASK"])
+        self.assertEqual(len(seen(other)), len(other.data.vertices) - len(expected))
+        # It is skin all the same: what is masked is dressed next time.
+        self.assertEqual(made.name, "sleeve on other rig")
+
     def test_bones_of_its_own(self) -> None:
         for brings in (True, False):
             tubes.scene()
@@ -407,6 +444,20 @@ class Errors(Case):
         tubes.choose("coat")
         self.refused("sleeve")
         self.assertIn("coat on other rig", bpy.data.objects)
+
+
+    def test_nothing_half_made_stays(self) -> None:
+        tubes.scene()
+        results = part("results")
+        before = {thing.name for thing in bpy.data.objects}, {mesh.name for mesh in bpy.data.meshes}
+        place = results._place
+        results._place = lambda *_: 1 / 0
+        try:
+            self.refused("ZeroDivisionError")
+        finally:
+            results._place = place
+        self.assertEqual(before, ({thing.name for thing in bpy.data.objects}, {mesh.name for mesh in bpy.data.meshes}))
+        self.dress()
 
 
 class Findings(Case):

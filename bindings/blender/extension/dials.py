@@ -162,6 +162,10 @@ class BespokeScene(bpy.types.PropertyGroup):
         "character that is dressed. Off: what they move goes with the body beneath",
         default=True,
     )
+    mask_covered: bpy.props.BoolProperty(
+        name="Mask Covered Skin",
+        description="Give the body a vertex group and a mask modifier that leave out what nobody sees under the garments",
+    )
     keep_results: bpy.props.BoolProperty(
         name="Keep Earlier Results",
         description="Leave earlier results of the same garment on the same character, instead of replacing them",

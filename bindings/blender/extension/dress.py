@@ -41,6 +41,8 @@ def finish(context: bpy.types.Context, given: inputs.Inputs, run: work.Run) -> l
         made[index] = results.write(context, given, index, outcome)
         if not context.scene.bespoke.keep_results:
             results.remove_earlier(context.scene, made[index])
+    if given.task.asks_for_covered and any(made):
+        results.mask_covered(given, run.outcomes)
     findings.tell(context.scene, given, run.outcomes, made)
     objects = [thing for thing in made if thing is not None]
     if objects:

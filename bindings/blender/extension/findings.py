@@ -80,9 +80,13 @@ def _meshes(
     element: bespoke.Element, inputs: Inputs, index: int, results: list[bpy.types.Object | None]
 ) -> tuple[list[Mesh], list[bpy.types.Object]]:
     """The meshes that are counted through, and the objects in which they are seen."""
+    worn = len(inputs.layers)
+    if element.layer is not None and element.layer < worn:
+        mesh = inputs.layers[element.layer]
+        return [mesh], [mesh.object]
     if element.layer is not None:
-        # Layers are the garments before it that were dressed.
-        index = [k for k, result in enumerate(results[:index]) if result is not None][element.layer]
+        # The others are the garments before it that were dressed.
+        index = [k for k, result in enumerate(results[:index]) if result is not None][element.layer - worn]
     if element.layer is not None or element.subject == bespoke.Subject.GARMENT:
         garment = inputs.garments[index]
         return [garment], [results[index] or garment.object]

@@ -22,6 +22,8 @@ class Inputs:
     source_bodies: list[Mesh]
     target: bpy.types.Object
     target_bodies: list[Mesh]
+    layers: list[Mesh]
+    """Earlier results that the target wears."""
 
 
 def _objects(scene: bpy.types.Scene, items: bpy.types.CollectionProperty) -> list[bpy.types.Object]:
@@ -130,6 +132,8 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
     source_bodies = [thing for thing in _objects(scene, settings.source_bodies) if thing not in worn]
     roles = {item.object: item.role for item in settings.target_bodies}
     target_bodies = [thing for thing in _objects(scene, settings.target_bodies) if thing not in worn]
+    layers = [thing for thing in target_bodies if "bespoke_garment" in thing]
+    target_bodies = [thing for thing in target_bodies if thing not in layers]
     if not target_bodies:
         raise SceneError(f"{target.name}: no mesh is chosen as its body; select the body in the viewport and add it")
     # Transforms of what was moved by a script are old until somebody asks.
@@ -137,7 +141,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
     to_source, to_target = rigs.frame(source), rigs.frame(target)
     found: list[tuple[Mesh, work.Garment]] = []
     brings_bones = settings.add_bones and target.library is None and target.data.library is None
-    with meshes.as_modelled([*worn, *source_bodies, *target_bodies]) as depsgraph:
+    with meshes.as_modelled([*worn, *source_bodies, *target_bodies, *layers]) as depsgraph:
 
         def bodies(things: list[bpy.types.Object], frame: object) -> list[Mesh]:
             read = []
@@ -147,6 +151,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
             return read
 
         bodies_there, bodies_here = bodies(source_bodies, to_source), bodies(target_bodies, to_target)
+        layers_here = bodies(layers, to_target)
         for item in chosen if needs_garments else ():
             with garment_mesh(item.object, depsgraph) as mesh:
                 found.append(_garment(item, mesh, source, brings_bones))
@@ -156,11 +161,13 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         source=_body(bodies_there, source, None) if bodies_there else None,
         target_rig=rigs.joints(target),
         target=_body(bodies_here, target, [roles[thing] for thing in target_bodies]),
+        layers=[(mesh.vertices, mesh.triangles) for mesh in layers_here],
         pairs=pairs(scene, source, target),
         options=options(context),
         influences=preferences.read(context).influences,
+        asks_for_covered=settings.mask_covered,
     )
-    return Inputs(task, [mesh for mesh, _ in found], source, bodies_there, target, bodies_here)
+    return Inputs(task, [mesh for mesh, _ in found], source, bodies_there, target, bodies_here, layers_here)
 
 
 def garment_mesh(thing: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> object:

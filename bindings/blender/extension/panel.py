@@ -158,6 +158,7 @@ class BESPOKE_PT_more(_Panel, bpy.types.Panel):
         column = _options(self.layout, context, is_expert=False)
         column.separator()
         column.prop(context.scene.bespoke, "add_bones")
+        column.prop(context.scene.bespoke, "mask_covered")
         column.prop(context.scene.bespoke, "keep_results")
 
 

@@ -10,11 +10,14 @@ from . import meshes, rigs, work
 from .inputs import Inputs, cloth, garment_mesh
 from .meshes import Array, SceneError
 
+# Vertex group and mask modifier of what garments cover.
+COVERED = "Bespoke Covered"
+
 
 def check(inputs: Inputs) -> None:
     """Errors: SceneError, where something that takes part has gone, or a garment has changed, since they were read."""
     try:
-        found = [*inputs.garments, *inputs.source_bodies, *inputs.target_bodies]
+        found = [*inputs.garments, *inputs.source_bodies, *inputs.target_bodies, *inputs.layers]
         for thing in [inputs.source, inputs.target, *(mesh.object for mesh in found)]:
             _ = thing.name
     except ReferenceError:
@@ -39,23 +42,26 @@ def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.
             mesh = (thing.data if meshes.has_morphs(thing) else now).copy()
     mesh.name = thing.data.name
     result = thing.copy()
-    result.animation_data_clear()
-    result.constraints.clear()
-    old = result.data
-    result.data = mesh
-    _set_shapes(mesh, outcome)
-    if old.users == 0:
-        bpy.data.meshes.remove(old)
-    if not meshes.has_morphs(thing):
-        for name in [modifier.name for modifier in meshes.shaping(thing)]:
-            result.modifiers.remove(result.modifiers[name])
-    names = [bone.name for bone in inputs.target.data.bones]
-    if outcome.skin is not None:
-        names += _add_bones(context, inputs, outcome)
-    _bind(result, inputs, outcome, names)
-    result["bespoke_garment"], result["bespoke_avatar"] = thing.name, inputs.target.name
-    result.name = _name(thing.name, inputs.target.name)
-    _place(context, result, inputs.target)
+    try:
+        result.data = mesh
+        _set_shapes(mesh, outcome)
+        result.animation_data_clear()
+        result.constraints.clear()
+        if not meshes.has_morphs(thing):
+            for name in [modifier.name for modifier in meshes.shaping(thing)]:
+                result.modifiers.remove(result.modifiers[name])
+        names = [bone.name for bone in inputs.target.data.bones]
+        if outcome.skin is not None:
+            names += _add_bones(context, inputs, outcome)
+        _bind(result, inputs, outcome, names)
+        result["bespoke_garment"], result["bespoke_avatar"] = thing.name, inputs.target.name
+        result.name = _name(thing.name, inputs.target.name)
+        _place(context, result, inputs.target)
+    except BaseException:
+        # Nothing half-made stays.
+        bpy.data.objects.remove(result)
+        bpy.data.meshes.remove(mesh)
+        raise
     return result
 
 
@@ -128,7 +134,35 @@ def _place(context: bpy.types.Context, result: bpy.types.Object, target: bpy.typ
     result.hide_viewport = result.hide_render = False
     collections = [c for c in target.users_collection if c.library is None] or [context.scene.collection]
     collections[0].objects.link(result)
+    # That collection may be left out of the view layer.
+    context.view_layer.update()
+    if result.name not in context.view_layer.objects:
+        context.scene.collection.objects.link(result)
     result.hide_set(False)
+
+
+def mask_covered(inputs: Inputs, outcomes: list[work.Outcome]) -> None:
+    """Masks what all garments together cover of the body. A vertex is left out where no triangle at it can be seen."""
+    covered = np.zeros(sum(len(mesh.triangles) for mesh in inputs.target_bodies), bool)
+    for outcome in outcomes:
+        if outcome.covered is not None:
+            covered[outcome.covered] = True
+    first = 0
+    for mesh in inputs.target_bodies:
+        of_mesh = covered[first : first + len(mesh.triangles)]
+        first += len(mesh.triangles)
+        # Through modifiers that make vertices, nobody knows which they come from.
+        if not mesh.is_base:
+            continue
+        hidden = np.zeros(len(mesh.vertices), bool)
+        hidden[mesh.triangles[of_mesh]] = True
+        hidden[mesh.triangles[~of_mesh]] = False
+        thing = mesh.object
+        group = thing.vertex_groups.get(COVERED) or thing.vertex_groups.new(name=COVERED)
+        group.remove(range(len(mesh.vertices)))
+        group.add(np.flatnonzero(hidden).tolist(), 1.0, "REPLACE")
+        modifier = thing.modifiers.get(COVERED) or thing.modifiers.new(COVERED, "MASK")
+        modifier.vertex_group, modifier.invert_vertex_group = group.name, True
 
 
 def _add_bones(context: bpy.types.Context, inputs: Inputs, outcome: work.Outcome) -> list[str]:

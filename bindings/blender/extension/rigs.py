@@ -20,6 +20,8 @@ def frame(armature: bpy.types.Object) -> mathutils.Matrix:
 
 def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
     """All bones in the rest pose, in the order of the armature."""
+    if armature.mode == "EDIT":
+        armature.update_from_editmode()
     bones = armature.data.bones
     if not bones:
         raise SceneError(f"{armature.name}: the armature has no bones")

@@ -53,9 +53,12 @@ class Task:
     source: Body | None
     target_rig: list[bespoke.Joint]
     target: Body
+    layers: list[tuple[Array, Array]]
+    """Garments that the target wears already, from the inside outwards: vertices and triangles."""
     pairs: list[tuple[int, int]]
     options: bespoke.Options
     influences: int = 4
+    asks_for_covered: bool = False
 
 
 @dataclasses.dataclass
@@ -67,6 +70,8 @@ class Outcome:
     morphs: list[Array] = dataclasses.field(default_factory=list)
     skin: Influences | None = None
     added: tuple[bespoke.AddedJoint, ...] = ()
+    covered: Array | None = None
+    """Triangles of the body that nobody sees now, where they were asked for."""
     findings: tuple[bespoke.Diagnostic, ...] = ()
     report: bespoke.Report | None = None
     failure: bespoke.BespokeError | None = None
@@ -209,7 +214,7 @@ class Run:
             self.defect = defect
 
     def _dress_all(self, progress: Callable[[Progress], object] | None) -> None:
-        layers: list[tuple[Array, Array]] = []
+        layers = list(self.task.layers)
         for garment in self.task.garments:
             outcome = Outcome()
             try:
@@ -251,6 +256,8 @@ class Run:
             outcome.skin = (bones, weights)
             outcome.added = session.read_added_joints()
         outcome.morphs = [session.read_garment_morph(k) for k in range(len(garment.morphs))]
+        if self.task.asks_for_covered:
+            outcome.covered = session.read_covered_triangles()
         outcome.findings = session.read_diagnostics()
         outcome.report = session.read_report()
         outcome.vertices = session.read_garment_vertices()
