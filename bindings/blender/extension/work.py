@@ -51,6 +51,9 @@ class Task:
     garments: list[Garment]
     source_rig: list[bespoke.Joint]
     source: Body | None
+    """The body that the garments were made for."""
+    whole: Body | None
+    """The same with the garments on: where the skin passes through one of them, it lies as close to this."""
     target_rig: list[bespoke.Joint]
     target: Body
     layers: list[tuple[Array, Array]]
@@ -147,6 +150,11 @@ STAGES = {
 }
 
 
+def _may_help(failure: bespoke.BespokeError | None) -> bool:
+    """Whether another source may do better: where the garment was not enclosed or wedged."""
+    return failure is not None and failure.status in (bespoke.Status.NOT_ENCLOSED, bespoke.Status.INFLATION_STALLED)
+
+
 class Run:
     """Dresses one garment after the other, in a thread of its own (`start`) or in the caller's (`work`).
 
@@ -216,22 +224,38 @@ class Run:
     def _dress_all(self, progress: Callable[[Progress], object] | None) -> None:
         layers = list(self.task.layers)
         for garment in self.task.garments:
-            outcome = Outcome()
             try:
-                with filled(self.task, garment, layers) as session:
-                    self._watch(session)
-                    try:
-                        self._dress(session, garment, outcome, progress)
-                    finally:
-                        self._watch(None)
+                outcome = self._try(self.task, garment, layers, progress)
+                if outcome.vertices is None and self.task.whole is not None and _may_help(outcome.failure):
+                    again = dataclasses.replace(self.task, source=self.task.whole)
+                    other = self._try(again, garment, layers, progress)
+                    outcome = other if other.vertices is not None else outcome
             except bespoke.CancelledError:
                 return
-            except bespoke.BespokeError as failure:
-                # Of an input, before there is a session to ask.
-                outcome.failure, outcome.findings = failure, failure.diagnostics
             self.outcomes.append(outcome)
             if outcome.vertices is not None:
                 layers.append((outcome.vertices, garment.triangles))
+
+    def _try(
+        self,
+        task: Task,
+        garment: Garment,
+        layers: Sequence[tuple[Array, Array]],
+        progress: Callable[[Progress], object] | None,
+    ) -> Outcome:
+        outcome = Outcome()
+        try:
+            with filled(task, garment, layers) as session:
+                self._watch(session)
+                try:
+                    self._dress(session, garment, outcome, progress)
+                finally:
+                    self._watch(None)
+        except bespoke.CancelledError:
+            raise
+        except bespoke.BespokeError as failure:
+            outcome.failure, outcome.findings = failure, failure.diagnostics
+        return outcome
 
     def _watch(self, session: Session | None) -> None:
         with self._lock:
