@@ -1,5 +1,5 @@
-"""The sample of `make demo` as characters in Blender: the mannequin in its jacket, and a body to be dressed, with armatures
-in the names of two tools."""
+"""The sample of `make demo` as characters in Blender: the mannequin in its jacket, and a body to be dressed, with
+armatures in the names of two tools."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def _shade(thing: bpy.types.Object) -> None:
 def draw(
     things: Sequence[bpy.types.Object], path: str, turns: Sequence[float] = (-25.0, 155.0), height: int = 700
 ) -> None:
-    """Draws `things` alone, seen from `turns` degrees around their middle (0: from the front), side by side into one PNG.
+    """Draws `things` alone, seen from `turns` degrees around their middle (0: from the front), side by side.
 
     They are drawn as instances of one collection, turned, so that the scene stays as it is.
     """

@@ -65,7 +65,7 @@ def bind(thing: bpy.types.Object, to: bpy.types.Object) -> None:
 
 
 def scene(fine: bool = False) -> None:
-    """An empty file with "sleeve", "arm" and "rig", made for each other, and "other" with "other rig", chosen in the panel.
+    """An empty file with "sleeve", "arm" and "rig", made for each other, and "other" with "other rig", chosen.
 
     `fine`: so many triangles that it takes many seconds.
     """

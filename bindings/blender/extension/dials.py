@@ -54,8 +54,8 @@ class BespokeMesh(bpy.types.PropertyGroup):
 
 
 def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any, garments: Any) -> None:
-    """Where nothing is chosen yet, all meshes that an armature bends, and that can be seen, are its body. What only hangs
-    on a bone may be a prop."""
+    """Where nothing is chosen yet, all meshes that an armature bends, and that can be seen, are its body. What only
+    hangs on a bone may be a prop."""
     if armature is None or any(item.object for item in bodies):
         return
     bodies.clear()
@@ -164,7 +164,7 @@ class BespokeScene(bpy.types.PropertyGroup):
     )
     mask_covered: bpy.props.BoolProperty(
         name="Mask Covered Skin",
-        description="Give the body a vertex group and a mask modifier that leave out what nobody sees under the garments",
+        description="Give the body a vertex group and a mask modifier for what nobody sees under the garments",
     )
     keep_results: bpy.props.BoolProperty(
         name="Keep Earlier Results",

@@ -33,8 +33,8 @@ def check(inputs: Inputs) -> None:
 
 
 def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> bpy.types.Object:
-    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature. `check`
-    was called before."""
+    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature.
+    `check` was called before."""
     thing = inputs.garments[index].object
     with meshes.as_modelled([thing]) as depsgraph:
         with garment_mesh(thing, depsgraph) as now:
