@@ -14,7 +14,7 @@ import numpy as np
 import bespoke
 import characters
 import tubes
-from case import Case, joints, part, seen, stored, triangles, weights
+from case import MODULE, Case, joints, part, seen, stored, triangles, weights
 
 
 def directly(garment: bpy.types.Object, source: str, body: bpy.types.Object, target: str) -> bespoke.Session:
@@ -179,6 +179,18 @@ class Running(Case):
             self.assertTrue(run.wait(5.0))
             stub._leave(bpy.context)
             self.assertLess(len(run.outcomes), 1)
+
+    def test_disabled_it_has_stopped(self) -> None:
+        tubes.scene(fine=True)
+        self.begin(self.operator())
+        run = part("dress").running()
+        time.sleep(0.1)
+        bpy.ops.preferences.addon_disable(module=MODULE)
+        try:
+            self.assertTrue(run.is_over)
+            self.assertEqual(run.outcomes, [])
+        finally:
+            bpy.ops.preferences.addon_enable(module=MODULE)
 
     def test_the_thread_leaves_what_a_script_gets(self) -> None:
         tubes.scene()

@@ -69,8 +69,8 @@ class Install(Case):
                 self.assertGreater(len(lines), 4, status)
                 self.assertTrue(any(line.startswith("1. ") for line in lines), status)
         guess = (
-            "which joints of the two rigs are hips, neck is a guess: the names do not say it; look at the joint map, and "
-            "say which joints correspond, as pairs"
+            "which joints of the two rigs are hips, neck is a guess: the names do not say it; look at the joint map, "
+            "and say which joints correspond, as pairs"
         )
         about = page.section(page.WARNINGS, guess)
         self.assertTrue(any(about))

@@ -1,8 +1,8 @@
 """The extension in Blender's window: blender --enable-event-simulate --python window.py -- ZIP FOLDER
 
 Draws the panel, presses Dress and then Esc, presses Dress again and waits, undoes it, and selects a finding. Blender as
-a module draws no panels and knows no events, so this is the only place where both are seen to work. Ends with 0 where all
-is well. BESPOKE_SAMPLE names the sample, BLENDER_USER_RESOURCES a profile that is new.
+a module draws no panels and knows no events, so this is the only place where both are seen to work. Ends with 0 where
+all is well. BESPOKE_SAMPLE names the sample, BLENDER_USER_RESOURCES a profile that is new.
 
 For a picture of the window it makes FOLDER/NAME.wanted and waits until somebody, who sees the screen, removes it.
 """

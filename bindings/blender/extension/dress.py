@@ -10,6 +10,8 @@ from .meshes import SceneError
 
 # Seconds between two looks at a run.
 _TICK = 0.1
+# Seconds for a run that was stopped to end: usually a tenth of one.
+_PATIENCE = 5.0
 
 
 class _Running:
@@ -193,8 +195,10 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Without; a run is stopped."""
-    stop()
+    """Without; a run is stopped. Blender may be about to end, so its thread is waited for."""
+    if _Running.run is not None:
+        _Running.run.cancel()
+        _Running.run.wait(_PATIENCE)
     _Running.run = _Running.inputs = None
     for each in reversed(_CLASSES):
         bpy.utils.unregister_class(each)

@@ -61,7 +61,7 @@ def options() -> dict[str, Option]:
 def described(kind: type[enum.IntEnum]) -> list[tuple[str, str, str, int]]:
     """The members of an enum as Blender takes them for a property."""
     comments = members(kind)
-    return [(m.name, label(m.name), comments.get(m.name, "").rstrip("."), int(m)) for m in kind]
+    return [(m.name, label(m.name), description(comments.get(m.name, "")), int(m)) for m in kind]
 
 
 def label(name: str) -> str:
@@ -70,5 +70,5 @@ def label(name: str) -> str:
 
 
 def description(comment: str) -> str:
-    """A comment as Blender wants it for a tooltip: it puts the full stop itself."""
-    return comment.rstrip(".")
+    """A comment as Blender wants it for a tooltip: it puts the full stop itself, and knows no marks."""
+    return comment.rstrip(".").replace("`", "")
