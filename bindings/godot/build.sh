@@ -17,8 +17,10 @@ mkdir -p "$addon.new/bin" "$addon.new/docs"
 cp -r "$here/addons/bespoke/." "$addon.new"
 cp -L "$library" "$addon.new/bin/libbespoke.so.$abi"
 cp "$target/release/libbespoke_godot.so" "$addon.new/bin"
-cp "$here/README.md" "$top/LICENSE-MIT" "$top/LICENSE-APACHE" "$addon.new"
-cp "$top/docs/troubleshooting.md" "$addon.new/docs"
+cp "$top/LICENSE-MIT" "$top/LICENSE-APACHE" "$addon.new"
+cp "$top/docs/troubleshooting.md" "$top/docs/options.md" "$addon.new/docs"
+# The page without what is about the project around it.
+sed -e 's#(../../docs/#(docs/#' -e '/^## How it is made/,$d' "$here/README.md" >"$addon.new/README.md"
 # The engine is not to look in there.
 touch "$addon.new/docs/.gdignore"
 rm -rf "$addon"

@@ -72,15 +72,20 @@ impl Project {
     }
 }
 
+/// It ended with 0, said this, and had nothing to complain of: leaks, and errors in scripts that go on.
+#[track_caller]
+pub fn ends_well(what: &str, output: &Output, says: &str) {
+    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    let all = format!("{what}: {}\n{said}\n{complained}", output.status);
+    assert!(output.status.success() && said.contains(says), "{all}");
+    for line in complained.lines() {
+        assert!(!line.contains("ERROR") && !line.contains("WARNING") && !line.contains("FAILED"), "{all}");
+    }
+}
+
 /// All tests of one file pass.
+#[track_caller]
 pub fn passes(project: &Project, file: &str) {
     let output = project.run(240, &["--headless", "--script", "run.gd", "--", &format!("{file}.gd"), "data"]);
-    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    let all = format!("{file}: {}\n{said}\n{complained}", output.status);
-    assert!(output.status.success() && said.contains("\nran "), "{all}");
-    // What the engine complains of is a fault as well: leaks, errors in scripts that go on.
-    for line in complained.lines() {
-        assert!(!line.contains("ERROR") && !line.contains("WARNING"), "{all}");
-    }
-    println!("{said}");
+    ends_well(file, &output, "\nran ");
 }

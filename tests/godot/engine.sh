@@ -40,15 +40,21 @@ own_apt() {
 own_apt update
 
 # The driver that draws is a third of it, and a run without a window never loads it.
-driver='^(mesa-libgallium|libllvm.*|libz3-4|libgl1-mesa-dri|libglx-mesa0)$'
-[ "${2-}" != pictures ] || driver='^$'
-names=$(own_apt install --print-uris --no-install-recommends godot $([ "${2-}" != pictures ] || echo libgl1-mesa-dri) |
-    sed "s/.* \([^_ ]*\)_[^ ]*\.deb .*/\1/" | grep -Ev "$driver")
+if [ "${2-}" = pictures ]; then
+    drawing="libgl1 libglx-mesa0 libegl1 libgl1-mesa-dri"
+    left_out='^$'
+else
+    drawing=""
+    left_out='^(mesa-libgallium|libllvm.*|libz3-4)$'
+fi
+# The names are words to be split.
+# shellcheck disable=SC2086
+names=$(own_apt install --print-uris --no-install-recommends godot $drawing |
+    sed 's/.* \([^_ ]*\)_[^ ]*\.deb .*/\1/' | grep -Ev "$left_out")
 missing=""
 for name in $names; do
     ls "packages/${name}_"*.deb >/dev/null 2>&1 || missing="$missing $name"
 done
-# The names are words to be split.
 # shellcheck disable=SC2086
 [ -z "$missing" ] || (cd packages && own_apt download $missing)
 rm -rf root

@@ -10,9 +10,10 @@ use std::fs;
 use std::path::Path;
 
 use closet::avatars::Avatar;
-use closet::garments;
+use closet::mesh::Mesh;
 use closet::rigs::{Body, Character, Naming, character, y_up};
-use engine::{passes, project};
+use closet::{Kind, garments};
+use engine::{ends_well, passes, project};
 use glam::{DAffine3, DQuat, DVec3};
 use testing::glb::{Part, glb};
 use testing::process::root;
@@ -22,11 +23,15 @@ fn source() -> Character {
     character(&Body::Mannequin.model(), Naming::Unreal).placed(y_up())
 }
 
+/// In the axes of the engine.
+fn standing(mut mesh: Mesh) -> Mesh {
+    mesh.positions.iter_mut().for_each(|p| *p = y_up().transform_point3(*p));
+    mesh
+}
+
 /// Its vest.
 fn vest() -> Character {
-    let mut mesh = garments::vest(2.5).mesh;
-    mesh.positions.iter_mut().for_each(|p| *p = y_up().transform_point3(*p));
-    source().wears(&mesh)
+    source().wears(&standing(garments::vest(2.5).mesh))
 }
 
 /// The slim body, whose joints have the names of Mixamo, in another place and facing another way.
@@ -36,18 +41,25 @@ fn avatar() -> Character {
     character(&Body::Avatar(Avatar::Slim).model(), Naming::Mixamo).placed(y_up()).placed(frame)
 }
 
-/// The characters as files.
-fn write_characters(folder: &Path) {
+/// Characters as files: the one that wears a garment, and the one to dress.
+fn write_characters(folder: &Path, name: &str, garment: &Character, avatar: &Character) {
     let write =
         |name: &str, parts: &[Part]| fs::write(folder.join(name), glb(parts)).expect("the folder can be written");
     write(
         "outfit.glb",
         &[
             Part { node: "Mannequin_Body", material: "Skin", mesh: &source() },
-            Part { node: "Mannequin_Vest", material: "Wool", mesh: &vest() },
+            Part { node: name, material: "Wool", mesh: garment },
         ],
     );
-    write("avatar.glb", &[Part { node: "Body", material: "Body", mesh: &avatar() }]);
+    write("avatar.glb", &[Part { node: "Body", material: "Body", mesh: avatar }]);
+}
+
+/// The characters that all files of tests take.
+fn write_usual(folder: &Path) {
+    write_characters(folder, "Mannequin_Vest", &vest(), &avatar());
+    let help = "BespokeRetarget.xml";
+    fs::copy(root().join("bindings/godot/doc_classes").join(help), folder.join(help)).expect("a file can be copied");
 }
 
 /// A test for each file.
@@ -58,21 +70,42 @@ macro_rules! files {
             #[test]
             fn $name() {
                 let Some(project) = project(stringify!($name)) else { return };
-                write_characters(&project.data());
+                write_usual(&project.data());
                 passes(&project, stringify!($name));
             }
         )*
     };
 }
 
-files! { test_inputs test_running }
+files! { test_help test_inputs test_results test_running }
 
 #[test]
 fn same_bits_as_in_c() {
     let Some(project) = project("test_scenes") else { return };
-    write_characters(&project.data());
+    write_usual(&project.data());
     passes(&project, "test_scenes");
     bits::compare(&project.data());
+}
+
+/// The jacket of `make demo` on its heavy body.
+#[test]
+fn sample_has_the_bits_of_c() {
+    let Some(project) = project("sample") else { return };
+    let jacket = source().wears(&standing(closet::sample(Kind::Jacket).mesh));
+    let heavy = character(&Body::Avatar(Avatar::Heavy).model(), Naming::Mixamo).placed(y_up());
+    write_characters(&project.data(), "Jacket", &jacket, &heavy);
+    passes(&project, "test_scenes");
+    bits::compare(&project.data());
+}
+
+/// The editor without a window: the dock is there, and its buttons do what they say.
+#[test]
+fn dock() {
+    let Some(project) = project("dock") else { return };
+    write_usual(&project.data());
+    ends_well("the stage", &project.run(60, &["--headless", "--script", "stage.gd", "--", "data"]), "");
+    let output = project.run(240, &["--headless", "--editor", "--", "dock"]);
+    ends_well("the dock", &output, "ran the dock");
 }
 
 #[test]

@@ -268,6 +268,13 @@ impl BespokeRetarget {
         i64::from(status)
     }
 
+    /// For the tree; what it is bound to is the object itself.
+    #[func(gd_self, rename = _tick)]
+    fn tick(mut this: Gd<Self>, _held: Variant) {
+        let events = this.bind_mut().poll(false);
+        emit(&this, events);
+    }
+
     #[func]
     fn cancel(&self) {
         if let Some(running) = &self.running {
@@ -696,14 +703,12 @@ fn tree() -> Option<Gd<SceneTree>> {
     Engine::singleton().get_main_loop()?.try_cast::<SceneTree>().ok()
 }
 
-/// Looks after the work with each frame, and keeps the object alive meanwhile. Without frames, `wait` does it.
+/// Looks after the work with each frame. What is bound keeps the object alive meanwhile, as long as the tree is there. Without
+/// frames, `wait` does it.
 fn tick(this: &Gd<BespokeRetarget>) -> Option<Callable> {
     let mut tree = tree()?;
-    let mut own = this.clone();
-    let tick = Callable::from_fn("bespoke_tick", move |_: &[&Variant]| {
-        let events = own.bind_mut().poll(false);
-        emit(&own, events);
-    });
+    // A method by name: callables of Rust's own are kept by gdext until the editor ends.
+    let tick = Callable::from_object_method(this, "_tick").bindv(&varray![this].upcast_any_array());
     tree.connect("process_frame", &tick);
     Some(tick)
 }

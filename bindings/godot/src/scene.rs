@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use glam::DAffine3;
-use godot::builtin::{StringName, Transform3D, VarArray, Variant};
+use godot::builtin::{AnyArray, StringName, Transform3D, Variant};
 use godot::classes::{Mesh, Node, Node3D, Object, Resource};
 use godot::obj::Gd;
 
@@ -26,7 +26,7 @@ pub struct Shown {
 /// # Errors
 /// It is none of them, was freed, or has no mesh. `what` says which input it is.
 pub fn meshes(value: &Variant, what: &str) -> Result<Vec<Shown>> {
-    if let Ok(list) = value.try_to::<VarArray>() {
+    if let Ok(list) = value.try_to::<AnyArray>() {
         let all = list.iter_shared().map(|one| meshes(&one, what)).collect::<Result<Vec<_>>>()?;
         return Ok(all.into_iter().flatten().collect());
     }

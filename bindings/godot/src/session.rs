@@ -108,6 +108,9 @@ pub struct Mapped {
     pub part: String,
 }
 
+/// Normals, and tangents with the handedness of the bitangent.
+pub type Shading = (Vec<[f32; 3]>, Vec<[f32; 4]>);
+
 /// A session of the library.
 pub struct Session(NonNull<BespokeSession>);
 
@@ -326,7 +329,7 @@ impl Session {
     }
 
     /// Normals of the result and, where there are some of the design, tangents.
-    pub fn read_normals(&self, normals: &[[f32; 3]], tangents: &[[f32; 4]]) -> Result<(Vec<[f32; 3]>, Vec<[f32; 4]>)> {
+    pub fn read_normals(&self, normals: &[[f32; 3]], tangents: &[[f32; 4]]) -> Result<Shading> {
         let mut turned = vec![[0.0; 3]; normals.len()];
         let mut turned_tangents = vec![[0.0; 4]; tangents.len()];
         let (given, given_tangents) = (view(normals), view(tangents));

@@ -79,3 +79,27 @@ func write(file: String, bytes: PackedByteArray) -> void:
 	var out := FileAccess.open(data.path_join(file), FileAccess.WRITE)
 	if holds(out != null, "%s cannot be written" % file):
 		out.store_buffer(bytes)
+
+
+## A skinned mesh with a small tetrahedron that pokes through it at its first vertex.
+func poked(mesh: Mesh) -> ArrayMesh:
+	var arrays := mesh.surface_get_arrays(0)
+	var vertices: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
+	var at := vertices[0]
+	var first := vertices.size()
+	for corner: Vector3 in [Vector3(0, 0.02, 0), Vector3(0.02, -0.02, 0.02), Vector3(-0.02, -0.02, 0.02), Vector3(0, -0.02, -0.03)]:
+		vertices.append(at + corner)
+	arrays[Mesh.ARRAY_VERTEX] = vertices
+	var indices: PackedInt32Array = arrays[Mesh.ARRAY_INDEX]
+	for k: int in [0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]:
+		indices.append(first + k)
+	arrays[Mesh.ARRAY_INDEX] = indices
+	for kind: int in [Mesh.ARRAY_NORMAL, Mesh.ARRAY_TANGENT, Mesh.ARRAY_TEX_UV]:
+		arrays[kind] = null
+	for k in 4:
+		for n in 4:
+			arrays[Mesh.ARRAY_BONES].append(arrays[Mesh.ARRAY_BONES][n])
+			arrays[Mesh.ARRAY_WEIGHTS].append(arrays[Mesh.ARRAY_WEIGHTS][n])
+	var changed := ArrayMesh.new()
+	changed.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	return changed

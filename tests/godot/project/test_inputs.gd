@@ -77,7 +77,8 @@ func test_what_is_missing() -> void:
 	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_SKELETON, ["avatar", "no Skeleton3D"])
 	retarget.set_avatar(BoxMesh.new(), self_as_node())
 	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_SKELETON, ["avatar", "no Skeleton3D"])
-	retarget.set_garment([mesh_named(outfit, "Mannequin_Vest"), mesh_named(outfit, "Mannequin_Body")])
+	var both: Array[MeshInstance3D] = [mesh_named(outfit, "Mannequin_Vest"), mesh_named(outfit, "Mannequin_Body")]
+	retarget.set_garment(both)
 	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["2 meshes", "layers"])
 	retarget.set_garment(outfit)
 	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_MESH, ["garment"])

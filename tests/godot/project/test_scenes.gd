@@ -38,15 +38,19 @@ func _bone(skeleton: Skeleton3D, skin: Skin, bind: int) -> int:
 func test_rigged_gltf_is_dressed() -> void:
 	var outfit := character("outfit.glb")
 	var avatar := character("avatar.glb")
-	var vest := mesh_named(outfit, "Mannequin_Vest")
+	var own_body := mesh_named(outfit, "Mannequin_Body")
+	var garment: MeshInstance3D = null
+	for node: MeshInstance3D in outfit.find_children("*", "MeshInstance3D", true, false):
+		if node != own_body:
+			garment = node
 	var body := mesh_named(avatar, "Body")
 	var retarget := BespokeRetarget.new()
-	retarget.set_garment(vest)
-	retarget.set_source_body(mesh_named(outfit, "Mannequin_Body"))
+	retarget.set_garment(garment)
+	retarget.set_source_body(own_body)
 	retarget.set_avatar(body)
 	var status: int = await outcome(retarget)
 	same(status, BespokeRetarget.STATUS_OK, "the status: " + retarget.get_message())
-	_write_side("source", skeleton_in(outfit), {"garment": vest, "body": mesh_named(outfit, "Mannequin_Body")})
+	_write_side("source", skeleton_in(outfit), {"garment": garment, "body": own_body})
 	_write_side("target", skeleton_in(avatar), {"avatar": body})
 	write("dressed", retarget.get_vertices().to_byte_array())
 	var mesh := retarget.get_mesh()

@@ -1,0 +1,81 @@
+@tool
+extends VBoxContainer
+## The dials, and behind a button all other options for artists. What they say comes from the library.
+
+## The dials, and the options that they are.
+const DIALS := {"fit": "fit_weight", "looseness": "designed_clearance", "offset": "offset"}
+## The library's memory and threads are no matter of a garment.
+const LEFT_OUT := ["threads", "memory_limit"]
+
+## Controls by the names of the options.
+var controls := {}
+var more := Button.new()
+var _others := VBoxContainer.new()
+
+
+func _init() -> void:
+	var table := {}
+	for option in BespokeRetarget.get_options():
+		table[option.name] = option
+	for dial: String in DIALS:
+		_add(self, dial, table[DIALS[dial]])
+	more.text = "More options"
+	more.toggle_mode = true
+	more.flat = true
+	more.alignment = HORIZONTAL_ALIGNMENT_LEFT
+	more.toggled.connect(_open)
+	add_child(more)
+	_others.visible = false
+	add_child(_others)
+	for name: String in table:
+		if not table[name].is_expert and not name in DIALS.values() and not name in LEFT_OUT:
+			_add(_others, name, table[name])
+
+
+func _notification(what: int) -> void:
+	if what == NOTIFICATION_THEME_CHANGED:
+		_open(more.button_pressed)
+
+
+func _open(is_open: bool) -> void:
+	_others.visible = is_open
+	var arrow := &"GuiTreeArrowDown" if is_open else &"GuiTreeArrowRight"
+	if has_theme_icon(arrow, &"EditorIcons"):
+		more.icon = get_theme_icon(arrow, &"EditorIcons")
+
+
+## Hands everything over that is not as by default.
+func apply(retarget: BespokeRetarget) -> void:
+	for name: String in controls:
+		var control: Control = controls[name]
+		var value: Variant = control.button_pressed if control is CheckBox else control.value
+		if value != control.get_meta(&"default"):
+			retarget.set_option(name, value)
+
+
+func _add(column: Control, title: String, option: Dictionary) -> void:
+	var row := HBoxContainer.new()
+	var label := Label.new()
+	label.text = title.capitalize()
+	label.custom_minimum_size.x = 105
+	row.add_child(label)
+	var control: Control
+	if option.default is bool:
+		var box := CheckBox.new()
+		box.button_pressed = option.default
+		control = box
+	else:
+		var box := SpinBox.new()
+		box.step = 0.001 if option.default <= 0.01 else 0.05 if option.default <= 10 else 1.0
+		box.max_value = 2.0 if option.name == "designed_clearance" else 20.0
+		box.allow_greater = option.name != "designed_clearance"
+		box.value = option.default
+		control = box
+	control.size_flags_horizontal = SIZE_EXPAND_FILL
+	control.tooltip_text = option.text
+	label.tooltip_text = option.text
+	label.mouse_filter = MOUSE_FILTER_STOP
+	control.set_meta(&"default", option.default)
+	controls[option.name] = control
+	row.add_child(control)
+	column.add_child(row)

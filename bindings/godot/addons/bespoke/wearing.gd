@@ -1,0 +1,56 @@
+@tool
+extends RefCounted
+## Puts a result into the scene, and takes it out again when that is undone.
+
+## Marks what was put on by us, with the garment that it is.
+const MARK := &"bespoke_garment"
+
+
+## Puts the result under the skeleton. An earlier one of the same garment there goes.
+func put_on(retarget: BespokeRetarget, garment: Node3D, skeleton: Skeleton3D, undo_redo: EditorUndoRedoManager) -> void:
+	if not is_instance_valid(skeleton) or not skeleton.is_inside_tree():
+		return
+	var instance: MeshInstance3D = retarget.create_instance()
+	var root := skeleton.get_tree().edited_scene_root if skeleton.is_part_of_edited_scene() else skeleton.owner
+	var name := str(garment.name) if is_instance_valid(garment) else "Garment"
+	instance.name = name
+	instance.set_meta(MARK, name)
+	undo_redo.create_action("Dress in " + name, UndoRedo.MERGE_DISABLE, root)
+	for child in skeleton.get_children():
+		if child.has_meta(MARK) and child.get_meta(MARK) == name:
+			undo_redo.add_do_method(skeleton, &"remove_child", child)
+			undo_redo.add_undo_method(skeleton, &"add_child", child, true)
+			undo_redo.add_undo_property(child, &"owner", child.owner)
+			undo_redo.add_undo_reference(child)
+	if not retarget.get_added_bones().is_empty():
+		undo_redo.add_do_method(retarget, &"add_bones", skeleton)
+		undo_redo.add_undo_method(self, &"restore", skeleton, bones(skeleton))
+	undo_redo.add_do_method(skeleton, &"add_child", instance, true)
+	undo_redo.add_do_property(instance, &"owner", root)
+	undo_redo.add_do_reference(instance)
+	undo_redo.add_undo_method(skeleton, &"remove_child", instance)
+	undo_redo.commit_action()
+
+
+## All that a skeleton holds.
+static func bones(skeleton: Skeleton3D) -> Array[Dictionary]:
+	var all: Array[Dictionary] = []
+	for bone in skeleton.get_bone_count():
+		all.append({
+			"name": skeleton.get_bone_name(bone), "parent": skeleton.get_bone_parent(bone),
+			"rest": skeleton.get_bone_rest(bone), "pose": skeleton.get_bone_pose(bone),
+			"enabled": skeleton.is_bone_enabled(bone),
+		})
+	return all
+
+
+## Makes it hold just these: a skeleton lets no single bone go.
+func restore(skeleton: Skeleton3D, all: Array[Dictionary]) -> void:
+	skeleton.clear_bones()
+	for bone in all:
+		skeleton.add_bone(bone.name)
+	for k in all.size():
+		skeleton.set_bone_parent(k, all[k].parent)
+		skeleton.set_bone_rest(k, all[k].rest)
+		skeleton.set_bone_pose(k, all[k].pose)
+		skeleton.set_bone_enabled(k, all[k].enabled)

@@ -1,0 +1,253 @@
+@tool
+extends EditorPlugin
+## In an editor that was started for it (--editor -- dock): opens the scene, uses the dock, and ends the editor with 0 where all
+## holds. With a window (--editor -- pictures) it leaves pictures of the dock in the project.
+
+var _failures := 0
+
+
+func _ready() -> void:
+	for task: String in ["dock", "pictures"]:
+		if OS.get_cmdline_user_args().has(task):
+			_run.call_deferred(task)
+
+
+func _holds(condition: bool, sentence: String) -> bool:
+	if not condition:
+		printerr("FAILED: ", sentence)
+		_failures += 1
+	return condition
+
+
+func _frames(count: int) -> void:
+	for frame in count:
+		await get_tree().process_frame
+
+
+func _run(task: String) -> void:
+	await _frames(10)
+	while EditorInterface.get_resource_filesystem().is_scanning():
+		await get_tree().process_frame
+	EditorInterface.open_scene_from_path("res://stage.tscn")
+	while EditorInterface.get_edited_scene_root() == null:
+		await get_tree().process_frame
+	await _frames(5)
+	var docks := EditorInterface.get_base_control().find_children("Bespoke", "ScrollContainer", true, false)
+	if _holds(docks.size() == 1, "there are %d docks" % docks.size()):
+		var scene := EditorInterface.get_edited_scene_root()
+		if task == "dock":
+			await _use(docks[0], scene)
+		else:
+			await _show(docks[0], scene)
+	print("ran the dock" if _failures == 0 else "the dock has failed")
+	get_tree().quit(0 if _failures == 0 else 1)
+
+
+func _use(dock: Control, scene: Node) -> void:
+	var outfit: Node3D = scene.get_node("Outfit")
+	var avatar: Node3D = scene.get_node("Avatar")
+	var vest: MeshInstance3D = outfit.find_child("Mannequin_Vest")
+	var bones: Skeleton3D = avatar.find_children("*", "Skeleton3D")[0]
+	# Without anything chosen it says what is missing.
+	dock.dress.pressed.emit()
+	_holds(dock.state.visible and dock.state.text.begins_with("garment"), "what is missing: " + dock.state.text)
+	_holds(dock.dress.visible and not dock.stop.is_visible_in_tree(), "it seems to run")
+
+	dock.garment.choose(vest)
+	dock.source.choose(outfit)
+	dock.avatar.choose(avatar)
+	_holds(dock.garment.button.text == "Mannequin_Vest", "the button says " + dock.garment.button.text)
+	_holds(dock.source.meshes([vest]).size() == 1, "the source has other meshes")
+	_holds(dock.avatar.skeleton() == bones, "the avatar has another skeleton")
+	dock.garment.choose(outfit)
+	_holds(dock.garment.node == null, "a character was taken for a garment")
+	dock.garment.choose(vest)
+
+	await _joints(dock)
+	await _dials(dock)
+	await _cancel(dock)
+	await _dress(dock, bones)
+	await _finding(dock, vest)
+
+
+func _joints(dock: Control) -> void:
+	dock.joints.show.button_pressed = true
+	await _frames(2)
+	var table: Tree = dock.joints.table
+	_holds(table.visible and table.get_root() != null, "there is no table: " + dock.state.text)
+	var item := table.get_root().get_first_child()
+	while item and item.get_text(0) != "hand_l":
+		item = item.get_next()
+	if not _holds(item != null, "hand_l is not in the table"):
+		return
+	_holds(item.get_text(1).get_slice(",", int(item.get_range(1))) == "LeftHand", "hand_l is something else")
+	_holds(item.get_tooltip_text(1) == "mixamorig_LeftHand", "hand_l is " + item.get_tooltip_text(1))
+	_holds(item.get_text(2).ends_with("%"), "the confidence is " + item.get_text(2))
+	item.select(0)
+	_holds(dock.joints._about.text.begins_with("Left Hand"), "the reason: " + dock.joints._about.text)
+	# As if none had been chosen in the cell.
+	dock.joints.pairs["hand_l"] = ""
+	dock.joints.changed.emit()
+	await _frames(2)
+	item = table.get_selected()
+	_holds(item and item.get_text(0) == "hand_l" and item.get_text(2) == "by hand", "the row was not mended")
+	_holds(item and item.get_range(1) == 0.0, "the row shows another bone")
+	dock.joints.forget.pressed.emit()
+	await _frames(2)
+	_holds(dock.joints.pairs.is_empty(), "it was not forgotten")
+	dock.joints.show.button_pressed = false
+	_holds(not table.visible, "the table is still there")
+
+
+func _dials(dock: Control) -> void:
+	var controls: Dictionary = dock.options.controls
+	_holds([controls.fit_weight.value, controls.designed_clearance.value, controls.offset.value] == [2.0, 1.0, 0.0], "dials")
+	_holds(controls.fit_weight.tooltip_text.contains("tighter"), "fit says " + controls.fit_weight.tooltip_text)
+	_holds(not controls.has("dhat"), "an option for experts")
+	controls.designed_clearance.value = 0.5
+	controls.strict.button_pressed = true
+	var retarget: BespokeRetarget = dock._retarget()
+	_holds(retarget.looseness == 0.5 and retarget.get_option("strict"), "the dials do nothing")
+	controls.designed_clearance.value = 1.0
+	controls.strict.button_pressed = false
+
+
+func _ended(dock: Control) -> void:
+	while dock.retarget.is_running():
+		await get_tree().process_frame
+
+
+func _cancel(dock: Control) -> void:
+	dock.dress.pressed.emit()
+	_holds(not dock.dress.visible and dock.stop.get_parent().visible, "it does not run: " + dock.state.text)
+	while dock.progress.value < 0.15 and dock.retarget.is_running():
+		await get_tree().process_frame
+	_holds(dock.state.text.begins_with("Growing"), "it says " + dock.state.text)
+	dock.stop.pressed.emit()
+	await _ended(dock)
+	_holds(dock.state.text == "Stopped.", "it says " + dock.state.text)
+	_holds(dock.dress.visible, "there is no button to begin anew")
+
+
+func _worn(bones: Skeleton3D) -> Array[Node]:
+	return bones.get_children().filter(func(child: Node) -> bool: return child.has_meta(&"bespoke_garment"))
+
+
+func _dress(dock: Control, bones: Skeleton3D) -> void:
+	var count := bones.get_bone_count()
+	dock.dress.pressed.emit()
+	await _ended(dock)
+	await _frames(2)
+	_holds(dock.state.text.begins_with("Dressed and verified"), "it says " + dock.state.text)
+	var worn := _worn(bones)
+	if not _holds(worn.size() == 1, "the avatar wears %d garments" % worn.size()):
+		return
+	_holds(worn[0].owner == EditorInterface.get_edited_scene_root(), "it would not be saved")
+	_holds(worn[0].mesh == dock.retarget.get_mesh(), "it has another mesh")
+	var history: UndoRedo = dock.undo_redo.get_history_undo_redo(dock.undo_redo.get_object_history_id(bones))
+	_holds(history.get_current_action_name() == "Dress in Mannequin_Vest", "the action: " + history.get_current_action_name())
+	history.undo()
+	_holds(_worn(bones).is_empty() and bones.get_bone_count() == count, "it was not undone")
+	history.redo()
+	_holds(_worn(bones) == worn, "it was not done again")
+	# Once more: the new one takes the place of the old one.
+	dock.dress.pressed.emit()
+	await _ended(dock)
+	await _frames(2)
+	var again := _worn(bones)
+	_holds(again.size() == 1 and again != worn, "there are %d garments" % again.size())
+	history.undo()
+	_holds(_worn(bones) == worn, "the earlier one did not come back")
+	history.undo()
+	_holds(_worn(bones).is_empty(), "it was not undone")
+	history.redo()
+	history.redo()
+	# It is saved with the scene.
+	var packed := PackedScene.new()
+	packed.pack(EditorInterface.get_edited_scene_root())
+	var saved: Node = packed.instantiate()
+	_holds(saved.find_children("*", "MeshInstance3D").any(
+		func(node: Node) -> bool: return node.has_meta(&"bespoke_garment")), "it was not saved")
+	saved.free()
+
+
+## A garment that passes through itself, told by its triangles.
+func _finding(dock: Control, vest: MeshInstance3D) -> void:
+	var design := vest.mesh
+	vest.mesh = load("res://poked.tres")
+	dock.options.controls.strict.button_pressed = true
+	dock.dress.pressed.emit()
+	await _ended(dock)
+	_holds(dock.findings.visible and dock.findings.list.item_count > 0, "there are no findings: " + dock.state.text)
+	_holds(dock.findings.what_to_do.visible, "no help")
+	dock.findings.what_to_do.pressed.emit()
+	_holds(dock.findings._help_text.text.contains("strict"), "the help: " + dock.findings._help_text.text)
+	dock.findings._help.hide()
+	dock.findings.list.item_selected.emit(0)
+	_holds(dock.findings._text.text.contains("triangle"), "the sentence: " + dock.findings._text.text)
+	_holds(dock.findings.marks.size() == 1, "%d marks in the viewport" % dock.findings.marks.size())
+	if not dock.findings.marks.is_empty():
+		var mark: MeshInstance3D = dock.findings.marks[0]
+		_holds(mark.mesh.surface_get_array_len(0) == 6, "it marks %d corners" % mark.mesh.surface_get_array_len(0))
+		_holds(mark.owner == null, "the marks would be saved")
+	_holds(EditorInterface.get_selection().get_selected_nodes() == ([vest] as Array[Node]), "the garment is not selected")
+	vest.mesh = design
+	dock.options.controls.strict.button_pressed = false
+
+
+func _picture(file: String) -> void:
+	await _frames(30)
+	get_tree().root.get_texture().get_image().save_png("res://%s.png" % file)
+
+
+func _look_at(nodes: Array) -> void:
+	EditorInterface.get_selection().clear()
+	for node: Node in nodes:
+		EditorInterface.get_selection().add_node(node)
+	var focus := InputEventKey.new()
+	focus.keycode = KEY_F
+	focus.pressed = true
+	for control in EditorInterface.get_editor_viewport_3d().get_parent().get_parent().find_children("*", "Control", false, false):
+		control.gui_input.emit(focus)
+	await _frames(40)
+
+
+func _show(dock: Control, scene: Node) -> void:
+	EditorInterface.set_main_screen_editor("3D")
+	var outfit: Node3D = scene.get_node("Outfit")
+	var avatar: Node3D = scene.get_node("Avatar")
+	var vest: MeshInstance3D = outfit.find_child("Mannequin_Vest")
+	var cloth := StandardMaterial3D.new()
+	cloth.albedo_color = Color(0.25, 0.42, 0.62)
+	cloth.cull_mode = BaseMaterial3D.CULL_DISABLED
+	vest.material_override = cloth
+	var tab: Node = dock
+	while not tab.get_parent() is TabContainer:
+		tab = tab.get_parent()
+	tab.get_parent().current_tab = tab.get_index()
+	await _look_at([outfit.find_child("Mannequin_Body"), avatar.find_child("Body")])
+	EditorInterface.get_selection().clear()
+	await _picture("empty")
+	dock.garment.choose(vest)
+	dock.source.choose(outfit)
+	dock.avatar.choose(avatar)
+	dock.joints.show.button_pressed = true
+	await _picture("joints")
+	dock.joints.show.button_pressed = false
+	dock.dress.pressed.emit()
+	while dock.progress.value < 0.2 and dock.retarget.is_running():
+		await get_tree().process_frame
+	get_tree().root.get_texture().get_image().save_png("res://running.png")
+	await _ended(dock)
+	EditorInterface.get_selection().clear()
+	await _picture("dressed")
+	vest.mesh = load("res://poked.tres")
+	dock.options.controls.strict.button_pressed = true
+	dock.dress.pressed.emit()
+	await _ended(dock)
+	dock.findings.list.select(0)
+	dock.findings.list.item_selected.emit(0)
+	await _look_at([vest])
+	await _picture("finding")
+	dock.findings.what_to_do.pressed.emit()
+	await _picture("help")
