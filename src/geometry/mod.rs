@@ -15,6 +15,7 @@ pub mod median;
 pub mod mesh;
 pub mod outfit;
 pub mod piece;
+pub mod section;
 pub mod sliver_caps;
 pub mod solid_angle;
 pub mod spread;

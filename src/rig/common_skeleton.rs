@@ -5,11 +5,13 @@
 
 use glam::{DAffine3, DVec3};
 
+use super::body_part::Side;
 use super::joint_map::{JointMap, Reason};
 use super::landmark::Landmark;
 use super::places::{self, Character, index, places};
 use super::posing::Posing;
 use super::reading::moves;
+use super::worn::Worn;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::diagnostic::Diagnostic;
 use crate::input::rig::Rig;
@@ -37,27 +39,38 @@ pub struct CommonSkeleton {
     /// The joint of the common skeleton that each joint of the target rig belongs to.
     pub owner: Vec<Option<u32>>,
     /// The landmarks in source and target, in the order of [`Landmark::ALL`].
-    pub landmarks: [[Option<DVec3>; 16]; 2],
+    pub landmarks: [[Option<DVec3>; Landmark::COUNT]; 2],
 }
 
 impl CommonSkeleton {
-    /// The common skeleton of two characters by the map between their rigs.
+    /// The common skeleton of two characters by the map between their rigs, for `garment`, which is worn by the source.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidSkeleton`] where fewer than two joints correspond, or all of them are in one place.
-    pub fn new(source: Character<'_>, target: Character<'_>, map: &JointMap) -> Result<Self> {
+    pub fn new(
+        source: Character<'_>,
+        target: Character<'_>,
+        map: &JointMap,
+        garment: Option<Worn<'_>>,
+    ) -> Result<Self> {
         let order = [source.rig.parents_first("source rig")?, target.rig.parents_first("target rig")?];
         let on_source = places(source, &map.readings[0], &order[0]);
         let on_target = places(target, &map.readings[1], &order[1]);
         let mut build = Builder::default();
-        let mut of_landmark = [None; 16];
+        let mut of_landmark = [None; Landmark::COUNT];
         let parents: Vec<Option<Landmark>> = Landmark::ALL.iter().map(|landmark| landmark.parent()).collect();
-        let is_common =
-            |landmark: Landmark| on_source[index(landmark)].is_some() && on_target[index(landmark)].is_some();
+        let feet = match garment {
+            Some(garment) => garment.feet(&places::owners(source.rig, &map.readings[0], &order[0]), &on_source),
+            None => Vec::new(),
+        };
+        let is_common = |landmark: Landmark| {
+            let is_worn = !matches!(landmark, Landmark::Toes(_)) || feet.contains(&landmark);
+            is_worn && on_source[index(landmark)].is_some() && on_target[index(landmark)].is_some()
+        };
         let person = Landmark::ALL.iter().filter(|&&landmark| is_common(landmark)).count() >= LEAST_LANDMARKS;
         for (k, landmark) in Landmark::ALL.into_iter().enumerate() {
             let (Some(from), Some(to)) = (on_source[k], on_target[k]) else { continue };
-            if person {
+            if person && is_common(landmark) {
                 let above = std::iter::successors(parents[k], |above| above.parent()).find(|&above| is_common(above));
                 of_landmark[k] =
                     Some(build.push(CommonJoint::Landmark(landmark), [from, to], above.map(Node::Landmark)));
@@ -109,6 +122,18 @@ impl CommonSkeleton {
             CommonJoint::Pair(joint, _) => source.called(joint as usize),
         };
         self.joints.iter().map(name).collect()
+    }
+
+    /// From the ankles to the toes, in source and target: the mean of those feet of which both are known.
+    pub fn feet(&self) -> Option<[DVec3; 2]> {
+        let foot = |places: &[Option<DVec3>; Landmark::COUNT], side: Side| {
+            Some(places[index(Landmark::Toes(side))]? - places[index(Landmark::Ankle(side))]?)
+        };
+        let [own, others] = &self.landmarks;
+        let feet: Vec<_> =
+            [Side::Left, Side::Right].into_iter().filter_map(|s| Some([foot(own, s)?, foot(others, s)?])).collect();
+        let mean = |side: usize| feet.iter().map(|foot| foot[side]).sum::<DVec3>() / feet.len() as f64;
+        (!feet.is_empty()).then(|| [mean(0), mean(1)])
     }
 
     /// The target skeleton after these motions of the joints of the target rig.
@@ -179,7 +204,7 @@ impl Builder {
 
     fn finish(
         self,
-        of_landmark: &[Option<u32>; 16],
+        of_landmark: &[Option<u32>; Landmark::COUNT],
         from: &[Option<u32>],
     ) -> Result<(Skeleton, Skeleton, Vec<CommonJoint>)> {
         let Self { joints, places: [source, target], above } = self;

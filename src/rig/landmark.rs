@@ -1,8 +1,11 @@
 //! The joints of the skeleton that two rigs of people have in common, whatever else is in either.
+//!
+//! The ends of the feet are among them only for a garment that is worn there: for all others they would be bones that stick out
+//! of trousers and skirts.
 
 use super::body_part::{BodyPart, Side};
 
-/// A joint of the common skeleton of two people: those of the published skeletons, and the top of the head.
+/// A joint of the common skeleton of two people: those of the published skeletons, the top of the head, and the ends of the feet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Landmark {
     /// Where the trunk begins.
@@ -25,14 +28,19 @@ pub enum Landmark {
     Knee(Side),
     /// Where a foot begins.
     Ankle(Side),
+    /// Among the toes, for what is worn on the feet.
+    Toes(Side),
 }
 
-use Landmark::{Ankle, Elbow, HeadTop, Hip, Knee, Neck, Pelvis, Shoulder, Waist, Wrist};
+use Landmark::{Ankle, Elbow, HeadTop, Hip, Knee, Neck, Pelvis, Shoulder, Toes, Waist, Wrist};
 use Side::{Left, Right};
 
 impl Landmark {
+    /// How many there are.
+    pub const COUNT: usize = 18;
+
     /// All, in the order of the published skeletons, each after its parent.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; Self::COUNT] = [
         Pelvis,
         Waist,
         Neck,
@@ -49,6 +57,8 @@ impl Landmark {
         Knee(Right),
         Ankle(Right),
         HeadTop,
+        Toes(Left),
+        Toes(Right),
     ];
 
     /// The landmark at the other end of the bone that leads to this one.
@@ -64,19 +74,16 @@ impl Landmark {
             Hip(_) => Some(Pelvis),
             Knee(side) => Some(Hip(side)),
             Ankle(side) => Some(Knee(side)),
+            Toes(side) => Some(Ankle(side)),
         }
-    }
-
-    /// Whether no landmark follows on this one.
-    pub fn is_last(self) -> bool {
-        matches!(self, HeadTop | Wrist(_) | Ankle(_))
     }
 
     /// The joint of a rig that lies in this place; none for those that a rig may have no joint for.
     pub fn part(self) -> Option<BodyPart> {
         match self {
             Pelvis => Some(BodyPart::Hips),
-            Waist => None,
+            // A joint of that name is nearer to the ankle.
+            Waist | Toes(_) => None,
             Neck => Some(BodyPart::Neck),
             HeadTop => Some(BodyPart::HeadTop),
             Shoulder(side) => Some(BodyPart::UpperArm(side)),
@@ -89,7 +96,7 @@ impl Landmark {
     }
 
     /// The landmark at whose bones a part of the body lies: that of the trunk for collar bones, the top of the head for all of
-    /// head and neck, the wrist for a hand with its fingers.
+    /// head and neck, the wrist for a hand with its fingers, the toes for a foot.
     pub fn of(part: BodyPart) -> Self {
         match part {
             BodyPart::Hips => Pelvis,
@@ -100,7 +107,7 @@ impl Landmark {
             BodyPart::Hand(side) | BodyPart::Finger { side, .. } => Wrist(side),
             BodyPart::UpperLeg(side) => Hip(side),
             BodyPart::LowerLeg(side) => Knee(side),
-            BodyPart::Foot(side) | BodyPart::Toes(side) | BodyPart::ToeTip(side) => Ankle(side),
+            BodyPart::Foot(side) | BodyPart::Toes(side) | BodyPart::ToeTip(side) => Toes(side),
         }
     }
 
@@ -113,6 +120,7 @@ impl Landmark {
             Hip(_) => "hips",
             Knee(_) => "knees",
             Ankle(_) => "ankles",
+            Toes(_) => "toes",
             other => other.name(),
         }
     }
@@ -136,6 +144,8 @@ impl Landmark {
             Knee(Right) => "right knee",
             Ankle(Left) => "left ankle",
             Ankle(Right) => "right ankle",
+            Toes(Left) => "left toes",
+            Toes(Right) => "right toes",
         }
     }
 }

@@ -13,3 +13,4 @@ pub mod reading;
 pub mod structure;
 pub mod weights;
 pub mod words;
+pub mod worn;

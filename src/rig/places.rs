@@ -20,6 +20,8 @@ const HEAD: f64 = 0.45;
 /// How far from elbow to fingertips a wrist is, and from knee to sole an ankle.
 const WRIST: f64 = 0.6;
 const ANKLE: f64 = 0.86;
+/// What is nearer to the tip of a foot than this, in lengths of the foot, belongs to the toes.
+const TOES: f64 = 0.25;
 /// A joint of the hips that is farther from the middle between the legs than this, in lengths of the trunk, stands elsewhere, such as
 /// on the floor.
 const STRAY_HIPS: f64 = 0.6;
@@ -48,7 +50,7 @@ pub fn owners(rig: &Rig, reading: &Reading, order: &[u32]) -> Vec<Option<Landmar
 }
 
 /// The places of the landmarks of `character`, in the order of [`Landmark::ALL`].
-pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Option<DVec3>; 16] {
+pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Option<DVec3>; Landmark::COUNT] {
     let at = |part: BodyPart| reading.joint_of(part).map(|joint| character.rig.place(joint));
     let middle = |part: fn(Side) -> BodyPart| Some(0.5 * (at(part(Side::Left))? + at(part(Side::Right))?));
     let (hips, shoulders) = (middle(BodyPart::UpperLeg), middle(BodyPart::UpperArm));
@@ -58,7 +60,8 @@ pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Op
         (joint, hips) => joint.or(hips),
     };
     let mut places = Landmark::ALL.map(|landmark| landmark.part().and_then(at));
-    let set = |places: &mut [Option<DVec3>; 16], landmark: Landmark, place| places[index(landmark)] = place;
+    let set =
+        |places: &mut [Option<DVec3>; Landmark::COUNT], landmark: Landmark, place| places[index(landmark)] = place;
     set(&mut places, Landmark::Pelvis, pelvis);
     set(&mut places, Landmark::Neck, neck);
     if let (Some(pelvis), Some(neck)) = (pelvis, neck) {
@@ -82,6 +85,12 @@ pub fn places(character: Character<'_>, reading: &Reading, order: &[u32]) -> [Op
             && let Some(from) = places[index(before)]
         {
             set(&mut places, landmark, flesh.end(before, from, share));
+        }
+    }
+    for side in [Side::Left, Side::Right] {
+        if let Some(ankle) = places[index(Landmark::Ankle(side))] {
+            let joint = at(BodyPart::ToeTip(side)).or_else(|| at(BodyPart::Toes(side)));
+            set(&mut places, Landmark::Toes(side), flesh.toes(side, ankle).or(joint));
         }
     }
     places
@@ -185,5 +194,15 @@ impl Flesh<'_> {
         let direction = (middle - from).try_normalize().filter(|_| !own.is_empty())?;
         let reach = own.iter().map(|&p| (p - from).dot(direction)).fold(0.0, f64::max);
         (reach > 0.0).then(|| from + share * reach * direction)
+    }
+
+    /// Within the toes: the middle of what is near to the farthest point of the foot from `ankle`.
+    fn toes(&self, side: Side, ankle: DVec3) -> Option<DVec3> {
+        let belongs = |joint: Option<u32>| joint.is_some_and(|j| self.owners[j as usize] == Some(Landmark::Toes(side)));
+        let foot: Vec<DVec3> = self.vertices().filter(|&(_, joint)| belongs(joint)).map(|(p, _)| p).collect();
+        let farther = |a: &&DVec3, b: &&DVec3| a.distance(ankle).total_cmp(&b.distance(ankle));
+        let tip = *foot.iter().max_by(farther)?;
+        let near: Vec<DVec3> = foot.into_iter().filter(|p| p.distance(tip) <= TOES * tip.distance(ankle)).collect();
+        Some(near.iter().sum::<DVec3>() / near.len() as f64)
     }
 }

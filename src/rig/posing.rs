@@ -47,7 +47,7 @@ pub struct Posing {
     places: Vec<DVec3>,
     turns: Vec<DQuat>,
     /// For each landmark, the joint that moves it.
-    movers: [Option<u32>; 16],
+    movers: [Option<u32>; Landmark::COUNT],
     /// The joint that moves what has no weights.
     base: u32,
     /// The largest angle between the directions of a limb.
@@ -61,14 +61,14 @@ impl Posing {
         character: Character<'_>,
         reading: &Reading,
         order: &[u32],
-        own: &[Option<DVec3>; 16],
-        others: &[Option<DVec3>; 16],
+        own: &[Option<DVec3>; Landmark::COUNT],
+        others: &[Option<DVec3>; Landmark::COUNT],
     ) -> Option<Self> {
         character.skin?;
         let rig = character.rig;
         let frames = [frame(own)?, frame(others)?];
         let into_own = frames[0] * frames[1].transpose();
-        let direction = |places: &[Option<DVec3>; 16], [a, b]: [Landmark; 2]| {
+        let direction = |places: &[Option<DVec3>; Landmark::COUNT], [a, b]: [Landmark; 2]| {
             (places[index(b)]? - places[index(a)]?).try_normalize()
         };
         let joint_of = |landmark: Landmark| landmark.part().and_then(|part| reading.joint_of(part));
@@ -82,7 +82,7 @@ impl Posing {
             difference: 0.0,
         };
         posing.order = sorted(&posing.parents);
-        let mut whole = [DQuat::IDENTITY; 16];
+        let mut whole = [DQuat::IDENTITY; Landmark::COUNT];
         for limb in LIMBS {
             let [from, _] = limb;
             // The turn of the limb that this one goes on from.
@@ -152,7 +152,11 @@ impl Posing {
     }
 
     /// The places of the landmarks after these motions.
-    pub fn moved_landmarks(&self, motions: &[DAffine3], places: &[Option<DVec3>; 16]) -> [Option<DVec3>; 16] {
+    pub fn moved_landmarks(
+        &self,
+        motions: &[DAffine3],
+        places: &[Option<DVec3>; Landmark::COUNT],
+    ) -> [Option<DVec3>; Landmark::COUNT] {
         let mut moved = *places;
         for (place, mover) in moved.iter_mut().zip(self.movers) {
             let motion = motions[mover.unwrap_or(self.base) as usize];
@@ -163,7 +167,7 @@ impl Posing {
 }
 
 /// The frame of a trunk: up, across and forward, as columns.
-fn frame(places: &[Option<DVec3>; 16]) -> Option<DMat3> {
+fn frame(places: &[Option<DVec3>; Landmark::COUNT]) -> Option<DMat3> {
     let at = |landmark: Landmark| places[index(landmark)];
     let up = (at(Landmark::Neck)? - at(Landmark::Pelvis)?).try_normalize()?;
     let pair = |part: fn(Side) -> Landmark| Some(at(part(Side::Left))? - at(part(Side::Right))?);

@@ -69,6 +69,7 @@ pub(super) struct Design {
     skeleton: Skeleton,
     source_avatar: Option<TriangleMesh>,
     skin: Option<Arc<SkinWeights>>,
+    feet: Option<[DVec3; 2]>,
 }
 
 /// The target in a pose, in its caller's coordinates.
@@ -343,7 +344,7 @@ impl Inputs {
         }
         let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
         let clock = Instant::now();
-        let Skeletons { source, target, skin, way } = self.skeletons(diagnostics)?;
+        let Skeletons { source, target, skin, feet, way } = self.skeletons(diagnostics)?;
         let mut rig_seconds = clock.elapsed().as_secs_f64();
         if let Some(weights) = &self.fit_weights
             && weights.len() != garment.positions.len()
@@ -369,6 +370,7 @@ impl Inputs {
             skeleton: skeleton_to_internal(&self.source_coordinate_system, &source),
             source_avatar: self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m)),
             skin,
+            feet,
         };
         let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
         let Some(way) = way.as_ref().filter(|way| way.posing.is_large()) else {
@@ -417,7 +419,7 @@ impl Inputs {
         cancel: &Cancel,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Setting> {
-        let Design { garment, weld, skeleton, source_avatar, skin } = design;
+        let Design { garment, weld, skeleton, source_avatar, skin, feet } = design;
         let (avatar, target) = (&stand.avatar, &*stand.target);
         let precision = self.garment.as_ref().map_or(Precision::F32, |garment| garment.1);
         let told = self.target_coordinate_system;
@@ -430,6 +432,7 @@ impl Inputs {
                     source_avatar: source_avatar.as_ref(),
                     avatar: &mesh_to_internal(&told, avatar),
                     target_skeleton: &skeleton_to_internal(&told, target),
+                    feet: *feet,
                     skin: skin.as_deref(),
                     source_coordinate_system: self.source_coordinate_system,
                     target_coordinate_system: told,

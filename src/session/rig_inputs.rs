@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::way::Way;
 use crate::input::rig::Rig;
 use crate::input::skeleton::Skeleton;
@@ -35,6 +37,8 @@ pub(super) struct Skeletons {
     pub(super) target: Arc<Skeleton>,
     /// The skin weights of the target avatar.
     pub(super) skin: Option<Arc<SkinWeights>>,
+    /// From the ankles to the toes in source and target, in the internal coordinate system.
+    pub(super) feet: Option<[DVec3; 2]>,
     /// The way from the source's pose, where the target stands in another one, however little that differs.
     pub(super) way: Option<Way>,
 }

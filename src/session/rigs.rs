@@ -22,6 +22,7 @@ use crate::rig::joint_map::{CallersPair, JointMap};
 use crate::rig::places::Character;
 use crate::rig::posing::Posing;
 use crate::rig::reading::Reading;
+use crate::rig::worn::Worn;
 use crate::stage::setup::layer_skin::skin_with_layers;
 
 impl Session {
@@ -143,12 +144,12 @@ impl Inputs {
             if let (Some(skin), Some(avatar)) = (&self.skin, &self.avatar) {
                 check_skin(skin, target.joints.len(), avatar.positions.len(), "skin weights", "target skeleton")?;
             }
-            return Ok(Skeletons { source: source.clone(), target, skin: self.skin.clone(), way: None });
+            return Ok(Skeletons { source: source.clone(), target, skin: self.skin.clone(), feet: None, way: None });
         }
         let rigs = self.posed_rigs()?;
         let map = self.joint_map_of(&rigs)?;
         let [source, target] = rigs;
-        let common = CommonSkeleton::new(source.character(), target.character(), &map)?;
+        let common = self.common_skeleton(&source, &target, &map)?;
         diagnostics.extend(common.unsure(&map));
         let skin = target.skin.as_deref().map(|skin| Arc::new(common.skin(skin)));
         let from_internal = |system: &CoordinateSystem, skeleton: &Skeleton| {
@@ -159,6 +160,7 @@ impl Inputs {
             source: from_internal(&self.source_coordinate_system, &common.source),
             target: from_internal(&self.target_coordinate_system, &common.target),
             skin,
+            feet: common.feet(),
             way: self.way(&target, &map.readings[1], &Arc::new(common))?,
         })
     }
@@ -171,7 +173,14 @@ impl Inputs {
         let rigs = self.posed_rigs().ok()?;
         let map = self.joint_map_of(&rigs).ok()?;
         let [source, target] = rigs;
-        Some(CommonSkeleton::new(source.character(), target.character(), &map).ok()?.names(&source.rig))
+        Some(self.common_skeleton(&source, &target, &map).ok()?.names(&source.rig))
+    }
+
+    /// The skeleton that the rigs have in common for the garment.
+    fn common_skeleton(&self, source: &PosedRig, target: &PosedRig, map: &JointMap) -> Result<CommonSkeleton> {
+        let mesh = self.garment.as_ref().map(|garment| mesh_to_internal(&self.source_coordinate_system, &garment.0));
+        let garment = mesh.as_ref().map(|mesh| Worn { mesh, skin: self.garment_skin() });
+        CommonSkeleton::new(source.character(), target.character(), map, garment)
     }
 
     /// The way of the target from the source's pose, where that is another one.

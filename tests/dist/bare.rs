@@ -28,6 +28,19 @@ pub fn program(folder: &Path) -> PathBuf {
     programs.find(|path| path.to_string_lossy().ends_with("retarget")).expect("retarget is among the programs")
 }
 
+/// The program `bespoke` has the library inside.
+#[test]
+fn the_program_for_files_needs_no_library_of_ours() {
+    let Some(folder) = folder() else { return };
+    let alone = scratch("dist-alone").join("bespoke");
+    fs::copy(folder.join("bin/bespoke"), &alone).expect("the program can be copied");
+    let said = succeed(Command::new(&alone).arg("--version"));
+    assert_eq!(said.trim(), concat!("bespoke ", env!("CARGO_PKG_VERSION")));
+    let output = Command::new(&alone).args(["inspect", "no-such-file.glb"]).output().expect("it runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("no-such-file.glb"), "{said}");
+}
+
 #[test]
 fn it_dresses_where_nothing_is_installed() {
     let Some(folder) = folder() else { return };

@@ -26,6 +26,7 @@ struct Inputs {
     avatar: TriangleMesh,
     target: Skeleton,
     skin: Option<SkinWeights>,
+    feet: Option<[DVec3; 2]>,
     trusted: bool,
 }
 
@@ -47,6 +48,7 @@ fn inputs(garment: &Sample, mannequin: &Sample, body: &Sample) -> Inputs {
         avatar: mesh(body),
         target: skeleton(body),
         skin: Some(skin),
+        feet: None,
         trusted: false,
     }
 }
@@ -61,6 +63,7 @@ impl Inputs {
             source_avatar: self.source_avatar.as_ref(),
             avatar: &self.avatar,
             target_skeleton: &self.target,
+            feet: self.feet,
             skin: self.skin.as_ref(),
             source_coordinate_system: told,
             target_coordinate_system: told,
@@ -257,6 +260,30 @@ fn sides_of_every_body_are_told() {
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// A hunched back says the opposite of the feet; who knows the feet follows them.
+#[test]
+fn feet_decide_where_rigs_tell_of_them() {
+    let is_told =
+        |inputs: &Inputs| inputs.check(false).1.iter().any(|d| matches!(d, Diagnostic::SidesSwapped { all: true, .. }));
+    for (pair, good) in dressed(&[Garment::Jumpsuit], &Avatar::ALL) {
+        let foot = DVec3::new(0.02, -0.2, -0.08);
+        let back = |p: DVec3| DVec3::new(p.x, -p.y, p.z);
+        let exchanged = good.clone().target_through(back);
+        assert!(!is_told(&good) && is_told(&exchanged), "{pair}: without feet");
+        for (inputs, feet, told) in [
+            (&good, [foot, foot], false),
+            (&good, [foot, back(foot)], true),
+            (&exchanged, [foot, foot], false),
+            (&exchanged, [foot, back(foot)], true),
+            // On her toes: the rest of the body decides.
+            (&good, [-DVec3::Z, -DVec3::Z], false),
+            (&exchanged, [-DVec3::Z, -DVec3::Z], true),
+        ] {
+            assert_eq!(is_told(&Inputs { feet: Some(feet), ..inputs.clone() }), told, "{pair}: {feet:?}");
+        }
+    }
 }
 
 #[test]

@@ -42,12 +42,13 @@ fn installed_it_dresses_by_itself() {
     succeed(install.arg("--target").arg(&site).arg(&wheel));
 
     let library = site.join("bespoke/libbespoke.so");
-    let (major, minor) = glibc(&library);
+    let (major, minor) = glibc(&library).max(glibc(&site.join("bespoke/bin/bespoke")));
     assert!(name.ends_with(&format!("-py3-none-manylinux_{major}_{minor}_{}.whl", env::consts::ARCH)), "{name}");
     // All sources of the package, and no others.
     let names = |folder: &Path| {
         let files = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").file_name());
-        let mut names: Vec<_> = files.filter(|name| name != "__pycache__" && name != "libbespoke.so").collect();
+        let mut names: Vec<_> =
+            files.filter(|name| name != "__pycache__" && name != "libbespoke.so" && name != "bin").collect();
         names.sort_unstable();
         names
     };
@@ -64,6 +65,14 @@ fn installed_it_dresses_by_itself() {
     tests.current_dir(root().join("tests/python")).env("PYTHONPATH", &site).env("PYTHONDONTWRITEBYTECODE", "1");
     tests.env_remove("BESPOKE_LIBRARY").env("BESPOKE_SAMPLE", sample::folder());
     succeed(tests.args(["-m", "unittest", "test_bits", "test_views"]));
+    // The program for files, by its module and by the name that pip gives it.
+    let mut program = Command::new(path);
+    let said = succeed(program.env("PYTHONPATH", &site).args(["-m", "bespoke", "--version"]));
+    assert_eq!(said.trim(), concat!("bespoke ", env!("CARGO_PKG_VERSION")));
+    let mut program = Command::new(path);
+    program.env("PYTHONPATH", &site).args(["-m", "bespoke", "dress", "no-such-file.glb"]);
+    assert_eq!(program.output().expect("Python runs").status.code(), Some(2), "a missing argument is a fault of usage");
+    assert!(site.join("bin/bespoke").is_file(), "pip makes no program bespoke");
     let mut place = Command::new(path);
     place.env("PYTHONPATH", &site).env_remove("BESPOKE_LIBRARY");
     let said =

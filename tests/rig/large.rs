@@ -41,7 +41,7 @@ fn mapped(what: &str, rig: &Rig) -> Result<usize, ErrorKind> {
     let map = JointMap::new(rig, rig, readings, &[]).expect("a map");
     assert_eq!(map.joints.len(), rig.joints.len());
     let character = Character { rig, body: None, skin: None };
-    let common = CommonSkeleton::new(character, character, &map);
+    let common = CommonSkeleton::new(character, character, &map, None);
     let took = clock.elapsed();
     println!("{what}: {took:?}");
     assert!(took < LONGEST, "{what} takes {took:?}");

@@ -10,3 +10,4 @@ mod posing;
 mod weights;
 mod weights_random;
 mod words;
+mod worn;

@@ -44,7 +44,7 @@ fn body(rig: &Rig) -> (TriangleMesh, SkinWeights) {
     (TriangleMesh { positions, triangles }, skin)
 }
 
-fn posing(own: &Rig, other: &Rig) -> Option<(Posing, [Option<DVec3>; 16])> {
+fn posing(own: &Rig, other: &Rig) -> Option<(Posing, [Option<DVec3>; Landmark::COUNT])> {
     let (mesh, skin) = body(own);
     let character = Character { rig: own, body: Some(&mesh), skin: Some(&skin) };
     let reading = Reading::new(own, Some(&skin));

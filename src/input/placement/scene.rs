@@ -1,5 +1,7 @@
 //! What is compared.
 
+use glam::DVec3;
+
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::skeleton::Skeleton;
@@ -17,6 +19,8 @@ pub struct Scene<'a> {
     pub avatar: &'a TriangleMesh,
     /// Its skeleton, bones in the order and direction of the source's.
     pub target_skeleton: &'a Skeleton,
+    /// From the ankles to the toes in source and target, where rigs tell.
+    pub feet: Option<[DVec3; 2]>,
     /// Its skin.
     pub skin: Option<&'a SkinWeights>,
     /// How the caller's source coordinates were read.

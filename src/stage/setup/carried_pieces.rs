@@ -18,9 +18,9 @@ use super::loose_pieces::LoosePieces;
 use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
 use crate::geometry::piece::Piece;
+use crate::geometry::section::Gap;
 use crate::input::skeleton::Skeleton;
 use crate::stage::start::enclosure::{enclosed_share_at, encloses, encloses_but_for};
-use crate::stage::start::section::Gap;
 
 /// Corners of a piece from which its enclosure is tested.
 const SAMPLES: usize = 64;

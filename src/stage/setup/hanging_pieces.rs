@@ -19,8 +19,8 @@ use super::loose_pieces::{Host, LoosePiece, LoosePieces, as_host, reach, vertex_
 use crate::energy::attachment::{Hold, SizeHold};
 use crate::geometry::closest_point::Closest;
 use crate::geometry::piece::Piece;
+use crate::geometry::section::Section;
 use crate::input::skeleton::Skeleton;
-use crate::stage::start::section::Section;
 
 /// Points along a bone at which a piece is tested for being around it.
 const SAMPLES: u32 = 8;

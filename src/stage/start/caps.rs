@@ -7,8 +7,8 @@
 
 use glam::DVec3;
 
-use super::section::Section;
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::section::Section;
 use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 use crate::maths;

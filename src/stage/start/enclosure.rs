@@ -13,11 +13,11 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use super::section::{Gap, Section};
 use super::winding::{Winding, windings};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::section::{Gap, Section};
 use crate::geometry::spread::spread;
 use crate::maths;
 

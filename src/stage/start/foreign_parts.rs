@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 
-use super::section::Section;
 use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
 use crate::geometry::mesh::{TriangleMesh, has_area};
 use crate::geometry::piece::Piece;
+use crate::geometry::section::Section;
 use crate::input::diagnostic::{Diagnostic, Foreignness};
 use crate::input::skeleton::Skeleton;
 use crate::input::weld::weld_vertices;

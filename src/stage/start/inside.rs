@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use super::bent_skeleton::BentSkeleton;
 use super::enclosure::{Enclosure, Enclosures, enclosed_share_of_area, surrounded};
-use super::section::{Gap, Section};
 use crate::geometry::mesh::{NO_PIECE, TriangleMesh};
+use crate::geometry::section::{Gap, Section};
 
 /// A bone that keeps less than this share of its length is retracted whole, and lies in its joint.
 const LEAST_LENGTH: f64 = 0.05;

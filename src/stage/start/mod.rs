@@ -14,7 +14,6 @@ pub mod path_search;
 mod path_trace;
 pub mod projection;
 pub mod repair;
-pub mod section;
 pub mod untangle;
 pub mod weight_check;
 pub mod winding;

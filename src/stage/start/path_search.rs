@@ -12,10 +12,10 @@ use rayon::prelude::*;
 use super::bent_skeleton::BentSkeleton;
 use super::inside::Inside;
 use super::offset_grid::{UniformGrid, ball, disc};
-use super::section::Section;
 use crate::control::{Cancel, Cancelled};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::section::Section;
 use crate::input::skeleton::Skeleton;
 
 /// How widely and finely to search. Lengths are in the normalised space.

@@ -11,9 +11,9 @@ use glam::DVec3;
 
 use super::{Figure, Misplaced};
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::section::Section;
 use crate::input::diagnostic::JointFault;
 use crate::maths;
-use crate::stage::start::section::Section;
 
 /// A bone goes on where another leaves its end within 60 degrees of its direction.
 const GOES_ON: f64 = 0.5;

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{Figure, Misplaced};
+use crate::geometry::section::Section;
 use crate::input::diagnostic::JointFault;
-use crate::stage::start::section::Section;
 
 /// A joint or a part of a bone that is farther from the body than this is outside of it. In 30 real bodies that were fitted
 /// well, tips stuck out by up to 0.05, as the top of a head above its hair, and bones by up to 0.06, as a neck between a head
