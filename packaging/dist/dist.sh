@@ -24,7 +24,8 @@ export SOURCE_DATE_EPOCH="$epoch"
 
 library=$(sh "$here/library.sh" "$folder")
 
-echo "dist: the program"
+echo "dist: the programs"
+sh "$here/cargo.sh" "$folder" -p bespoke-cli
 # What the linker looks for by its plain name, the loader by the name within.
 mkdir -p "$folder/link"
 ln -sf "$library" "$folder/link/libbespoke.so"
@@ -39,6 +40,7 @@ cc -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/l
 rm -rf "$stage"
 env -u DESTDIR -u BINDIR -u LIBDIR -u INCLUDEDIR PREFIX="$stage" DOCDIR="$stage" \
     sh packaging/install.sh install "$library" "$folder/link/retarget"
+install -m 755 "${CARGO_TARGET_DIR:-target}/dist/bespoke" "$stage/bin/bespoke"
 # What a plugin author reads and copies from: the files of the project, without what was built among them.
 for sources in examples_c bindings; do
     [ -d "$sources" ] || continue

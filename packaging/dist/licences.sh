@@ -1,5 +1,5 @@
 #!/bin/sh
-# Gathers the licences of everything that is inside the shipped library: licences.sh SOURCES FOLDER [windows]
+# Gathers the licences of everything that is inside the shipped library and programs: licences.sh SOURCES FOLDER [windows]
 #
 # SOURCES is what sources.sh left. FOLDER gets README.md, which lists all parts, and a folder with texts for each. A
 # part without a text is an error: an answer to it is a line in licences/crates.txt.
@@ -67,7 +67,7 @@ sysroot=$(rustc --print sysroot)
         "/usr/share/doc/gcc-$gcc-base/copyright" /usr/share/common-licenses/GPL-3
     part rust "$(rustc --version | cut -d ' ' -f 2)" "MIT OR Apache-2.0, and others for parts" \
         "<https://www.rust-lang.org>" "$sysroot/share/doc/rust/COPYRIGHT-library.html"
-    set -- ${3:+--target x86_64-pc-windows-gnu --package bespoke --package bespoke-cli}
+    set -- ${3:+--target x86_64-pc-windows-gnu} --package bespoke --package bespoke-cli
     cargo tree "$@" --locked --edges normal --prefix none --format '{p}|{l}' >"$folder/tree"
     sed '/^$/d; s/ (\*)$//; s/ (proc-macro)//' "$folder/tree" | sort -u | while IFS='|' read -r crate licence; do
         name=${crate%% *}

@@ -16,7 +16,7 @@ folder=$(cd "$3" && pwd)
 library=$(readlink -f "$shipped/lib/libbespoke.so")
 version=$(sed -n 's/^version = "\(.*\)"$/\1/p' "$root/Cargo.toml" | head -n 1)
 # The oldest C library that has all that is asked for: the platform of the wheel.
-glibc=$(objdump -T "$library" | sed -n 's/.*(\{0,1\}GLIBC_\([0-9.]*\))\{0,1\} .*/\1/p' | sort -uV | tail -n 1)
+glibc=$(for file in "$library" "$shipped/bin/bespoke"; do objdump -T "$file"; done | sed -n 's/.*(\{0,1\}GLIBC_\([0-9.]*\))\{0,1\} .*/\1/p' | sort -uV | tail -n 1)
 machine=$(uname -m)
 
 stage=$folder/stage
@@ -27,6 +27,7 @@ cp pyproject.toml hatch_build.py README.md "$stage"
 find src -name '*.py' -o -name py.typed | xargs cp --parents -t "$stage"
 cp "$library" "$stage/src/bespoke/libbespoke.so"
 chmod 755 "$stage/src/bespoke/libbespoke.so"
+install -D -m 755 "$shipped/bin/bespoke" "$stage/src/bespoke/bin/bespoke"
 cp "$root/LICENSE-MIT" "$root/LICENSE-APACHE" "$stage"
 cp -r "$shipped/licences" "$stage"
 
