@@ -57,6 +57,8 @@ impl Snapshot {
         if !Arc::ptr_eq(&self.problem, &run.problem) {
             (self.problem, self.body) = (run.problem.clone(), run.body.clone());
         }
+        // Another attempt may begin as designed, where another leaves the garment untangled.
+        self.initial_intersections.clone_from(&run.initial_intersections);
         self.on_the_way = run.avatar_on_the_way().map(Into::into);
     }
 
