@@ -4,9 +4,9 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
 use bespoke::rig::reading::Reading;
-use bespoke::verify::intersections;
 
 use crate::args::{Dress, Keep};
+use crate::attempts::put_on;
 use crate::bodies::{self, joined};
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure, Part};
@@ -16,7 +16,6 @@ use crate::outfit::{self, Garment};
 use crate::output;
 use crate::parts::Role;
 use crate::parts::pattern::Patterns;
-use crate::progress::is_stopped;
 use crate::report::{self, DressReport, GarmentLine};
 use crate::say::{say, say_findings};
 
@@ -209,37 +208,4 @@ impl Dressing<'_> {
             joint_map: report::joint_map(&map, source, target),
         })
     }
-}
-
-/// Dresses a garment, with one after the other of the bodies that it may have been made for, over those that are worn already.
-/// Where it cannot give way to them, as where the shells of a shirt and of trousers meet edge to edge, it is dressed over the
-/// body alone, and it is told how many of their triangles it passes through.
-fn put_on(job: &Job, sources: &[Skinned]) -> Result<Fitted, Box<Refused>> {
-    let refused = match job.run() {
-        Err(why) if !is_stopped() => why,
-        outcome => return outcome,
-    };
-    for source in sources.iter().skip(1) {
-        if let Ok(fitted) = (Job { source: Some(source), ..job.clone() }).run() {
-            return Ok(fitted);
-        }
-    }
-    let over_body = |source| (Job { layers: &[], source, ..job.clone() }).run().ok();
-    let alone = match job.layers.is_empty() || is_stopped() {
-        true => None,
-        false => sources.iter().map(Some).find_map(over_body),
-    };
-    let Some(mut fitted) = alone else { return Err(refused) };
-    let cloth = TriangleMesh { positions: fitted.positions.clone(), triangles: job.garment.mesh.triangles.clone() };
-    let through = job.layers.iter().map(|layer| intersections(&cloth, Some(layer), 0).map_or(0, |found| found.count));
-    let through: u64 = through.sum();
-    if through > 0 {
-        let said = format!(
-            "it could not be dressed over the garments beneath it and passes through them in {through} pairs of triangles \
-             ({})",
-            refused.failure.sentence
-        );
-        fitted.flaw = Some(fitted.flaw.map_or(said.clone(), |flaw| format!("{flaw}; {said}")));
-    }
-    Ok(fitted)
 }

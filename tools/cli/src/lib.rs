@@ -2,7 +2,8 @@
 //! dresses each garment with the library (`fit`), and writes the result into the avatar's file (`output`).
 
 pub mod args;
-pub mod bodies;
+mod attempts;
+mod bodies;
 pub mod check;
 pub mod dress;
 pub mod failure;

@@ -1,0 +1,96 @@
+//! What is tried where a garment cannot be dressed as it should be.
+//!
+//! Each thing that is tried gives up a little more, and what it has given up is told, with the number of triangles that pass
+//! through each other for it.
+
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::rig::body_part::BodyPart;
+use bespoke::rig::landmark::Landmark;
+use bespoke::rig::places::owners;
+use bespoke::rig::reading::Reading;
+use bespoke::session::PartRole;
+use bespoke::verify::intersections;
+
+use crate::fit::{Fitted, Job, Refused, Skinned};
+use crate::progress::is_stopped;
+
+/// A garment with more than this share of its vertices at the head is worn on it.
+const ON_HEAD: f64 = 0.1;
+
+/// Dresses a garment, with one after the other of the bodies that it may have been made for, over those that are worn already.
+/// Where it cannot give way to them, as where the shells of a shirt and of trousers meet edge to edge, it is dressed over the
+/// body alone. Where the head lies on the shoulders, as a hood or the large head of a toy does, it is dressed beneath the head.
+pub fn put_on(job: &Job, sources: &[Skinned]) -> Result<Fitted, Box<Refused>> {
+    let refused = match job.run() {
+        Err(why) if !is_stopped() => why,
+        outcome => return outcome,
+    };
+    for source in sources.iter().skip(1) {
+        if let Ok(fitted) = (Job { source: Some(source), ..job.clone() }).run() {
+            return Ok(fitted);
+        }
+    }
+    let first_of = |job: &Job| {
+        let with = |source| if is_stopped() { None } else { (Job { source, ..job.clone() }).run().ok() };
+        sources.iter().map(Some).find_map(with)
+    };
+    if !job.layers.is_empty()
+        && let Some(fitted) = first_of(&Job { layers: &[], ..job.clone() })
+    {
+        let through = job.layers.iter().map(|layer| pairs(&fitted, job, layer)).sum();
+        let said = "it could not be dressed over the garments beneath it";
+        return Ok(told(fitted, said, "them", through, &refused));
+    }
+    if let Some((roles, head)) = without_head(job)
+        && let Some(fitted) = first_of(&Job { roles: &roles, ..job.clone() })
+    {
+        let through = pairs(&fitted, job, &head);
+        let said = "the head lies on the parts of the body beside it; it is dressed beneath the head";
+        return Ok(told(fitted, said, "it", through, &refused));
+    }
+    Err(refused)
+}
+
+/// Pairs of triangles in which the garment passes through `other`.
+fn pairs(fitted: &Fitted, job: &Job, other: &TriangleMesh) -> u64 {
+    let cloth = TriangleMesh { positions: fitted.positions.clone(), triangles: job.garment.mesh.triangles.clone() };
+    intersections(&cloth, Some(other), 0).map_or(0, |found| found.count)
+}
+
+/// With what was given up for it as its flaw, if that shows.
+fn told(mut fitted: Fitted, said: &str, through: &str, pairs: u64, refused: &Refused) -> Fitted {
+    if pairs > 0 {
+        let why = &refused.failure.sentence;
+        let said = format!("{said} and passes through {through} in {pairs} pairs of triangles ({why})");
+        fitted.flaw = Some(fitted.flaw.map_or(said.clone(), |flaw| format!("{flaw}; {said}")));
+    }
+    fitted
+}
+
+/// The roles with the head taking no part, and the head alone; none where the garment is worn on it, or there is none.
+fn without_head(job: &Job) -> Option<(Vec<PartRole>, TriangleMesh)> {
+    let is_head = |rig| {
+        let reading = Reading::new(rig, None);
+        let owners = owners(rig, &reading, &rig.parents_first("rig").ok()?);
+        let of_head = |joint: usize| {
+            owners[joint] == Some(Landmark::HeadTop) && reading.part(joint as u32) != Some(BodyPart::Neck)
+        };
+        Some((0..rig.joints.len()).map(of_head).collect::<Vec<_>>())
+    };
+    let moves = |skin: &bespoke::input::skin::SkinWeights, joints: &[bool], vertex: usize| {
+        skin.dominant_joint(vertex).is_some_and(|joint| joints[joint as usize])
+    };
+    let (of_source, of_target) = (is_head(job.source_rig)?, is_head(job.target_rig)?);
+    let cloth = &job.garment.mesh.positions;
+    let worn = (0..cloth.len()).filter(|&v| moves(&job.garment.skin, &of_source, v)).count();
+    if !job.has_skin || worn as f64 > ON_HEAD * cloth.len() as f64 {
+        return None;
+    }
+    let body = &job.avatar.mesh;
+    let in_head = |triangle: &[u32; 3]| triangle.iter().all(|&v| moves(&job.avatar.skin, &of_target, v as usize));
+    let heads: Vec<bool> = body.triangles.iter().map(in_head).collect();
+    let taken = |(role, head): (&PartRole, &bool)| if *head { PartRole::Ignored } else { *role };
+    let roles = job.roles.iter().zip(&heads).map(taken).collect();
+    let triangles = body.triangles.iter().zip(&heads).filter(|(_, head)| **head).map(|(t, _)| *t).collect::<Vec<_>>();
+    (!triangles.is_empty()).then(|| (roles, TriangleMesh { positions: body.positions.clone(), triangles }))
+}
