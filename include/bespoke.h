@@ -1050,9 +1050,10 @@ BespokeStatus bespoke_session_read_joint_map(const struct BespokeSession *sessio
 /// 0: not at all.
 ///
 /// `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
-/// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
-/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
-BespokeStatus bespoke_session_set_vertex_fit_weights(struct BespokeSession *session, const struct BespokeView *weights);
+/// call. State: SETUP, and for bespoke_session_refit DONE. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be
+/// found only by bespoke_session_prepare or bespoke_session_refit), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_vertex_fit_weights(struct BespokeSession *session,
+                                                     const struct BespokeView *weights);
 
 /// Optional: the garment vertices that are not drawn to the body. The same as bespoke_session_set_vertex_fit_weights, which
 /// this replaces, with 0 for these vertices and 1 for all others: triangles with all three corners listed do not fit.
@@ -1069,8 +1070,9 @@ BespokeStatus bespoke_session_set_no_fit_vertices(struct BespokeSession *session
 /// of them in the target's coordinate system, F32 or F64. Without targets, a vertex keeps its position relative to the
 /// nearest bone: its coordinate along the bone and its distance from it, so with equal skeletons it stays where it is.
 /// A pin is a stiff spring (see BespokeOptions.pin_weight): one that cannot reach its target, because the body is in
-/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a
-/// vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads:
+/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP, and for bespoke_session_refit DONE.
+/// Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare or
+/// bespoke_session_refit), INVALID_STATE, BUSY, INTERNAL. Threads:
 /// any, one at a time.
 BespokeStatus bespoke_session_set_pinned_vertices(struct BespokeSession *session,
                                                   const struct BespokeView *vertices,
@@ -1286,6 +1288,22 @@ BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_iterations,
                                    uint32_t max_milliseconds,
                                    uint32_t *stage);
+
+/// Fits a result again: with other options, and with the fit weights and pins that were set since. bespoke_session_step or
+/// bespoke_session_run then go on from the result, to another one with the same guarantee, in a small part of the time where
+/// little has changed. It is the minimum near to the result that was there; for that from the beginning, call
+/// bespoke_session_reset and run.
+///
+/// `options`: all of them, as in bespoke_session_set_options. Those that are used before the fit have to stay as they were:
+/// threads, weld_distance, memory_limit, strict, keep_caps, curve_chord, dhat, inflation_dhat, inflation_barrier_weight,
+/// voxel_size, min_separation, surface_form, surface_length. Pieces that the body carries keep their places. DONE becomes
+/// FIT; it may be called again before that has ended. What was read of the result (normals, weights, morphs, followers) has
+/// to be read again. State: DONE, or FIT after it. Errors: INVALID_ARGUMENT (null, struct_size, an option out of its range or
+/// one that has to stay, a pin of a vertex that the garment does not have), INVALID_WEIGHTS (a wrong size), INVALID_STATE
+/// (also: the result is in the pose of the design), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
+/// INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_refit(struct BespokeSession *session,
+                                    const struct BespokeOptions *options);
 
 /// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.
 /// IMPLAUSIBLE_RESULT means DONE, too, see bespoke_session_step.

@@ -1513,6 +1513,13 @@ public:
         return static_cast<Stage>(stage);
     }
 
+    /// Fits a result again, with other options and the fit weights and pins that were set since; step() or run() then go on from
+    /// it. Options that are used before the fit have to stay as they were.
+    Result<void> refit(const Options &options) {
+        const BespokeOptions given = options.get();
+        return call(bespoke_session_refit, &given);
+    }
+
     /// Runs the session to its end. A success is DONE: the result is verified.
     Result<void> run() { return call(bespoke_session_run); }
 

@@ -105,6 +105,56 @@ macro_rules! define {
 }
 option_table!(define);
 
+impl Options {
+    /// The first option that differs in `other` and is used before the fit, so that a result cannot be fitted again with it.
+    pub fn set_before_the_fit(&self, other: &Self) -> Option<&'static str> {
+        // Named one by one, so that nobody adds an option without a thought for this.
+        let &Self {
+            threads,
+            fit_weight: _,
+            designed_clearance: _,
+            offset: _,
+            fit_distance: _,
+            pin_weight: _,
+            weld_distance,
+            memory_limit,
+            strict,
+            keep_caps,
+            surface_weight: _,
+            curvature_weight: _,
+            torsion_weight: _,
+            curve_chord,
+            position_weight: _,
+            barrier_weight: _,
+            dhat,
+            inflation_dhat,
+            inflation_barrier_weight,
+            voxel_size,
+            min_separation,
+            tolerance: _,
+            max_iterations: _,
+            surface_form,
+            surface_length,
+        } = self;
+        let differs = [
+            ("threads", threads != other.threads),
+            ("weld_distance", weld_distance != other.weld_distance),
+            ("memory_limit", memory_limit != other.memory_limit),
+            ("strict", strict != other.strict),
+            ("keep_caps", keep_caps != other.keep_caps),
+            ("curve_chord", curve_chord != other.curve_chord),
+            ("dhat", dhat != other.dhat),
+            ("inflation_dhat", inflation_dhat != other.inflation_dhat),
+            ("inflation_barrier_weight", inflation_barrier_weight != other.inflation_barrier_weight),
+            ("voxel_size", voxel_size != other.voxel_size),
+            ("min_separation", min_separation != other.min_separation),
+            ("surface_form", surface_form != other.surface_form),
+            ("surface_length", surface_length != other.surface_length),
+        ];
+        differs.into_iter().find(|(_, differs)| *differs).map(|(name, _)| name)
+    }
+}
+
 /// Which values an option may have.
 enum Range {
     /// Finite, 0 or above.

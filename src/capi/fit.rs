@@ -11,8 +11,8 @@ use crate::session::{Curve, Pin};
 /// 0: not at all.
 ///
 /// `weights`: one number for each garment vertex, F32 or F64, finite and not negative. Ownership: copied during the
-/// call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be found only by
-/// bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+/// call. State: SETUP, and for bespoke_session_refit DONE. Errors: INVALID_ARGUMENT, INVALID_WEIGHTS (a wrong size may be
+/// found only by bespoke_session_prepare or bespoke_session_refit), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_set_vertex_fit_weights(
     session: *mut BespokeSession,
@@ -66,8 +66,9 @@ const PINS: &str = "pinned vertices";
 /// of them in the target's coordinate system, F32 or F64. Without targets, a vertex keeps its position relative to the
 /// nearest bone: its coordinate along the bone and its distance from it, so with equal skeletons it stays where it is.
 /// A pin is a stiff spring (see BespokeOptions.pin_weight): one that cannot reach its target, because the body is in
-/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT (a
-/// vertex that the garment does not have is found by bespoke_session_prepare), INVALID_STATE, BUSY, INTERNAL. Threads:
+/// the way, is reported as a diagnostic. Ownership: copied during the call. State: SETUP, and for bespoke_session_refit DONE.
+/// Errors: INVALID_ARGUMENT (a vertex that the garment does not have is found by bespoke_session_prepare or
+/// bespoke_session_refit), INVALID_STATE, BUSY, INTERNAL. Threads:
 /// any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_set_pinned_vertices(

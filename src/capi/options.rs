@@ -205,7 +205,7 @@ macro_rules! cross {
         $name:ident: $kind:ty = $default:expr $(, in $range:expr)? $(, off = $off:expr)?;
     )*) => {
         impl BespokeOptions {
-            fn to_options(self) -> Result<Options> {
+            pub(super) fn to_options(self) -> Result<Options> {
                 let default = Options::default();
                 let options = Options {
                     $($name: {

@@ -1,6 +1,8 @@
 //! Running a session, from the inputs to a verified result.
 
+use crate::capi::options::BespokeOptions;
 use crate::capi::session::{BespokeSession, call};
+use crate::capi::sized;
 use crate::capi::status::BespokeStatus;
 use crate::capi::view::{self, invalid};
 use crate::error::{Error, ErrorKind};
@@ -87,6 +89,28 @@ pub unsafe extern "C" fn bespoke_session_step(
             outcome.map(drop)
         })
     }
+}
+
+/// Fits a result again: with other options, and with the fit weights and pins that were set since. bespoke_session_step or
+/// bespoke_session_run then go on from the result, to another one with the same guarantee, in a small part of the time where
+/// little has changed. It is the minimum near to the result that was there; for that from the beginning, call
+/// bespoke_session_reset and run.
+///
+/// `options`: all of them, as in bespoke_session_set_options. Those that are used before the fit have to stay as they were:
+/// threads, weld_distance, memory_limit, strict, keep_caps, curve_chord, dhat, inflation_dhat, inflation_barrier_weight,
+/// voxel_size, min_separation, surface_form, surface_length. Pieces that the body carries keep their places. DONE becomes
+/// FIT; it may be called again before that has ended. What was read of the result (normals, weights, morphs, followers) has
+/// to be read again. State: DONE, or FIT after it. Errors: INVALID_ARGUMENT (null, struct_size, an option out of its range or
+/// one that has to stay, a pin of a vertex that the garment does not have), INVALID_WEIGHTS (a wrong size), INVALID_STATE
+/// (also: the result is in the pose of the design), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
+/// INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_refit(
+    session: *mut BespokeSession,
+    options: *const BespokeOptions,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| session.refit(sized::read(options, "options")?.to_options()?)) }
 }
 
 /// Runs a session to its end: prepares where needed, then steps. OK means DONE: the result is verified.

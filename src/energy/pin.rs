@@ -33,7 +33,7 @@ pub struct Pin {
 }
 
 /// Pin term; an element is a pin.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pins {
     name: &'static str,
     pins: Vec<Pin>,

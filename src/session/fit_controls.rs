@@ -18,7 +18,7 @@ impl Session {
     /// `InvalidArgument` for a vertex given twice or a target that is not finite, `InvalidState`. Vertices are compared with
     /// the garment's by `prepare`.
     pub fn set_pins(&mut self, pins: Vec<Pin>) -> Result<()> {
-        self.setting("the pins")?;
+        self.adjusting("the pins")?;
         if let Some(Pin { vertex, .. }) = pins.iter().find(|pin| pin.target.is_some_and(|p| !p.is_finite())) {
             return invalid(format!("pinned vertices: the place of vertex {vertex} is not finite"));
         }
@@ -64,8 +64,15 @@ impl Session {
 }
 
 impl Inputs {
-    /// Compares pins and groups with a garment of so many vertices.
-    pub(super) fn check_controls(&self, count: usize) -> Result<()> {
+    /// Compares fit weights, pins and groups with the garment.
+    pub(super) fn check_wishes(&self) -> Result<()> {
+        let count = self.garment.as_ref().map_or(0, |garment| garment.0.positions.len());
+        if let Some(weights) = self.fit_weights.as_ref().filter(|weights| weights.len() != count) {
+            return Err(Error::new(
+                ErrorKind::InvalidWeights,
+                format!("fit weights: there are {} weights, the garment has {count} vertices", weights.len()),
+            ));
+        }
         if let Some(pin) = self.pins.iter().find(|pin| pin.vertex as usize >= count) {
             return invalid(format!("pinned vertices: lists vertex {}, the garment has {count} vertices", pin.vertex));
         }

@@ -50,7 +50,7 @@ pub(super) struct Inputs {
     pub(super) source_avatar: Option<Arc<TriangleMesh>>,
     pub(super) skin: Option<Arc<SkinWeights>>,
     pub(super) rigs: Rigs,
-    fit_weights: Option<Arc<[f64]>>,
+    pub(super) fit_weights: Option<Arc<[f64]>>,
     pub(super) pins: Vec<Pin>,
     pub(super) rigid_groups: Vec<Arc<[u32]>>,
     pub(super) curves: Vec<Arc<Curve>>,
@@ -114,6 +114,16 @@ impl Session {
             ErrorKind::InvalidState,
             format!("{name} cannot be set after prepare; call reset first, which keeps the inputs"),
         ))
+    }
+
+    /// The same for what [`Self::refit`] takes into account, and a result may be there.
+    pub(super) fn adjusting(&self, name: &str) -> Result<()> {
+        if self.may_adjust() { Ok(()) } else { self.setting(name) }
+    }
+
+    /// Whether there is a result to go on from.
+    pub(super) fn may_adjust(&self) -> bool {
+        self.has_ended && matches!(self.stage, Stage::Done | Stage::Fit)
     }
 
     /// The garment, in the source coordinate system, around the source skeleton.
@@ -243,7 +253,7 @@ impl Session {
     /// # Errors
     /// `InvalidWeights` for a negative weight or one that is not finite, `InvalidState`.
     pub fn set_vertex_fit_weights(&mut self, weights: Vec<f64>) -> Result<()> {
-        self.setting("the fit weights")?;
+        self.adjusting("the fit weights")?;
         if let Some((v, w)) = weights.iter().enumerate().find(|(_, w)| !(w.is_finite() && **w >= 0.0)) {
             return Err(Error::new(
                 ErrorKind::InvalidWeights,
@@ -346,19 +356,7 @@ impl Inputs {
         let clock = Instant::now();
         let Skeletons { source, target, skin, feet, way } = self.skeletons(diagnostics)?;
         let mut rig_seconds = clock.elapsed().as_secs_f64();
-        if let Some(weights) = &self.fit_weights
-            && weights.len() != garment.positions.len()
-        {
-            return Err(Error::new(
-                ErrorKind::InvalidWeights,
-                format!(
-                    "fit weights: there are {} weights, the garment has {} vertices",
-                    weights.len(),
-                    garment.positions.len()
-                ),
-            ));
-        }
-        self.check_controls(garment.positions.len())?;
+        self.check_wishes()?;
         self.check_garment_morphs(garment.positions.len())?;
         self.check_target_morphs(avatar.positions.len())?;
         let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);

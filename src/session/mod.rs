@@ -19,6 +19,7 @@ mod morphs;
 mod on_the_way;
 mod other_pose;
 mod plausibility;
+mod refit;
 mod reposing;
 mod rig_inputs;
 mod rigs;
@@ -91,6 +92,10 @@ pub struct Session {
     stage: Stage,
     report: Report,
     diagnostics: Vec<Diagnostic>,
+    /// How many of them are about the inputs: the first.
+    said_of_inputs: usize,
+    /// There was a result since `prepare`.
+    has_ended: bool,
     /// The verification of the result in the precision that is not the garment's own.
     other_precision: Option<(Precision, Verification)>,
     /// The skin weights of the result, once they were asked for.
@@ -166,6 +171,8 @@ impl Session {
                 return Err(self.worded(error));
             }
         };
+        self.said_of_inputs = self.diagnostics.len();
+        self.has_ended = false;
         self.report = run.report.clone();
         self.snapshot = Some(Snapshot::of(&run));
         self.run = Some(run);
@@ -291,6 +298,7 @@ impl Session {
         if !self.report.converged {
             self.diagnostics.push(Diagnostic::NotConverged { iterations: self.report.fit.iterations });
         }
+        self.has_ended = true;
         self.carry_followers()?;
         self.compare_with_design()?;
         if let Some((blocked, motions)) = self.run.as_mut().and_then(|run| run.blocked.take()) {
@@ -474,16 +482,24 @@ impl Session {
         }
         self.snapshot = None;
         self.report = Report::default();
+        self.forget_result();
         self.diagnostics.clear();
+        self.control.clear_cancel();
+        self.answered.store(0, Ordering::Relaxed);
+        self.enter(Stage::Setup);
+    }
+}
+
+/// What was said and asked of a result.
+impl Session {
+    fn forget_result(&mut self) {
+        self.diagnostics.truncate(self.said_of_inputs);
         self.other_precision = None;
         self.skin = OnceLock::new();
         self.covered = Mutex::default();
         self.followers.clear();
         self.answers.clear();
         self.pose = None;
-        self.control.clear_cancel();
-        self.answered.store(0, Ordering::Relaxed);
-        self.enter(Stage::Setup);
     }
 }
 

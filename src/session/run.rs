@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 use super::context::Context;
 use super::fault::Fault;
@@ -57,6 +57,8 @@ pub(super) struct Run {
     /// Where an earlier attempt came farthest.
     pub(super) farthest: Option<Box<(Objective, State)>>,
     field: FieldTask,
+    /// The garment as the fit began: the measure of the fit term is taken there.
+    pub(super) fit_began_at: Vec<DVec3>,
     /// Pairs of garment triangles that intersected at the start.
     pub(super) initial_intersections: Arc<[[u32; 2]]>,
     /// How often the contact distances were doubled.
@@ -150,6 +152,7 @@ impl Run {
             own_pose: None,
             farthest: None,
             field,
+            fit_began_at: Vec::new(),
             held,
             expected,
             distance,
@@ -341,6 +344,7 @@ impl Run {
         self.report.field_seconds = seconds;
         self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
         let stop = &self.context.stop;
+        self.fit_began_at.clone_from(&self.state.x);
         let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
         if let Some(settings) = self.attempts.settings() {
             objective.contact.set_inflation_dhat(settings.inflation_dhat);
@@ -387,7 +391,7 @@ impl Run {
         Ok(())
     }
 
-    fn update_report(&mut self) {
+    pub(super) fn update_report(&mut self) {
         let report = &mut self.report;
         let at = self.state.configuration();
         let contact = self.objective.contact.activity(at);

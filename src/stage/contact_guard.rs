@@ -214,6 +214,12 @@ impl ContactGuard {
         self.barrier.set_settings(BarrierSettings { dhat_self: self.distances.dhat_self, ..*self.barrier.settings() });
     }
 
+    /// Keeps the distances of `previous`, which may have been widened.
+    pub fn inherit_distances(&mut self, previous: &Self) {
+        self.distances = previous.distances;
+        self.barrier.set_settings(BarrierSettings { dhat_self: self.distances.dhat_self, ..*self.barrier.settings() });
+    }
+
     /// The distances that contact keeps.
     pub fn distances(&self) -> ContactDistances {
         self.distances

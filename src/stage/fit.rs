@@ -31,6 +31,9 @@ const MAX_RELAX_STEPS: u32 = 12;
 /// The first continuation step in s, and the largest.
 const FIRST_ADVANCE: f64 = 0.25;
 const LARGEST_ADVANCE: f64 = 0.5;
+/// A result that is this far from the balance of other wishes, as a squared Newton decrement over the objective, goes the
+/// whole path again: under the stiff barrier at its end there is no room for so long a way.
+const FAR: f64 = 0.6;
 /// Where an advance would be shorter than this, the rest of the path is skipped.
 const SMALLEST_ADVANCE: f64 = 1e-3;
 
@@ -39,6 +42,8 @@ pub struct FitStage {
     phase: Phase,
     /// Iterations so far.
     pub iterations: u32,
+    /// It goes on from a result, and has taken no step yet.
+    resumed: bool,
 }
 
 enum Phase {
@@ -82,7 +87,13 @@ impl FitStage {
     /// Begins where the inflation ended.
     pub fn begin(objective: &mut Objective, state: &State, options: &Options) -> Self {
         Path::new(objective, options).set(0.0, objective, state);
-        Self { phase: Phase::Relax(0), iterations: 0 }
+        Self { phase: Phase::Relax(0), iterations: 0, resumed: false }
+    }
+
+    /// Goes on from a result, at the end of the path.
+    pub fn resume(objective: &mut Objective, state: &State, options: &Options) -> Self {
+        Path::new(objective, options).set(1.0, objective, state);
+        Self { phase: Phase::Converge(0), iterations: 0, resumed: true }
     }
 
     /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
@@ -133,6 +144,12 @@ impl FitStage {
             Phase::Converge(converged) => {
                 let step = newton.newton_step(objective, state, false)?;
                 let Some(step) = step else { return Ok(true) };
+                if std::mem::take(&mut self.resumed) && step.decrement > FAR * step.after.max(NO_OBJECTIVE) {
+                    Path::new(objective, options).set(0.0, objective, state);
+                    newton.forget_values();
+                    self.phase = Phase::Relax(0);
+                    return Ok(false);
+                }
                 *converged = if !step.damped && step.decrement <= options.tolerance * step.after.max(NO_OBJECTIVE) {
                     *converged + 1
                 } else {

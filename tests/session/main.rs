@@ -20,6 +20,7 @@ mod memory;
 mod morphs;
 mod plausibility;
 mod profile;
+mod refit;
 mod rigs;
 mod shell_rims;
 mod shifted;

@@ -186,6 +186,9 @@ namespace Bespoke
             SessionHandle session, uint maxIterations, uint maxMilliseconds, Stage* stage);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_refit(SessionHandle session, NativeOptions* options);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_run(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]

@@ -64,6 +64,21 @@ namespace Bespoke
         }
 
         /// <summary>
+        /// Fits a result again: with other options, and with the fit weights and pins that were set since.
+        /// <see cref="Step"/> or <see cref="Run"/> then go on from the result, in a small part of the time where little has
+        /// changed. State: <see cref="Stage.Done"/>, or <see cref="Stage.Fit"/> after it.
+        /// </summary>
+        /// <param name="options">All of them; those that are used before the fit have to stay as they were.</param>
+        /// <exception cref="BespokeException">InvalidArgument (an option out of its range or one that has to stay, which the
+        /// message names), InvalidWeights, InvalidState, after all of which the result stays; MemoryLimit, Cancelled, Busy,
+        /// Internal.</exception>
+        public unsafe void Refit(Options options)
+        {
+            NativeOptions native = NotNull(options, nameof(options)).ToNative();
+            Check(Native.bespoke_session_refit(handle, &native));
+        }
+
+        /// <summary>
         /// Runs the session to its end: prepares where needed, then steps. When it returns, the session is
         /// <see cref="Stage.Done"/> and the result verified. State: as for <see cref="Prepare"/> or <see cref="Step"/>.
         /// </summary>

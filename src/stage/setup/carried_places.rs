@@ -54,6 +54,7 @@ const STAYS: f64 = 0.02;
 const OUTLIERS: f64 = 0.05;
 
 /// A carried piece with its places.
+#[derive(Clone)]
 struct Piece {
     carried: CarriedPiece,
     /// Its triangles, by positions in `vertices` of the piece.
@@ -71,7 +72,7 @@ struct Piece {
 }
 
 /// The carried pieces of a garment.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct CarriedPlaces {
     pieces: Vec<Piece>,
 }

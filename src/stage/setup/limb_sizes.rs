@@ -32,6 +32,7 @@ const MAX_RATIO: f64 = 4.0;
 type Ratios = [f64; STATIONS];
 
 /// The sizes of limbs on one body as multiples of those on another.
+#[derive(Clone)]
 pub struct LimbSizes {
     /// From and to, on the first.
     bones: Vec<[DVec3; 2]>,

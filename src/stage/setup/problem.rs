@@ -9,7 +9,6 @@ use super::cap_motion::CapMotion;
 use super::carried_pieces::{self, CarriedPiece};
 use super::carried_places::CarriedPlaces;
 use super::contact_distances::ContactDistances;
-use super::fit_region::fit_region;
 use super::hanging_pieces::HangingPieces;
 use super::layer_skin::skin_with_layers;
 use super::loose_pieces::LoosePieces;
@@ -17,6 +16,7 @@ use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
 use super::shape::{Asked, HeldPieces, Shape, rigid};
 use super::source_body::SourceBody;
+use super::wishes::{fit_weights, normalised_offset};
 use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
@@ -36,9 +36,6 @@ use crate::stage::start::untangle::{Untangled, begin_apart};
 use crate::stage::start::weight_check::believed;
 use crate::stage::start::{enclosure, open_ends, repair};
 use crate::verify::intersections_with_cancel;
-
-/// The largest offset that is accepted, in the normalised space. A larger one is one in another unit.
-const MAX_OFFSET: f64 = 1.0;
 
 /// The clearance of carried pieces in d-hat, at least: beyond the barrier.
 const CARRIED_IN_DHAT: f64 = 1.5;
@@ -74,6 +71,7 @@ pub struct Inputs<'a> {
 }
 
 /// The problem in the normalised space.
+#[derive(Clone)]
 pub struct Problem {
     /// From the source's coordinates.
     pub source_normalization: Normalization,
@@ -103,6 +101,8 @@ pub struct Problem {
     pub shape: Arc<Shape>,
     /// Fit weight of each garment vertex.
     pub fit_weights: Vec<f64>,
+    /// Vertices that do not fit unless the caller says so: they have their place from something else.
+    pub(super) placed: Vec<u32>,
     /// The body that the garment was designed on.
     pub source_body: Option<SourceBody>,
     /// The clearance to aim at in addition to the designed one.
@@ -214,17 +214,14 @@ impl Problem {
             from_body: source_surface.is_some(),
             stiff: piece.stiff,
         });
-        let mut fit_weights = match (inputs.fit_weights, source_surface) {
-            (Some(weights), _) => weights.to_vec(),
-            (None, Some(body)) => fit_region(&garment.positions, body, options.fit_distance),
-            (None, None) => vec![1.0; garment.positions.len()],
+        // What hangs on another piece has its place from that, and the place of what is carried has its clearance already.
+        let placed =
+            loose.hanging.iter().map(|piece| &piece.vertices).chain(pieces.iter().map(|piece| &piece.vertices));
+        let placed: Vec<u32> = placed.flatten().copied().collect();
+        let fit_weights = match inputs.fit_weights {
+            Some(weights) => weights.to_vec(),
+            None => fit_weights(&garment.positions, source_surface, options.fit_distance, &placed),
         };
-        if inputs.fit_weights.is_none() {
-            // What hangs on another piece has its place from that, and the place of what is carried has its clearance already.
-            let placed =
-                loose.hanging.iter().map(|piece| &piece.vertices).chain(pieces.iter().map(|piece| &piece.vertices));
-            placed.flatten().for_each(|&v| fit_weights[v as usize] = 0.0);
-        }
         let Normalised { garment, avatar, source, target, .. } = normalised;
         let fitted = avatar.fitted().map_or_else(
             || avatar.mesh.clone(),
@@ -248,6 +245,7 @@ impl Problem {
             skeletons: [source, target],
             shape: Arc::new(shape),
             fit_weights,
+            placed,
             source_body: designed_on,
             offset,
             carried,
@@ -313,17 +311,7 @@ impl Normalised {
     fn new(inputs: &Inputs<'_>, options: &Options) -> Result<Self> {
         let source_normalization = Normalization::of(inputs.source_skeleton, "source skeleton")?;
         let target_normalization = Normalization::of(inputs.target_skeleton, "target skeleton")?;
-        let offset = inputs.offset * target_normalization.scale;
-        if offset > MAX_OFFSET {
-            return Err(Error::new(
-                ErrorKind::InvalidArgument,
-                format!(
-                    "option offset is {}, which is more than half the size of the target skeleton; it is a length in the unit \
-                     of the target's coordinate system",
-                    options.offset
-                ),
-            ));
-        }
+        let offset = normalised_offset(inputs.offset, &target_normalization, options)?;
         let skeleton = |normalization: &Normalization, s: &Skeleton| Skeleton {
             joints: normalization.normalise_all(&s.joints),
             bones: inputs.source_skeleton.bones.clone(),

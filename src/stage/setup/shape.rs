@@ -23,6 +23,7 @@ use crate::input::skeleton::Skeleton;
 use crate::options::Options;
 
 /// The shape terms, which inflation and fit share.
+#[derive(Clone)]
 pub struct Shape {
     /// Surface shape (Eq. 2).
     pub surface: Surface,

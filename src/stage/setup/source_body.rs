@@ -28,6 +28,7 @@ const RAYS: [DVec3; 5] = [
 ];
 
 /// The body that the garment was designed on.
+#[derive(Clone)]
 pub struct SourceBody {
     /// Its surface.
     pub surface: ClosestPoint,

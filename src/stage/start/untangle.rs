@@ -38,6 +38,7 @@ const FROZEN_RINGS: usize = 3;
 const MOST_REMAINING: f64 = 0.5;
 
 /// A garment whose initial self-intersections were pulled apart, wholly or partly.
+#[derive(Clone)]
 pub struct Untangled {
     /// Where the vertices begin.
     pub start: Vec<DVec3>,

@@ -568,6 +568,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
             ctypes.POINTER(ctypes.c_uint32),
         ],
     ),
+    "bespoke_session_refit": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.POINTER(BespokeOptions)]),
     "bespoke_session_run": (ctypes.c_uint32, [ctypes.c_void_p]),
     "bespoke_session_verify": (
         ctypes.c_uint32,

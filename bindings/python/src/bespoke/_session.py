@@ -435,6 +435,18 @@ class Session:
         )
         return Stage(stage.value)
 
+    def refit(self, options: Options | None = None, **arguments: Unpack[OptionArguments]) -> None:
+        """Fits a result again: with these options, and with the fit weights and pins that were set since. `step` or `run` then
+        go on from the result, to another one with the same guarantee, in a small part of the time where little has changed.
+
+        `options`, `arguments`: all of them, as for `set_options`; those that are used before the fit have to stay as they
+        were. Stage: DONE, or FIT after it. Errors: INVALID_ARGUMENT (an option out of its range or one that has to stay, which
+        the message names), INVALID_WEIGHTS, INVALID_STATE, after all of which the result stays; MEMORY_LIMIT, CANCELLED;
+        TypeError (no option has that name), ValueError.
+        """
+        native = _options(options, arguments)._to_native()
+        self._handle.call_long("bespoke_session_refit", ctypes.byref(native), findings=True)
+
     def run(self, progress: Callable[[Progress], object] | None = None) -> None:
         """Runs the session to its end: prepares where needed, then steps. When it returns, the session is DONE and the result
         verified.

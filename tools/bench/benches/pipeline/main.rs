@@ -12,6 +12,7 @@ mod closet_cases;
 mod growth;
 mod measurement;
 mod pairs;
+mod refit;
 mod scaling;
 mod summary;
 mod table;
@@ -26,6 +27,7 @@ use case::Case;
 use child::Setup;
 use growth::Growth;
 use pairs::Pair;
+use refit::Refit;
 use scaling::Scaling;
 use serde::Serialize;
 use summary::Goal;
@@ -46,6 +48,7 @@ struct Figures {
     pairs: Vec<Pair>,
     growth: Option<Growth>,
     scaling: Option<Scaling>,
+    refits: Vec<Refit>,
     failed: Vec<String>,
 }
 
@@ -121,9 +124,21 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
     let scaling = arguments.has("threads").then_some(widest).flatten();
     let scaling = scaling.map(|case| Scaling::measure(case, setup, &mut failed));
 
+    let mut refits = Vec::new();
+    if arguments.has("refit") {
+        let cases = if real.is_empty() { &closet } else { &real };
+        for case in cases.iter().filter(|case| case.name().contains(&arguments.only)) {
+            match Refit::measure(case, arguments.threads, arguments.runs) {
+                Ok(measured) => refits.extend(measured),
+                Err(error) => failed.push(format!("{}: {error}", case.name())),
+            }
+        }
+    }
+
     pairs::print(&pairs);
     growth.iter().for_each(Growth::print);
     scaling.iter().for_each(Scaling::print);
+    refit::print(&refits);
     let goals = summary::goals(&pairs, growth.as_ref(), scaling.as_ref());
     summary::print(&goals);
     for pair in pairs.iter().filter(|pair| pair.measured.intersections != [0; 2]) {
@@ -140,6 +155,7 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
             pairs,
             growth,
             scaling,
+            refits,
             failed: failed.clone(),
         },
     )?;

@@ -357,7 +357,10 @@ impl Program {
         }
         let options = or_null(&options, source);
         // SAFETY: the session is null or alive, the struct null or as large as it says.
-        unsafe { after(session, "set_options", bespoke_session_set_options(session, options)) };
+        unsafe {
+            after(session, "set_options", bespoke_session_set_options(session, options));
+            after(session, "refit", bespoke_session_refit(session, options));
+        }
     }
 
     /// A call that computes.
