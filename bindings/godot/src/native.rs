@@ -675,6 +675,7 @@ unsafe extern "C" {
         max_milliseconds: u32,
         stage: *mut u32,
     ) -> u32;
+    pub fn bespoke_session_refit(session: *mut BespokeSession, options: *const BespokeOptions) -> u32;
     pub fn bespoke_session_run(session: *mut BespokeSession) -> u32;
     pub fn bespoke_session_verify(
         session: *const BespokeSession,
