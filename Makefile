@@ -18,6 +18,7 @@
 # make unity  the Unity package and its tarball (build/unity; bindings/unity/README.md)
 # make godot  the add-on for Godot 4, with the library of `make dist` (build/godot-addon; bindings/godot/README.md)
 # make test-godot  its tests alone, in the engine, which is fetched from Debian's unstable suite (build/godot)
+# make unreal  the Unreal plugin (build/unreal; bindings/unreal/README.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
 # make pairs  dresses the real meshes in ../shared/assets (or BESPOKE_ASSETS) and prints a table
 # make soak   dresses 300 random bodies and prints what became of them; make soak SEED=17 tells about one
@@ -130,6 +131,11 @@ test-blender: wheel
 unity: dist
 	sh .ci/dependencies npm
 	sh packaging/unity/pack.sh $(SHIPPED) build/dist-windows build/unity
+
+# The Unreal plugin, in the same way.
+.PHONY: unreal
+unreal: dist
+	sh packaging/unreal/pack.sh $(SHIPPED) build/dist-windows build/unreal
 
 # The TBB that hosts bring along.
 .PHONY: host-tbb

@@ -4,11 +4,23 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use testing::library;
 use testing::process::{is_there, root, scratch, succeed};
 
 const NAME: &str = "com.bespoke.retarget";
+
+/// The package, with something that stands for the library for Windows or without; made once.
+fn packed(with_windows: bool) -> &'static (PathBuf, String) {
+    static WITH: OnceLock<(PathBuf, String)> = OnceLock::new();
+    static WITHOUT: OnceLock<(PathBuf, String)> = OnceLock::new();
+    if with_windows {
+        WITH.get_or_init(|| pack("unity-package", true))
+    } else {
+        WITHOUT.get_or_init(|| pack("unity-package-linux", false))
+    }
+}
 
 /// A package around the library of these tests; with something that stands for the one for Windows, if it is asked for.
 fn pack(name: &str, with_windows: bool) -> (PathBuf, String) {
@@ -76,7 +88,7 @@ fn is_asset(path: &str) -> bool {
 
 #[test]
 fn every_asset_has_its_meta_file_and_nothing_else_does() {
-    let (out, complained) = pack("unity-package", true);
+    let (out, complained) = packed(true);
     assert!(!complained.contains("bespoke.dll"), "{complained}");
     let package = out.join(NAME);
     let guids = guids(&package);
@@ -106,7 +118,7 @@ fn every_asset_has_its_meta_file_and_nothing_else_does() {
         assert!(package.join(path).is_file(), "{path} is not in the package");
     }
     // They stay with the path, whatever else is in the package: without the one library, all others are the same.
-    let (again, complained) = pack("unity-package-again", false);
+    let (again, complained) = packed(false);
     assert!(complained.contains("skipped: the Windows library"), "{complained}");
     let again = self::guids(&again.join(NAME));
     assert!(again.len() == guids.len() - 3, "{} and {}", again.len(), guids.len());
@@ -159,7 +171,7 @@ fn tooltips_are_those_of_the_header() {
 
 #[test]
 fn libraries_are_for_their_systems() {
-    let (out, _) = pack("unity-plugins", true);
+    let (out, _) = packed(true);
     for (library, system, other) in
         [("Linux/x86_64/libbespoke.so", "Linux", "Win64"), ("Windows/x86_64/bespoke.dll", "Windows", "Linux64")]
     {
@@ -180,7 +192,7 @@ fn libraries_are_for_their_systems() {
 
 #[test]
 fn manifest_and_assemblies_fit_together() {
-    let (out, _) = pack("unity-manifest", false);
+    let (out, _) = packed(false);
     let package = out.join(NAME);
     let read = |path: &Path| -> serde_json::Value {
         serde_json::from_str(&fs::read_to_string(path).expect("a file")).unwrap_or_else(|e| panic!("{path:?}: {e}"))
@@ -219,7 +231,7 @@ fn npm_packs_it() {
     if !is_there("npm") {
         return;
     }
-    let (out, _) = pack("unity-tarball", false);
+    let (out, _) = packed(false);
     let tarball = out.join(format!("{NAME}-{}.tgz", env!("CARGO_PKG_VERSION")));
     let listed = succeed(Command::new("tar").arg("-tzf").arg(&tarball));
     let packed: BTreeSet<&str> = listed.lines().filter_map(|line| line.strip_prefix("package/")).collect();
