@@ -12,6 +12,7 @@
 # make lint   format, clippy and rustdoc: a warning is an error
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make dist   the folder to ship and its archive (build/dist; docs/dist.md)
+# make dist-windows  the same for Windows, built here (docs/windows.md)
 # make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
 # make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
 # make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
@@ -107,6 +108,22 @@ SHIPS = $(shell [ "$$(uname -sm)" = 'Linux x86_64' ] && command -v apt-get)
 dist: dependencies
 	sh packaging/dist/dist.sh build/dist
 
+# The folder for Windows, by MinGW. What cannot be had ends packaging/windows/dist.sh with 77, and `test` skips it.
+WINDOWS = build/dist/bespoke-$(VERSION)-windows-x86_64
+MINGW = x86_64-w64-mingw32-g++-posix llvm-dlltool zip
+.PHONY: dist-windows
+dist-windows: dependencies
+	sh .ci/dependencies $(MINGW)
+	sh packaging/windows/dist.sh build/dist build/windows
+
+.PHONY: tested-windows
+tested-windows: dependencies
+	rm -rf $(WINDOWS)
+	sh .ci/dependencies $(MINGW) wine cmake || \
+		{ echo "skipped: the tests of the folder for Windows, for MinGW and Wine cannot be had"; exit 0; }; \
+	sh packaging/windows/dist.sh build/dist build/windows || { ended=$$?; rm -rf $(WINDOWS); [ $$ended -eq 77 ] || exit $$ended; \
+		echo "skipped: the tests of the folder for Windows, for Rust's standard library for it cannot be had"; }
+
 # The Python package, with the library of the folder to ship.
 SHIPPED = build/dist/bespoke-$(VERSION)-linux-x86_64
 .PHONY: wheel
@@ -130,12 +147,12 @@ test-blender: wheel
 .PHONY: unity
 unity: dist
 	sh .ci/dependencies npm
-	sh packaging/unity/pack.sh $(SHIPPED) build/dist-windows build/unity
+	sh packaging/unity/pack.sh $(SHIPPED) $(WINDOWS) build/unity
 
 # The Unreal plugin, in the same way.
 .PHONY: unreal
 unreal: dist
-	sh packaging/unreal/pack.sh $(SHIPPED) build/dist-windows build/unreal
+	sh packaging/unreal/pack.sh $(SHIPPED) $(WINDOWS) build/unreal
 
 # The TBB that hosts bring along.
 .PHONY: host-tbb
@@ -224,13 +241,14 @@ lint: dependencies
 .PHONY: test
 test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
+	$(if $(SHIPS),sh .ci/dependencies $(MINGW) wine || true)
 	$(MAKE) python-environment
-	$(if $(SHIPS),$(MAKE) dist host-tbb & shipped=$$!,shipped=); \
+	$(if $(SHIPS),$(MAKE) dist host-tbb tested-windows & shipped=$$!,shipped=); \
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
 	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
 	$(MAKE) godot-environment
-	BESPOKE_RETARGET=$(CURDIR)/build/retarget \
+	[ ! -d $(WINDOWS) ] || export BESPOKE_WINDOWS=$(CURDIR)/$(WINDOWS); BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY))
@@ -239,6 +257,7 @@ test: dependencies
 	[ -z "$$(find build/stage ! -type d)" ]
 	@[ -d $(PYTHON) ] || echo "skipped: the tests of the Python package and of the Blender extension, for there is no NumPy"
 	$(if $(SHIPS),,@echo "skipped: the tests of the Blender extension, for there is no wheel for this system")
+	@[ -d $(WINDOWS) ] || echo "skipped: the tests of the folder for Windows, for it was not made"
 	@[ -d "$(ASSETS)" ] || echo "skipped: all tests on real meshes, for there are none in $(ASSETS) (set BESPOKE_ASSETS)"
 
 .PHONY: sanitize

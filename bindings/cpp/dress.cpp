@@ -10,6 +10,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -39,15 +40,23 @@ std::optional<std::uint32_t> vertex_of(const std::string &corner, std::size_t ve
     return static_cast<std::uint32_t>(number > 0 ? number - 1 : static_cast<long>(vertices) + number);
 }
 
-Result<Obj> read_obj(const std::string &path) {
+using Path = std::filesystem::path;
+
+/// UTF-8 on every system.
+std::string name_of(const Path &path) {
+    const auto text = path.u8string();
+    return {text.begin(), text.end()};
+}
+
+Result<Obj> read_obj(const Path &path) {
     std::ifstream file(path);
     Obj obj;
     std::string line;
     const auto broken = [&](std::size_t number, const char *what) {
         return bespoke::Error(bespoke::Status::invalid_argument,
-                              path + ", line " + std::to_string(number) + ": " + what);
+                              name_of(path) + ", line " + std::to_string(number) + ": " + what);
     };
-    if (!file.is_open()) return bespoke::Error(bespoke::Status::invalid_argument, path + ": cannot be opened");
+    if (!file.is_open()) return bespoke::Error(bespoke::Status::invalid_argument, name_of(path) + ": cannot be opened");
     for (std::size_t number = 1; std::getline(file, line); number++) {
         std::istringstream words(line);
         std::string key;
@@ -75,13 +84,13 @@ Result<Obj> read_obj(const std::string &path) {
     return obj;
 }
 
-Result<void> write_obj(const std::string &path, const Obj &obj) {
-    std::ofstream file(path);
+Result<void> write_obj(const Path &path, const Obj &obj) {
+    std::ofstream file(path, std::ios::binary);
     file.precision(9);
     for (const Point &p : obj.points) file << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
     for (const auto &[a, b, c] : obj.triangles) file << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
     file.close();
-    if (!file) return bespoke::Error(bespoke::Status::invalid_argument, path + ": cannot be written");
+    if (!file) return bespoke::Error(bespoke::Status::invalid_argument, name_of(path) + ": cannot be written");
     return {};
 }
 
@@ -105,7 +114,7 @@ const char *name_of(bespoke::Stage stage) {
     }
 }
 
-Result<void> dress(char **paths) {
+Result<void> dress(const Path *paths) {
     auto garment = read_obj(paths[0]), skeleton = read_obj(paths[1]);
     auto avatar = read_obj(paths[2]), avatar_skeleton = read_obj(paths[3]);
     for (const auto *obj : {&garment, &skeleton, &avatar, &avatar_skeleton}) {
@@ -148,14 +157,25 @@ Result<void> dress(char **paths) {
     return write_obj(paths[4], *garment);
 }
 
-} // namespace
-
-int main(int count, char **arguments) {
-    if (count != 6) {
+int run(const std::vector<Path> &words) {
+    if (words.size() != 6) {
         std::fprintf(stderr, "usage: dress GARMENT SOURCE_SKELETON AVATAR TARGET_SKELETON OUTPUT (OBJ files)\n");
         return 2;
     }
-    const auto dressed = dress(arguments + 1);
+    const auto dressed = dress(&words[1]);
     if (!dressed) std::fprintf(stderr, "dress: %s\n", dressed.message().c_str());
     return dressed ? 0 : dressed.status() == bespoke::Status::cancelled ? 130 : 1;
 }
+
+} // namespace
+
+#ifdef _WIN32
+/* What main is given has only the characters of the machine's language. MinGW takes this one with -municode. */
+extern "C" int wmain(int count, wchar_t **arguments) {
+    return run({arguments, arguments + count});
+}
+#else
+int main(int count, char **arguments) {
+    return run({arguments, arguments + count});
+}
+#endif

@@ -3,7 +3,7 @@
 #
 # Says as its last line with which `--sysroot` rustc finds it, or nothing where the toolchain has it itself. Where rustup
 # cannot bring it, it is built once into FOLDER, from the sources of the very version of rustc that is used, which Debian
-# has as a package.
+# has as a package. Ends with 77 where it cannot be had.
 set -eu
 export LC_ALL=C
 target=x86_64-pc-windows-gnu
@@ -54,7 +54,7 @@ sources=$folder/source-$version
 if [ ! -f "$sources/.unpacked" ]; then
     if ! fetch >&2; then
         echo "windows: neither rustup nor Debian has Rust's standard library $version for $target" >&2
-        exit 1
+        exit 77
     fi
     rm -rf "$sources"
     dpkg -x "$folder"/rust-src_"$version"*.deb "$sources"

@@ -6,5 +6,6 @@ mod paths;
 mod program;
 mod projects;
 mod shipped;
+mod stops;
 mod symbols;
 mod wine;

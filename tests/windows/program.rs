@@ -40,7 +40,7 @@ fn the_sample_is_the_one_of_linux() {
     compare(wine, &place, &words);
 }
 
-/// The pairs of real meshes, where these are: a quick one, or with BESPOKE_WINDOWS_PAIRS=all every one.
+/// The pairs of real meshes, where these are.
 #[test]
 fn real_pairs_are_those_of_linux() {
     let Some(wine) = wine() else { return };
@@ -60,16 +60,7 @@ fn real_pairs_are_those_of_linux() {
         println!("SKIPPED: real pairs under Wine, for there are none in {}", assets.display());
         return;
     }
-    let mut pairs: Vec<[&PathBuf; 2]> = garments.iter().flat_map(|g| avatars.iter().map(move |a| [g, a])).collect();
-    if std::env::var("BESPOKE_WINDOWS_PAIRS").as_deref() != Ok("all") {
-        let size = |[g, a]: &[&PathBuf; 2]| {
-            let bytes = |file: PathBuf| fs::metadata(file).map_or(u64::MAX / 2, |file| file.len());
-            bytes(g.join("garment.obj")) + bytes(a.join("avatar.obj"))
-        };
-        pairs.sort_by_key(size);
-        println!("{} of {} real pairs (BESPOKE_WINDOWS_PAIRS=all)", 1, pairs.len());
-        pairs.truncate(1);
-    }
+    let pairs = garments.iter().flat_map(|garment| avatars.iter().map(move |avatar| [garment, avatar]));
     for [garment, avatar] in pairs {
         let place = scratch("windows-pair");
         let mut words = Vec::new();

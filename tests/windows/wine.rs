@@ -49,12 +49,18 @@ pub fn wine() -> Option<&'static Wine> {
 }
 
 impl Wine {
-    fn command(&self, program: &OsStr) -> Command {
-        let mut command = Command::new("wine");
-        command.arg(program);
+    /// A program of this system that runs Wine.
+    pub fn around(&self, program: &str) -> Command {
+        let mut command = Command::new(program);
         command.env("WINEPREFIX", &self.prefix).env("WINEDEBUG", "-all").env("WINEDLLOVERRIDES", "mscoree,mshtml=");
         // In the character set of the words below.
         command.env("LC_ALL", "C.UTF-8").env("WINEPATH", &self.bin);
+        command
+    }
+
+    fn command(&self, program: &OsStr) -> Command {
+        let mut command = self.around("wine");
+        command.arg(program);
         command
     }
 
