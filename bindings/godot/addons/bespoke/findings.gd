@@ -59,13 +59,13 @@ func show_findings(found: Array, status: int) -> void:
 	_findings = _findings.slice(0, MOST)
 	_status = status
 	list.clear()
-	for finding: Dictionary in _findings:
-		var kind := BespokeRetarget.get_constant_name("KIND", finding.kind).trim_prefix("KIND_")
+	for one: Dictionary in _findings:
+		var kind := BespokeRetarget.get_constant_name("KIND", one.kind).trim_prefix("KIND_")
 		var icon: Texture2D
-		if has_theme_icon(ICONS[finding.severity], &"EditorIcons"):
-			icon = get_theme_icon(ICONS[finding.severity], &"EditorIcons")
+		if has_theme_icon(ICONS[one.severity], &"EditorIcons"):
+			icon = get_theme_icon(ICONS[one.severity], &"EditorIcons")
 		list.add_item(kind.replace("_", " ").to_lower().capitalize(), icon)
-		list.set_item_tooltip(list.item_count - 1, finding.message)
+		list.set_item_tooltip(list.item_count - 1, one.message)
 	_show()
 
 
