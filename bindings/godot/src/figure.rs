@@ -7,7 +7,7 @@ use godot::obj::Gd;
 
 use crate::engine;
 use crate::mesh::{Arrays, BlendShape};
-use crate::scene::{Binds, Shown, Skeleton, place, skeleton_of};
+use crate::scene::{Binds, Shown, Skeleton, hung, place, skeleton_of};
 use crate::session::{Influences, Result};
 
 /// One mesh of a figure.
@@ -64,7 +64,7 @@ impl Figure {
                     let own = Skeleton::read(&own, None, &shown.name)?;
                     let mut placed = Placed::new(&shown, &arrays, &own)?;
                     let there = own.onto(skeleton);
-                    placed.bones.iter_mut().for_each(|bone| *bone = there[*bone as usize]);
+                    placed.bones.iter_mut().chain(&mut placed.hangs_on).for_each(|bone| *bone = there[*bone as usize]);
                     placed
                 }
                 None => Placed::new(&shown, &arrays, skeleton)?,
@@ -77,7 +77,10 @@ impl Figure {
             if figure.parts.is_empty() {
                 figure.take_shading(&arrays, &placed);
             }
-            skins.push((placed.bones, arrays.width, arrays.positions.len()));
+            skins.push(match placed.hangs_on {
+                Some(bone) => Weights::whole(bone, arrays.positions.len()),
+                None => Weights { bones: placed.bones, weights: arrays.weights.clone(), width: arrays.width },
+            });
             figure.parts.push(Part { shown, arrays, first_vertex: first, first_triangle });
         }
         figure.join_skins(skins);
@@ -99,22 +102,36 @@ impl Figure {
     }
 
     /// One width for all.
-    fn join_skins(&mut self, skins: Vec<(Vec<u32>, usize, usize)>) {
-        let width = skins.iter().map(|skin| skin.1).max().unwrap_or(0);
+    fn join_skins(&mut self, skins: Vec<Weights>) {
+        let width = skins.iter().map(|skin| skin.width).max().unwrap_or(0);
         if width == 0 {
             return;
         }
         let mut joined = Influences { width, ..Influences::default() };
-        for ((bones, own, vertices), part) in skins.into_iter().zip(&self.parts) {
-            for v in 0..vertices {
+        for (skin, part) in skins.into_iter().zip(&self.parts) {
+            for v in 0..part.arrays.positions.len() {
                 for k in 0..width {
-                    let at = v * own + k;
-                    joined.joints.push(if k < own { bones[at] } else { 0 });
-                    joined.weights.push(if k < own { part.arrays.weights[at] } else { 0.0 });
+                    let at = v * skin.width + k;
+                    joined.joints.push(if k < skin.width { skin.bones[at] } else { 0 });
+                    joined.weights.push(if k < skin.width { skin.weights[at] } else { 0.0 });
                 }
             }
         }
         self.skin = joined.weights.iter().any(|&w| w > 0.0).then_some(joined);
+    }
+}
+
+/// Bones of a mesh's vertices, so many each, with weights.
+struct Weights {
+    bones: Vec<u32>,
+    weights: Vec<f32>,
+    width: usize,
+}
+
+impl Weights {
+    /// All of it on one bone.
+    fn whole(bone: u32, vertices: usize) -> Self {
+        Self { bones: vec![bone; vertices], weights: vec![1.0; vertices], width: 1 }
     }
 }
 
@@ -126,13 +143,19 @@ struct Placed {
     each: Vec<DAffine3>,
     /// Bones in place of binds.
     bones: Vec<u32>,
+    /// The bone that takes it along as a whole, where it has no weights.
+    hangs_on: Option<u32>,
 }
 
 impl Placed {
     fn new(shown: &Shown, arrays: &Arrays, skeleton: &Skeleton) -> Result<Self> {
         if arrays.width == 0 {
-            let all = shown.node.map_or(DAffine3::IDENTITY, |node| place(node, skeleton.node));
-            return Ok(Self { all: Some(snapped(all)), each: Vec::new(), bones: Vec::new() });
+            let hung = shown.node.and_then(|node| hung(node, skeleton));
+            let (bone, all) = match hung {
+                Some((bone, place)) => (Some(bone as u32), place),
+                None => (None, shown.node.map_or(DAffine3::IDENTITY, |node| place(node, skeleton.node))),
+            };
+            return Ok(Self { all: Some(snapped(all)), each: Vec::new(), bones: Vec::new(), hangs_on: bone });
         }
         let binds = Binds::read(shown, skeleton)?;
         let known = |bind: u32| (bind as usize).min(binds.bones.len().saturating_sub(1));
@@ -143,11 +166,11 @@ impl Placed {
             influences.filter(|&(_, &weight)| weight > 0.0).map(|(&bind, _)| binds.places[known(bind)])
         };
         let Some(first) = used().next() else {
-            return Ok(Self { all: Some(DAffine3::IDENTITY), each: Vec::new(), bones });
+            return Ok(Self { all: Some(DAffine3::IDENTITY), each: Vec::new(), bones, hangs_on: None });
         };
         let size = arrays.positions.iter().flatten().fold(0.0_f64, |size, &x| size.max(f64::from(x).abs()));
         if used().all(|other| difference(first, other, size) <= SAME * size) {
-            return Ok(Self { all: Some(snapped(first)), each: Vec::new(), bones });
+            return Ok(Self { all: Some(snapped(first)), each: Vec::new(), bones, hangs_on: None });
         }
         let vertex = |v: usize| {
             let (mut matrix, mut translation, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
@@ -162,7 +185,7 @@ impl Placed {
             }
             if sum == 0.0 { first } else { DAffine3 { matrix3: matrix * (1.0 / sum), translation: translation / sum } }
         };
-        Ok(Self { all: None, each: (0..arrays.positions.len()).map(vertex).collect(), bones })
+        Ok(Self { all: None, each: (0..arrays.positions.len()).map(vertex).collect(), bones, hangs_on: None })
     }
 
     fn of(&self, v: usize) -> DAffine3 {

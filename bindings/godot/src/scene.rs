@@ -49,15 +49,26 @@ pub fn meshes(value: &Variant, what: &str) -> Result<Vec<Shown>> {
     Ok(vec![Shown { node: Some(engine::Node::new(&node)), mesh, name }])
 }
 
-/// The Skeleton3D that moves a MeshInstance3D.
+/// The Skeleton3D that moves a MeshInstance3D: by its skin, or by a BoneAttachment3D above it.
 pub fn skeleton_of(node: &Gd<Node3D>) -> Option<Gd<Node3D>> {
     let path = node.get("skeleton");
     let named = match path.to_string().is_empty() {
         true => None,
         false => ask_object::<Node3D>(node, "get_node_or_null", &[path]),
     };
-    let parent = || node.get_parent().and_then(|parent| parent.try_cast::<Node3D>().ok());
-    named.or_else(parent).filter(|found| is(found, "Skeleton3D"))
+    if let Some(named) = named.filter(|found| is(found, "Skeleton3D")) {
+        return Some(named);
+    }
+    let above = |node: &Gd<Node3D>| node.get_parent().and_then(|parent| parent.try_cast::<Node3D>().ok());
+    let parent = above(node)?;
+    if is(&parent, "Skeleton3D") {
+        return Some(parent);
+    }
+    let mut attachment = parent;
+    while !is(&attachment, "BoneAttachment3D") {
+        attachment = above(&attachment)?;
+    }
+    above(&attachment).filter(|found| is(found, "Skeleton3D"))
 }
 
 /// From `node` to `skeleton`, where both are in one tree; else they are taken to share their space.
@@ -81,6 +92,22 @@ fn to_top(node: &Gd<Node3D>) -> (DAffine3, Gd<Node>) {
         top = parent;
     }
     (place, top)
+}
+
+/// The bone that a node without a skin hangs on by a BoneAttachment3D, and from the node to the skeleton as the bone rests.
+pub fn hung(node: engine::Node, skeleton: &Skeleton) -> Option<(usize, DAffine3)> {
+    let mut below = node.get()?;
+    let mut place = affine(below.get_transform());
+    loop {
+        let above = below.get_parent()?.try_cast::<Node3D>().ok()?;
+        if is(&above, "BoneAttachment3D") {
+            let name: StringName = ask(&above, "get_bone_name", &[]);
+            let bone = skeleton.find(&name.to_string())?;
+            return Some((bone, skeleton.rests[bone] * place));
+        }
+        place = affine(above.get_transform()) * place;
+        below = above;
+    }
 }
 
 /// A skeleton: its bones where they rest.

@@ -286,3 +286,31 @@ func test_rigid_garment() -> void:
 	for v in retarget.get_vertices().size():
 		far = maxf(far, retarget.get_vertices()[v].distance_to(other.get_vertices()[v]))
 	holds(far < 0.01, "the vest is %f elsewhere" % far)
+
+
+## What hangs on a bone goes with it, from where the bone rests, however the skeleton is posed now.
+func test_garment_on_a_bone() -> void:
+	var outfit := character("outfit.glb")
+	var bones := skeleton_in(outfit)
+	var spine := bones.find_bone("spine_02")
+	var vest := mesh_named(outfit, "Mannequin_Vest")
+	var attachment := BoneAttachment3D.new()
+	attachment.bone_name = "spine_02"
+	bones.add_child(attachment)
+	var node := MeshInstance3D.new()
+	node.mesh = vest.mesh.duplicate()
+	var arrays := node.mesh.surface_get_arrays(0)
+	var into := bones.get_bone_global_rest(spine).affine_inverse()
+	for v in arrays[Mesh.ARRAY_VERTEX].size():
+		arrays[Mesh.ARRAY_VERTEX][v] = into * arrays[Mesh.ARRAY_VERTEX][v]
+	arrays[Mesh.ARRAY_BONES] = null
+	arrays[Mesh.ARRAY_WEIGHTS] = null
+	node.mesh.clear_surfaces()
+	node.mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	attachment.add_child(node)
+	bones.set_bone_pose_position(spine, Vector3(0, 3, 0))
+	await get_tree().process_frame
+	var retarget := BespokeRetarget.new()
+	retarget.set_garment(node)
+	retarget.set_avatar(mesh_named(character("avatar.glb"), "Body"))
+	same(await outcome(retarget), BespokeRetarget.STATUS_OK, retarget.get_message())

@@ -52,7 +52,7 @@ func forget_what_is_gone() -> void:
 
 
 ## The meshes that are meant, without those that are listed: the chosen one, or all that are shown below it. Garments that were
-## put on by us are none.
+## put on by us are none, nor is what hangs on a bone, such as a weapon.
 func meshes(without: Array) -> Array[MeshInstance3D]:
 	var found: Array[MeshInstance3D] = []
 	if not is_instance_valid(node):
@@ -61,7 +61,7 @@ func meshes(without: Array) -> Array[MeshInstance3D]:
 		found.append(node)
 		return found
 	for child in node.find_children("*", "MeshInstance3D", true, false):
-		if child.mesh and child.visible and not child in without and not child.has_meta(&"bespoke_garment"):
+		if child.mesh and child.visible and not child in without and not child.has_meta(&"bespoke_garment") and not _hangs(child):
 			found.append(child)
 	return found
 
@@ -79,6 +79,14 @@ func skeleton() -> Skeleton3D:
 		if moving:
 			return moving
 	return null
+
+
+func _hangs(child: Node) -> bool:
+	while child != node:
+		if child is BoneAttachment3D:
+			return true
+		child = child.get_parent()
+	return false
 
 
 func _choose() -> void:
