@@ -5,4 +5,3 @@
 mod plugin;
 mod script;
 mod sources;
-

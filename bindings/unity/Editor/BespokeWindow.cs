@@ -22,7 +22,7 @@ namespace Bespoke.Unity.Editor
         [SerializeField] private Vector2 scroll;
 
         private readonly JointTable joints = new JointTable();
-        private readonly FindingList findings = new FindingList();
+        private readonly FindingsList findings = new FindingsList();
         private GarmentRetarget running;
         private System.Threading.Tasks.Task work;
         private string trouble = "";

@@ -7,12 +7,12 @@ using UnityEngine;
 namespace Bespoke.Unity.Editor
 {
     /// <summary>The findings of the last run. The elements of the one that is selected are drawn in the scene.</summary>
-    internal sealed class FindingList
+    internal sealed class FindingsList
     {
-        private readonly List<Finding> findings = new List<Finding>();
-        private Finding selected;
+        private readonly List<Entry> findings = new List<Entry>();
+        private Entry selected;
 
-        private sealed class Finding
+        private sealed class Entry
         {
             public string Garment;
             public string Text;
@@ -43,7 +43,7 @@ namespace Bespoke.Unity.Editor
                 Outcome outcome = done.Fitting.Outcomes[k];
                 if (outcome.Failure != null)
                 {
-                    findings.Add(new Finding
+                    findings.Add(new Entry
                     {
                         Garment = designs[k].name, Text = outcome.Failure.Message,
                         Type = MessageType.Error, Anchor = Troubleshooting.Anchor(outcome.Failure.Status),
@@ -51,7 +51,7 @@ namespace Bespoke.Unity.Editor
                 }
                 foreach (Diagnostic diagnostic in outcome.Findings)
                 {
-                    Finding finding = new Finding
+                    Entry finding = new Entry
                     {
                         Garment = designs[k].name, Text = diagnostic.Message,
                         Type = diagnostic.Severity == Severity.Error ? MessageType.Error
@@ -76,7 +76,7 @@ namespace Bespoke.Unity.Editor
                 return;
             }
             EditorGUILayout.LabelField("Findings", EditorStyles.boldLabel);
-            foreach (Finding finding in findings)
+            foreach (Entry finding in findings)
             {
                 EditorGUILayout.HelpBox($"{finding.Garment}: {finding.Text}", finding.Type);
                 EditorGUILayout.BeginHorizontal();
