@@ -17,7 +17,11 @@ fn description_and_folders_fit_together() {
     fs::write(shipped.join("licences/README.md"), "What is inside.\n").expect("a file");
     fs::copy(library::folder().join("libbespoke.so"), shipped.join("lib/libbespoke.so")).expect("the library");
     let mut script = Command::new("sh");
-    script.arg(root().join("packaging/unreal/pack.sh")).arg(&shipped).arg(folder.join("windows")).arg(folder.join("out"));
+    script
+        .arg(root().join("packaging/unreal/pack.sh"))
+        .arg(&shipped)
+        .arg(folder.join("windows"))
+        .arg(folder.join("out"));
     let output = script.output().expect("sh runs");
     let complained = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{complained}");

@@ -18,7 +18,12 @@ fn the_core_gives_the_bits_of_rust() {
     let program = scratch("unreal-core").join("core");
     let built = library::folder();
     let mut compiler = Command::new("g++");
-    compiler.args(FLAGS).arg("-I").arg(root().join("include")).arg("-I").arg(root().join(SOURCES).join("Bespoke/Public"));
+    compiler
+        .args(FLAGS)
+        .arg("-I")
+        .arg(root().join("include"))
+        .arg("-I")
+        .arg(root().join(SOURCES).join("Bespoke/Public"));
     compiler.arg(root().join("tests/unreal/core.cpp")).arg("-o").arg(&program);
     compiler.arg(format!("-L{}", built.display())).args(["-lbespoke", "-pthread"]);
     succeed(compiler.arg(format!("-Wl,-rpath,{}", built.display())));
