@@ -60,10 +60,12 @@ if [ ! -f "$sources/.unpacked" ]; then
     dpkg -x "$folder"/rust-src_"$version"*.deb "$sources"
     touch "$sources/.unpacked"
 fi
-library=$(find "$sources" -type d -path '*/library/std' | head -n 1)
-library=${library%/library/std}
-lock=$library/library/Cargo.lock
-[ -f "$lock" ] || lock=$library/Cargo.lock
+# Where the package has it; other folders of that name are of tests.
+library=$(find "$sources/usr/src" -maxdepth 1 -name 'rustc-*')
+if [ ! -d "$library/library/std" ]; then
+    echo "windows: Debian's rust-src $version has no standard library in $sources/usr/src" >&2
+    exit 1
+fi
 
 echo "windows: Rust's standard library, once" >&2
 # A toolchain like the one that is used, with the sources where cargo looks for them.
@@ -85,6 +87,10 @@ rm -rf "$sysroot.new" "$sysroot"
 mkdir -p "$place"
 cp "$folder/built/$target/release/deps"/*.rlib "$place"
 rm -f "$place"/libempty-*.rlib
+# What is linked before and after everything else.
+for part in rsbegin rsend; do
+    RUSTC_BOOTSTRAP=1 rustc --target "$target" --crate-type rlib --emit=obj="$place/$part.o" "$library/library/rtstartup/$part.rs"
+done
 mv "$sysroot.new" "$sysroot"
 rm -rf "$folder/built" "$toolchain"
 echo "$sysroot"
