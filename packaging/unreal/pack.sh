@@ -39,14 +39,13 @@ cp "$root"/bindings/python/src/bespoke/*.py "$root/bindings/python/src/bespoke/p
 cp "$library" "$python/libbespoke.so"
 
 dll=$(find "$windows" -name bespoke.dll 2>/dev/null | head -n 1)
-import=$(find "$windows" \( -name bespoke.lib -o -name bespoke.dll.lib -o -name libbespoke.dll.a \) 2>/dev/null | head -n 1)
+import=$(find "$windows" -name bespoke.lib 2>/dev/null | head -n 1)
 if [ -n "$dll" ]; then
     mkdir -p "$third/lib/Win64"
     cp "$dll" "$third/lib/Win64/bespoke.dll"
     cp "$dll" "$python/bespoke.dll"
-    # Whatever it is called there: the engine's linker reads both forms of import libraries.
     [ -z "$import" ] || cp "$import" "$third/lib/Win64/bespoke.lib"
-    [ -n "$import" ] || echo "skipped: C++ on Windows in the Unreal plugin, for there is no import library in $2" >&2
+    [ -n "$import" ] || echo "skipped: C++ on Windows in the Unreal plugin, for there is no bespoke.lib in $2" >&2
 else
     echo "skipped: the Windows library in the Unreal plugin, for there is no bespoke.dll in $2 (make dist-windows)" >&2
 fi
