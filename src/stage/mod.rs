@@ -11,6 +11,7 @@ pub mod inflate;
 mod inflation_start;
 pub mod objective;
 pub mod plausibility;
+pub mod refit_start;
 pub mod repose;
 pub mod setup;
 pub mod start;

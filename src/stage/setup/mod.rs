@@ -19,4 +19,4 @@ pub mod problem;
 pub mod shape;
 pub mod shell_rims;
 pub mod source_body;
-mod wishes;
+pub mod wishes;

@@ -102,7 +102,7 @@ pub struct Problem {
     /// Fit weight of each garment vertex.
     pub fit_weights: Vec<f64>,
     /// Vertices that do not fit unless the caller says so: they have their place from something else.
-    pub(super) placed: Vec<u32>,
+    pub placed: Vec<u32>,
     /// The body that the garment was designed on.
     pub source_body: Option<SourceBody>,
     /// The clearance to aim at in addition to the designed one.
