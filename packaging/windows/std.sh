@@ -15,7 +15,8 @@ has_std() {
     ls "$("$@" --print target-libdir --target "$target")"/libstd-*.rlib >/dev/null 2>&1
 }
 has_std rustc && exit 0
-if command -v rustup >/dev/null 2>&1 && rustup target add "$target" >"$folder/rustup.log" 2>&1; then
+# It may say that it has it already, where somebody has taken the files away.
+if command -v rustup >/dev/null 2>&1 && rustup target add "$target" >"$folder/rustup.log" 2>&1 && has_std rustc; then
     exit 0
 fi
 
