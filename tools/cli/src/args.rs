@@ -24,6 +24,8 @@ const EXIT_CODES: &str = "Exit: 0 when it is done, 1 when there is no result, 2 
 pub enum Command {
     /// Puts the outfit of one file on the character of another.
     Dress(Dress),
+    /// Dresses every outfit of a manifest on every avatar; goes on where it was stopped.
+    Batch(Batch),
     /// Says what is in a file: rig, parts, poses, and what will need attention.
     Inspect(Inspect),
     /// Counts intersections of garments and body in a file.
@@ -104,6 +106,38 @@ pub struct Dress {
     /// No progress and no findings, errors alone.
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// `bespoke batch`.
+#[derive(Clone, Debug, Args)]
+pub struct Batch {
+    /// What to dress: JSON with the lists "outfits" and "avatars", "output" with {outfit} and {avatar} in it, and "options".
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub manifest: PathBuf,
+    /// A line of JSON for each pair that has ended. What stands in it is not done again, unless its files or options have
+    /// changed. By default beside the manifest, one for each slice.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub report: Option<PathBuf>,
+    /// Pairs at a time, each with one thread; 0 takes all cores.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub jobs: u32,
+    /// The I-th of N parts of the pairs, for several machines.
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = slice)]
+    pub slice: (u32, u32),
+    /// Tries those again that had no result.
+    #[arg(long)]
+    pub retry: bool,
+    /// No line for each pair.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+fn slice(text: &str) -> Result<(u32, u32), String> {
+    let numbers = text.split_once('/').and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
+    match numbers {
+        Some((part, parts)) if part >= 1 && part <= parts => Ok((part, parts)),
+        _ => Err("a slice is such as 2/8: the second of eight parts".into()),
+    }
 }
 
 /// `bespoke inspect`.

@@ -3,6 +3,7 @@
 
 pub mod args;
 mod attempts;
+pub mod batch;
 mod bodies;
 pub mod check;
 pub mod dress;
@@ -31,6 +32,10 @@ pub fn run(line: &CommandLine) -> Result<u8> {
         Command::Dress(args) => {
             progress::listen_to_interrupts()?;
             dress::run(args)
+        }
+        Command::Batch(args) => {
+            progress::listen_to_interrupts()?;
+            batch::run(args)
         }
         Command::Inspect(args) => inspect::run(args),
         Command::Check(args) => check::run(args),

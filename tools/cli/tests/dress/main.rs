@@ -1,5 +1,6 @@
 //! The program on files.
 
+mod batch;
 mod files;
 mod judges;
 

@@ -1,0 +1,181 @@
+//! `bespoke batch`: every outfit of a manifest on every avatar.
+//!
+//! Each pair is a process of its own, so that one that is killed takes no other with it, and gives the very result of
+//! `bespoke dress`. Pairs run side by side, with one thread each: that wastes less than threads within a pair.
+
+pub mod journal;
+pub mod manifest;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::sync::mpsc::channel;
+use std::time::Instant;
+
+use crate::args::Batch;
+use crate::failure::{Failure, Result};
+use crate::progress::is_stopped;
+use crate::say::say;
+use journal::{Journal, Line, made_of};
+use manifest::{Manifest, Pair};
+
+/// Of what a pair said, so many bytes are kept.
+const MOST_SAID: usize = 4000;
+
+/// Dresses all pairs that are not done. The exit code.
+///
+/// # Errors
+/// For a manifest that cannot be used, and a report that cannot be written.
+pub fn run(args: &Batch) -> Result<u8> {
+    let manifest = Manifest::read(&args.manifest)?;
+    let (part, parts) = args.slice;
+    let pairs = manifest.pairs()?;
+    let own = pairs.iter().enumerate().filter(|(k, _)| k % parts as usize == part as usize - 1).map(|(_, pair)| pair);
+    let own: Vec<&Pair> = own.collect();
+    let report = args.report.clone().unwrap_or_else(|| beside(&args.manifest, args.slice));
+    let mut journal = Journal::open(&report)?;
+    let mut count = Count::default();
+    let mut left = Vec::new();
+    for &pair in &own {
+        match journal.done(pair) {
+            Some(line) if !(args.retry && line.exit == 1) => count.add(line.exit),
+            _ => left.push(pair),
+        }
+    }
+    let done = own.len() - left.len();
+    if done > 0 {
+        say(args.quiet, &format!("{done} of {} pairs are done already", own.len()));
+    }
+    let program = std::env::current_exe()
+        .map_err(|e| Failure::no_result(format!("this program does not know where it lies: {e}")))?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = if args.jobs == 0 { cores } else { args.jobs as usize };
+    let next = Mutex::new(left.iter());
+    let (ended, results) = channel();
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.min(left.len()) {
+            let (ended, next, program) = (ended.clone(), &next, &program);
+            scope.spawn(move || {
+                while !is_stopped() {
+                    let pair = next.lock().ok().and_then(|mut next| next.next().copied());
+                    let Some(pair) = pair else { return };
+                    if ended.send(dress(program, pair)).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(ended);
+        for (k, line) in results.iter().enumerate() {
+            let Some(line) = line? else { continue };
+            journal.add(&line)?;
+            count.add(line.exit);
+            let outcome = match line.exit {
+                0 => "dressed".to_string(),
+                3 => format!("dressed, not as designed: {}", headline(&line.said)),
+                _ => headline(&line.said).to_string(),
+            };
+            say(args.quiet, &format!("[{}/{}] {}: {outcome}", done + k + 1, own.len(), line.pair));
+        }
+        Ok(())
+    })?;
+    if is_stopped() {
+        return Err(Failure {
+            exit: 130,
+            sentence: "stopped; the same command goes on with the pairs that are not done".into(),
+        });
+    }
+    say(
+        args.quiet,
+        &format!(
+            "{} dressed, {} not as designed, {} without a result; {}",
+            count.good,
+            count.flawed,
+            count.refused,
+            report.display()
+        ),
+    );
+    Ok(match (count.refused, count.flawed) {
+        (0, 0) => 0,
+        (0, _) => 3,
+        _ => 1,
+    })
+}
+
+#[derive(Default)]
+struct Count {
+    good: usize,
+    flawed: usize,
+    refused: usize,
+}
+
+impl Count {
+    fn add(&mut self, exit: i32) {
+        *match exit {
+            0 => &mut self.good,
+            3 => &mut self.flawed,
+            _ => &mut self.refused,
+        } += 1;
+    }
+}
+
+/// The report that is meant where none is named: one for each slice, since two machines cannot write into one.
+fn beside(manifest: &Path, (part, parts): (u32, u32)) -> PathBuf {
+    let end = if parts == 1 { "report.jsonl".into() } else { format!("report.{part}of{parts}.jsonl") };
+    manifest.with_extension(end)
+}
+
+/// Dresses a pair. None where it was stopped, so that it is done another time.
+fn dress(program: &Path, pair: &Pair) -> Result<Option<Line>> {
+    let clock = Instant::now();
+    if let Some(folder) = pair.output.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder)
+            .map_err(|e| Failure::no_result(format!("the folder {} cannot be made: {e}", folder.display())))?;
+    }
+    // Before it begins: a file that changes meanwhile makes the result an old one.
+    let made_of = made_of(pair).unwrap_or_default();
+    let ended = Command::new(program)
+        .arg("dress")
+        .args(&pair.arguments)
+        .args(["--threads=1", "--quiet"])
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|e| Failure::no_result(format!("{} cannot be started: {e}", program.display())))?;
+    let exit = match ended.status.code() {
+        Some(130) => return Ok(None),
+        Some(exit) => exit,
+        // Killed, by a user or for its memory.
+        None if is_stopped() => return Ok(None),
+        None => {
+            return Ok(Some(line(
+                pair,
+                1,
+                clock,
+                format!("it was ended by the system: {}", ended.status),
+                String::new(),
+            )));
+        }
+    };
+    let said = String::from_utf8_lossy(&ended.stderr);
+    let mut from = said.len().saturating_sub(MOST_SAID);
+    while !said.is_char_boundary(from) {
+        from += 1;
+    }
+    Ok(Some(line(pair, exit, clock, said[from..].trim().to_string(), made_of)))
+}
+
+fn line(pair: &Pair, exit: i32, clock: Instant, said: String, made_of: String) -> Line {
+    Line {
+        pair: pair.name.clone(),
+        output: matches!(exit, 0 | 3).then(|| pair.output.clone()),
+        exit,
+        seconds: clock.elapsed().as_secs_f64(),
+        said,
+        made_of,
+    }
+}
+
+/// What was said of a failure in one line.
+fn headline(said: &str) -> &str {
+    said.lines().find(|line| line.starts_with("bespoke: ")).or_else(|| said.lines().next()).unwrap_or("no result")
+}
