@@ -10,7 +10,6 @@ use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
 use crate::options::Options;
 use crate::report::StageReport;
-use crate::solver::newton::{Model as _, Newton};
 use crate::stage::fit::FitStage;
 
 impl Session {
@@ -107,13 +106,8 @@ impl Run {
         };
         let mut objective = problem.fit_objective(field, &self.fit_began_at, &self.options, stop)?;
         objective.contact.inherit_distances(&self.objective.contact);
-        objective.contact.inherit_state(&self.objective.contact);
-        self.objective = objective;
         self.problem = Arc::new(problem);
-        stop.check()?;
-        let budget = self.remaining_budget().reserving(self.objective.memory());
-        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), budget, stop.clone())?;
-        self.objective.contact.limit_pairs(self.remaining_budget().reserving(self.newton.memory()));
+        self.take_up(objective)?;
         self.step = Step::Fit(FitStage::resume(&mut self.objective, &self.state, &self.options));
         self.report.fit = StageReport::default();
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);

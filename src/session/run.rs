@@ -351,14 +351,20 @@ impl Run {
         }
         self.farthest = None;
         self.own_pose.iter_mut().for_each(|own| own.forget_stalled());
+        self.take_up(objective)?;
+        self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
+        self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
+        Ok(())
+    }
+
+    /// Goes on with `objective` in place of the one before, in whose contacts the garment is.
+    pub(super) fn take_up(&mut self, mut objective: Objective) -> Result<()> {
         objective.contact.inherit_state(&self.objective.contact);
         self.objective = objective;
-        stop.check()?;
+        self.context.stop.check()?;
         let budget = self.remaining_budget().reserving(self.objective.memory());
-        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), budget, stop.clone())?;
+        self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), budget, self.context.stop.clone())?;
         self.objective.contact.limit_pairs(self.remaining_budget().reserving(self.newton.memory()));
-        self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, options));
-        self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
     }
 
