@@ -125,6 +125,88 @@ class UsdStages(scenes.Case):
         self.assertEqual([str(one.path) for one in layer.rootPrims], ["/Coat"])
         self.assertEqual({str(one.path) for one in layer.rootPrims[0].properties}, changed)
 
+    def test_a_garment_moves_with_the_skeleton_that_it_was_dressed_on(self) -> None:
+        from pxr import Usd, UsdGeom, UsdSkel  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+        import bespoke.usd
+
+        scene = scenes.tubes()
+        stage = self.stage(TEXT.replace('def Skeleton "Skeleton"', """def SkelRoot "Hero"
+{
+    def Mesh "Coat" {}
+    def Mesh "Body" {}
+    def Skeleton "Rig" (prepend apiSchemas = ["SkelBindingAPI"])
+    {
+        uniform token[] joints = ["Hips", "Hips/Spine", "Hips/Spine/Head"]
+        uniform matrix4d[] bindTransforms = [
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, -1.1, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1.1, 0, 1))]
+        uniform matrix4d[] restTransforms = [
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, -1.1, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1.1, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1.1, 0, 1))]
+        rel skel:animationSource = </Hero/Bend>
+    }
+    def SkelAnimation "Bend"
+    {
+        uniform token[] joints = ["Hips/Spine"]
+        float3[] translations = [(0, 1.1, 0)]
+        quatf[] rotations.timeSamples = { 0: [(1, 0, 0, 0)], 10: [(0.9659258, 0, 0, 0.2588190)] }
+        half3[] scales = [(1, 1, 1)]
+    }
+}
+def Skeleton "Skeleton\""""))
+        coat = self.set_mesh(stage, "/Hero/Coat", scene.garment)
+        body = self.set_mesh(stage, "/Hero/Body", scene.avatar)
+        # In an order of its own, with one joint or two.
+        binding = UsdSkel.BindingAPI.Apply(body.GetPrim())
+        binding.CreateJointsAttr().Set(["Hips/Spine", "Hips", "Hips/Spine/Head"])
+        height = np.clip(scene.avatar[0][:, 1] + 0.5, 0, 1)
+        binding.CreateJointIndicesPrimvar(False, 2).Set([0, 1] * len(height))
+        binding.CreateJointWeightsPrimvar(False, 2).Set(np.stack([height, 1 - height], axis=1).ravel().tolist())
+        coat_binding = UsdSkel.BindingAPI.Apply(coat.GetPrim())
+        coat_binding.CreateJointsAttr().Set(["Other"])
+        stage.GetRootLayer().Save()
+        rig = stage.GetPrimAtPath("/Hero/Rig")
+        skin = bespoke.usd.read_skin(body, rig)
+        assert skin is not None
+        self.assertEqual(np.asarray(skin.joints)[0].tolist(), [1, 0])
+        self.assertIsNone(bespoke.usd.read_skin(coat, rig))
+        output = self.folder / "dressed.usda"
+        dressed = bespoke.usd.dress(coat, body, stage.GetPrimAtPath("/Skeleton"), rig, output, threads=1)
+        assert dressed.skin is not None
+
+        opened = Usd.Stage.Open(str(output))
+        result = UsdGeom.Mesh(opened.GetPrimAtPath("/Hero/Coat"))
+        joints, weights = np.asarray(dressed.skin.joints), np.asarray(dressed.skin.weights, np.float64)
+        self.assertGreater(len(np.unique(joints[weights > 0.01])), 1)
+        turn = np.eye(4)
+        turn[:2, :2] = [[np.sqrt(0.75), 0.5], [-0.5, np.sqrt(0.75)]]
+        moves = np.stack([np.eye(4), turn, turn])
+        # USD's own skinning, at the end of the bend.
+        cache = UsdSkel.Cache()
+        root = UsdSkel.Root(opened.GetPrimAtPath("/Hero"))
+        cache.Populate(root, Usd.PrimDefaultPredicate)
+        skinning = cache.GetSkinningQuery(result.GetPrim())
+        query = cache.GetSkelQuery(UsdSkel.Skeleton(opened.GetPrimAtPath("/Hero/Rig")))
+        self.assertTrue(skinning and query)
+        points = result.GetPointsAttr().Get()
+        posed = np.array(points)
+        self.same_bits(posed.astype(np.float32), dressed.vertices)
+        self.assertTrue(skinning.ComputeSkinnedPoints(query.ComputeSkinningTransforms(Usd.TimeCode(10)), points, Usd.TimeCode(10)))
+        homogeneous = np.concatenate([posed, np.ones((len(posed), 1))], axis=1)
+        expected = np.einsum("vk,vkj->vj", weights, np.einsum("vi,vkij->vkj", homogeneous, moves[joints]))[:, :3]
+        self.assertLess(np.abs(np.array(points) - expected).max(), 1e-5)
+        self.assertGreater(np.abs(expected - posed).max(), 0.1)
+        # Without a body that is on that skeleton nothing is bound.
+        for skeleton, given in ((None, dressed.skin), (rig, None), (stage.GetPrimAtPath("/Cloth"), dressed.skin)):
+            with self.assertRaises(ValueError):
+                bespoke.usd.write_over(coat, dressed.vertices, output, skin=given, skeleton=skeleton)
+        beyond = (joints + 9, weights)
+        with self.assertRaisesRegex(ValueError, "joint"):
+            bespoke.usd.write_over(coat, dressed.vertices, output, skin=beyond, skeleton=rig)
+
     def test_meshes(self) -> None:
         from pxr import Gf, UsdGeom  # type: ignore[import-untyped,import-not-found,unused-ignore]
 

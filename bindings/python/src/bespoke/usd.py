@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdSkel, Vt  # type: ignore[import-untyped,import-not-found,unused-ignore]
 
-from ._dress import Dressed, MeshLike, SkeletonLike
+from ._dress import Dressed, MeshLike, SkeletonLike, Skin
 from ._dress import dress as _dress
 from ._enums import Axis
 from ._errors import ImplausibleResultError
@@ -84,6 +84,34 @@ def read_rig(prim: Any) -> list[Joint]:
     ]
 
 
+def read_skin(prim: Any, skeleton: Any) -> Skin | None:
+    """The skin weights of a mesh on the joints of a skeleton, in the order of that; None where the mesh has none.
+
+    `prim`: the mesh, or its prim. `skeleton`: the skeleton, or its prim. One joint for all of the mesh (constant
+    interpolation) is so for each vertex. Errors: ValueError, where the mesh names joints that the skeleton does not have, or
+    has not as many influences as points.
+    """
+    mesh, skeleton = _mesh(prim), UsdSkel.Skeleton(skeleton)
+    binding = UsdSkel.BindingAPI(mesh)
+    indices, weights = binding.GetJointIndicesPrimvar(), binding.GetJointWeightsPrimvar()
+    if not indices or not weights or not indices.HasValue() or not weights.HasValue():
+        return None
+    width = indices.GetElementSize()
+    rows = [np.array(primvar.ComputeFlattened(), kind) for primvar, kind in ((indices, np.int64), (weights, np.float32))]
+    count = len(mesh.GetPointsAttr().Get() or [])
+    if width < 1 or weights.GetElementSize() != width or any(len(row) not in (width, count * width) for row in rows):
+        raise ValueError(f"{mesh.GetPath()} has not {width} joints with weights for each of {count} points")
+    joints, shares = (np.broadcast_to(row.reshape(-1, width), (count, width)).copy() for row in rows)
+    known = [str(joint) for joint in skeleton.GetJointsAttr().Get() or []]
+    order = [str(joint) for joint in binding.GetJointsAttr().Get() or known]
+    missing = next((joint for joint in order if joint not in known), None)
+    if missing is not None or joints.size and not 0 <= joints.min() <= joints.max() < len(order):
+        what = f"the joint {missing}" if missing is not None else f"{len(order)} joints and an index beyond"
+        raise ValueError(f"{mesh.GetPath()} is on {what}, which {skeleton.GetPath()} does not have")
+    place = np.array([known.index(joint) for joint in order], np.uint32)
+    return Skin(place[joints] if joints.size else joints.astype(np.uint32), shares)
+
+
 def coordinate_system(stage: Any) -> CoordinateSystem:
     """The one of a stage: its up axis and its metres a unit; z up is seen along +y."""
     up = UsdGeom.GetStageUpAxis(stage)
@@ -93,15 +121,24 @@ def coordinate_system(stage: Any) -> CoordinateSystem:
     return CoordinateSystem(metres_per_unit=metres)
 
 
-def write_over(prim: Any, vertices: npt.ArrayLike, output: str | os.PathLike[str]) -> None:
+def write_over(
+    prim: Any,
+    vertices: npt.ArrayLike,
+    output: str | os.PathLike[str],
+    *,
+    skin: Skin | tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    skeleton: Any = None,
+) -> None:
     """Writes a new layer over the stage of a mesh, in which the mesh has other points.
 
     `prim`: the mesh, or its prim. `vertices`: shape (n, 3), as many as it has, in the space of the stage; they are written
     as float32, bit by bit, so a mesh that stands transformed in its stage does not in the new layer
     (`!resetXformStack!`). `output`: the file, .usda, .usdc or .usd, which replaces another one. Its sublayer is the root
     layer of the stage. With the points come their extent and, where the mesh has normals a vertex, these; other normals are
-    blocked, so that they are computed. Errors: ValueError, where it is no mesh, has another number of points, or is part of an
-    instance; where the stage is in memory alone, or `output` is its own file.
+    blocked, so that they are computed. `skin` and `skeleton`, both or none: skin weights on the joints of a skeleton of that stage,
+    bound in the pose of the vertices; the mesh is then bound to it, and moves with it where it is below a SkelRoot. Errors:
+    ValueError, where it is no mesh, has another number of points, or is part of an instance; where the skeleton is none of the
+    stage, or the weights are not as many as the points; where the stage is in memory alone, or `output` is its own file.
     """
     mesh = _mesh(prim)
     points = np.ascontiguousarray(vertices, np.float32)
@@ -114,6 +151,7 @@ def write_over(prim: Any, vertices: npt.ArrayLike, output: str | os.PathLike[str
     original = mesh.GetPrim().GetStage().GetRootLayer()
     if original.realPath and os.path.realpath(output) == os.path.realpath(original.realPath):
         raise ValueError(f"{output} is the original, which is not written to")
+    bound = _bound(mesh, count, skin, skeleton)
     # A layer of this name that is open somewhere is not changed beneath its user.
     layer = Sdf.Layer.CreateAnonymous(os.path.basename(output))
     layer.subLayerPaths.append(_place(original, os.path.dirname(output)))
@@ -127,6 +165,8 @@ def write_over(prim: Any, vertices: npt.ArrayLike, output: str | os.PathLike[str
     if _to_stage(mesh) is not None:
         _write(over, mesh.GetXformOpOrderAttr(), Vt.TokenArray([UsdGeom.XformOpTypes.resetXformStack]))
     _write_normals(mesh, over, points)
+    if bound is not None:
+        _write_skin(mesh, over, *bound)
     if not layer.Export(output):
         raise OSError(f"{output} cannot be written")
 
@@ -146,11 +186,17 @@ def dress(
 
     `garment`, `avatar`, `source_avatar`, `layers`: meshes, or prims of such; all but the garment may be what `bespoke.dress`
     takes for a mesh, too. The skeletons: prims of skeletons, or what `bespoke.dress` takes. The coordinate systems are those of
-    the stages. The result is in the space of the avatar's stage. A result that is not as designed is written nevertheless, and
+    the stages. The result is in the space of the avatar's stage. Where the avatar has skin weights on the target skeleton, these
+    take part, and where both are in the garment's stage too, the result is bound to that skeleton with weights of its own, see
+    `write_over`. A result that is not as designed is written nevertheless, and
     then is an error. Errors: as for `bespoke.dress` and `write_over`.
     """
     source = coordinate_system(_mesh(garment).GetPrim().GetStage())
     target = coordinate_system(avatar.GetPrim().GetStage()) if hasattr(avatar, "GetPrim") else source
+    rig: Any = target_skeleton if hasattr(avatar, "GetPath") and hasattr(target_skeleton, "GetPath") else None
+    skin = None if rig is None else read_skin(avatar, rig)
+    stage = _mesh(garment).GetPrim().GetStage()
+    own = rig if skin is not None and rig.GetPrim().GetStage() == stage else None
     try:
         dressed = _dress(
             read_mesh(garment),
@@ -159,16 +205,71 @@ def dress(
             _skeleton_like(target_skeleton),
             source_avatar=None if source_avatar is None else _mesh_like(source_avatar),
             layers=[_mesh_like(layer) for layer in layers],
+            skin=skin,
             source_coordinates=source,
             target_coordinates=target,
             **arguments,
         )
     except ImplausibleResultError as implausible:
         if implausible.result is not None:
-            write_over(garment, implausible.result.vertices, output)
+            _write_dressed(garment, implausible.result, output, own)
         raise
-    write_over(garment, dressed.vertices, output)
+    _write_dressed(garment, dressed, output, own)
     return dressed
+
+
+def _write_dressed(garment: Any, dressed: Dressed, output: str | os.PathLike[str], skeleton: Any) -> None:
+    is_bound = skeleton is not None and dressed.skin is not None
+    write_over(
+        garment,
+        dressed.vertices,
+        output,
+        skin=dressed.skin if is_bound else None,
+        skeleton=skeleton if is_bound else None,
+    )
+
+
+def _bound(
+    mesh: Any, count: int, skin: Any, skeleton: Any
+) -> tuple[Any, npt.NDArray[np.int32], npt.NDArray[np.float32]] | None:
+    """Skeleton, joints and weights of a mesh with so many points, checked."""
+    if skin is None and skeleton is None:
+        return None
+    if skin is None or skeleton is None:
+        raise ValueError("skin weights are on the joints of a skeleton: give both, or neither")
+    rig = UsdSkel.Skeleton(skeleton)
+    if not rig or rig.GetPrim().GetStage() != mesh.GetPrim().GetStage():
+        raise ValueError(f"{skeleton.GetPath()} is no skeleton of the stage that {mesh.GetPath()} is in")
+    joints, weights = np.ascontiguousarray(skin[0], np.int32), np.ascontiguousarray(skin[1], np.float32)
+    if joints.ndim != 2 or joints.shape != weights.shape or len(joints) != count or joints.shape[1] < 1:
+        raise ValueError(f"{mesh.GetPath()} has {count} points; joints are of shape {joints.shape}, weights {weights.shape}")
+    names = rig.GetJointsAttr().Get() or []
+    if joints.size and not 0 <= joints.min() <= joints.max() < len(names):
+        raise ValueError(f"a weight is on joint {joints.max()}, and {rig.GetPath()} has {len(names)}")
+    return rig, joints, weights
+
+
+def _write_skin(mesh: Any, over: Any, skeleton: Any, joints: npt.NDArray[np.int32], weights: npt.NDArray[np.float32]) -> None:
+    """Binds the mesh to a skeleton with points that stand in the stage as the skeleton was bound."""
+    schemas = Sdf.TokenListOp()
+    schemas.prependedItems = ["SkelBindingAPI"]
+    over.SetInfo("apiSchemas", schemas)
+    target = Sdf.RelationshipSpec(over, "skel:skeleton", custom=False)
+    target.targetPathList.explicitItems = [skeleton.GetPath()]
+    types = Sdf.ValueTypeNames
+    for name, kind, values in (
+        ("primvars:skel:jointIndices", types.IntArray, Vt.IntArray.FromNumpy(joints.ravel())),
+        ("primvars:skel:jointWeights", types.FloatArray, Vt.FloatArray.FromNumpy(weights.ravel())),
+    ):
+        spec = Sdf.AttributeSpec(over, name, kind)
+        spec.SetInfo("interpolation", UsdGeom.Tokens.vertex)
+        spec.SetInfo("elementSize", joints.shape[1])
+        spec.default = values
+    Sdf.AttributeSpec(over, "primvars:skel:geomBindTransform", types.Matrix4d).default = Gf.Matrix4d(1.0)
+    # Joints of its own were those of another skeleton.
+    if UsdSkel.BindingAPI(mesh).GetJointsAttr().HasAuthoredValue():
+        uniform = Sdf.VariabilityUniform
+        Sdf.AttributeSpec(over, "skel:joints", types.TokenArray, uniform).default = Sdf.ValueBlock()
 
 
 def _mesh(prim: Any) -> Any:
