@@ -11,7 +11,7 @@ use std::path::Path;
 
 use closet::avatars::Avatar;
 use closet::mesh::Mesh;
-use closet::rigs::{Body, Character, Naming, character, y_up};
+use closet::rigs::{Body, Character, Naming, Pose, character, y_up};
 use closet::{Kind, garments};
 use engine::{ends_well, passes, project};
 use glam::{DAffine3, DQuat, DVec3};
@@ -41,6 +41,13 @@ fn avatar() -> Character {
     character(&Body::Avatar(Avatar::Slim).model(), Naming::Mixamo).placed(y_up()).placed(frame)
 }
 
+/// The same, with arms that hang so near to the trunk that its sides pass through them: no garment lets them go there.
+fn folded() -> Character {
+    let arms = [DVec3::new(0.05, 0.0, -1.0), DVec3::new(0.1, -0.1, -1.0)];
+    let slim = character(&Body::Avatar(Avatar::Slim).model(), Naming::Mixamo);
+    slim.posed(&Pose { arms: Some(arms), ..Pose::BIND }).placed(y_up())
+}
+
 /// Characters as files: the one that wears a garment, and the one to dress.
 fn write_characters(folder: &Path, name: &str, garment: &Character, avatar: &Character) {
     let write =
@@ -58,6 +65,8 @@ fn write_characters(folder: &Path, name: &str, garment: &Character, avatar: &Cha
 /// The characters that all files of tests take.
 fn write_usual(folder: &Path) {
     write_characters(folder, "Mannequin_Vest", &vest(), &avatar());
+    let part = Part { node: "Body", material: "Body", mesh: &folded() };
+    fs::write(folder.join("folded.glb"), glb(&[part])).expect("the folder can be written");
     let help = "BespokeRetarget.xml";
     fs::copy(root().join("bindings/godot/doc_classes").join(help), folder.join(help)).expect("a file can be copied");
 }
@@ -77,7 +86,7 @@ macro_rules! files {
     };
 }
 
-files! { test_help test_inputs test_results test_running }
+files! { test_flaws test_help test_inputs test_results test_running test_shapes test_vertices }
 
 #[test]
 fn same_bits_as_in_c() {

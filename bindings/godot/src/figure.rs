@@ -5,10 +5,10 @@ use godot::builtin::Variant;
 use godot::classes::Node3D;
 use godot::obj::Gd;
 
-use crate::engine;
+use crate::engine::{self, ask};
 use crate::mesh::{Arrays, BlendShape};
 use crate::scene::{Binds, Shown, Skeleton, hung, place, skeleton_of};
-use crate::session::{Influences, Result};
+use crate::session::{Failure, Influences, Result};
 
 /// One mesh of a figure.
 pub struct Part {
@@ -39,6 +39,16 @@ pub struct Figure {
     pub tangents: Vec<[f32; 4]>,
     /// Its blend shapes.
     pub shapes: Vec<BlendShape>,
+    /// Blend shapes of a body that are to be answered, over all its meshes.
+    pub answered: Vec<BlendShape>,
+}
+
+/// In which shape meshes are read.
+pub enum Taken<'a> {
+    /// Without its blend shapes, as garments are: these come along.
+    Basis,
+    /// As the blend shapes of their nodes have them now, but for those of these names, which are to be answered.
+    AsItIs(&'a [String]),
 }
 
 /// Binds that differ by less than this share of their size are the same: the skeleton rests as the mesh was bound.
@@ -49,8 +59,8 @@ impl Figure {
     /// the skeleton is that of the meshes.
     ///
     /// # Errors
-    /// A mesh or a skin that cannot be used.
-    pub fn read(shown: Vec<Shown>, skeleton: &Skeleton, given: &Variant) -> Result<Self> {
+    /// A mesh or a skin that cannot be used; a blend shape that is to be answered and is nowhere.
+    pub fn read(shown: Vec<Shown>, skeleton: &Skeleton, given: &Variant, taken: &Taken) -> Result<Self> {
         let mut figure = Self::default();
         let mut skins = Vec::new();
         for shown in shown {
@@ -71,7 +81,13 @@ impl Figure {
             };
             let first = figure.positions.len();
             let place = |(v, &p): (usize, &[f32; 3])| placed.point(v, p);
-            figure.positions.extend(arrays.positions.iter().enumerate().map(place));
+            match taken {
+                Taken::Basis => figure.positions.extend(arrays.positions.iter().enumerate().map(place)),
+                Taken::AsItIs(answered) => {
+                    figure.positions.extend(shaped(&shown, &arrays, answered).iter().enumerate().map(place));
+                    figure.take_answered(&arrays, &placed, first, answered);
+                }
+            }
             let first_triangle = figure.triangles.len();
             figure.triangles.extend(arrays.triangles.iter().map(|t| t.map(|v| v.saturating_add(first as u32))));
             if figure.parts.is_empty() {
@@ -84,7 +100,35 @@ impl Figure {
             figure.parts.push(Part { shown, arrays, first_vertex: first, first_triangle });
         }
         figure.join_skins(skins);
+        if let Taken::AsItIs(answered) = taken {
+            figure.complete_answered(answered)?;
+        }
         Ok(figure)
+    }
+
+    /// Adds what a mesh has of the blend shapes that are to be answered.
+    fn take_answered(&mut self, arrays: &Arrays, placed: &Placed, first: usize, names: &[String]) {
+        for shape in arrays.shapes.iter().filter(|shape| names.contains(&shape.name)) {
+            let known = self.answered.iter().position(|other| other.name == shape.name).unwrap_or_else(|| {
+                self.answered.push(BlendShape { name: shape.name.clone(), ..BlendShape::default() });
+                self.answered.len() - 1
+            });
+            let offsets = &mut self.answered[known].offsets;
+            offsets.resize(first, [0.0; 3]);
+            offsets.extend(shape.offsets.iter().enumerate().map(|(v, &d)| placed.direction(v, d)));
+        }
+    }
+
+    fn complete_answered(&mut self, names: &[String]) -> Result<()> {
+        for shape in &mut self.answered {
+            shape.offsets.resize(self.positions.len(), [0.0; 3]);
+        }
+        self.answered.sort_by_key(|shape| names.iter().position(|name| *name == shape.name));
+        let is_missing = |name: &&String| !self.answered.iter().any(|shape| shape.name == **name);
+        match names.iter().find(is_missing) {
+            Some(name) => Err(Failure::argument(format!("blend shapes: no mesh of the avatar has one named '{name}'"))),
+            None => Ok(()),
+        }
     }
 
     fn take_shading(&mut self, arrays: &Arrays, placed: &Placed) {
@@ -119,6 +163,21 @@ impl Figure {
         }
         self.skin = joined.weights.iter().any(|&w| w > 0.0).then_some(joined);
     }
+}
+
+/// Vertices with the blend shapes that the node has on now.
+fn shaped(shown: &Shown, arrays: &Arrays, without: &[String]) -> Vec<[f32; 3]> {
+    let mut points = arrays.positions.clone();
+    let Some(node) = shown.node.and_then(engine::Node::get) else { return points };
+    for (k, shape) in arrays.shapes.iter().enumerate().filter(|(_, shape)| !without.contains(&shape.name)) {
+        let value: f64 = ask(&node, "get_blend_shape_value", &[Variant::from(k as i64)]);
+        if value != 0.0 {
+            for (point, offset) in points.iter_mut().zip(&shape.offsets) {
+                *point = narrow(wide(*point) + value * wide(*offset));
+            }
+        }
+    }
+    points
 }
 
 /// Bones of a mesh's vertices, so many each, with weights.

@@ -23,6 +23,8 @@ pub struct Scene {
     pub avatar: Figure,
     /// What it wears already.
     pub layers: Vec<Figure>,
+    /// What goes along with the garment.
+    pub followers: Vec<Figure>,
 }
 
 impl Scene {
@@ -36,6 +38,9 @@ impl Scene {
             BESPOKE_SUBJECT_LAYER..BESPOKE_SUBJECT_FOLLOWER => {
                 let layer = self.layers.get((subject - BESPOKE_SUBJECT_LAYER) as usize);
                 Some((&self.target, layer))
+            }
+            BESPOKE_SUBJECT_FOLLOWER.. => {
+                Some((&self.source, self.followers.get((subject - BESPOKE_SUBJECT_FOLLOWER) as usize)))
             }
             _ => None,
         }

@@ -1,7 +1,8 @@
 //! Bespoke in Godot: the class [`retarget::BespokeRetarget`], over the C API of the library.
 //!
-//! Meshes and skeletons of a scene become plain arrays (`scene`, `mesh`), a session works on them in a thread of its own
-//! (`session`, `job`), and its result becomes a mesh with a skin again (`result`). Classes of the engine that are not compiled in
+//! What a script sets (`inputs`) and the meshes and skeletons of a scene become plain arrays (`scene`, `mesh`, `figure`, `painted`), a
+//! session works on them in a thread of its own (`session`, `job`, `running`), and its result becomes a mesh with a skin again
+//! (`result`). Classes of the engine that are not compiled in
 //! are called by name (`engine`).
 
 #[rustfmt::skip]
@@ -10,16 +11,20 @@ mod engine;
 mod figure;
 mod findings;
 mod help;
+mod inputs;
 mod job;
 mod mesh;
 #[allow(missing_docs, dead_code)]
 #[rustfmt::skip]
 mod native;
 mod options;
+mod painted;
 mod result;
 mod retarget;
+mod running;
 mod scene;
 mod session;
+mod turned;
 #[allow(missing_docs)]
 #[rustfmt::skip]
 mod words;

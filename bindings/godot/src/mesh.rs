@@ -70,7 +70,8 @@ pub struct Arrays {
     pub relative: bool,
 }
 
-fn array<T: FromGodot>(arrays: &VarArray, which: ArrayType) -> Option<T> {
+/// One of a surface's arrays, where it is there and of this type.
+pub fn array<T: FromGodot>(arrays: &VarArray, which: ArrayType) -> Option<T> {
     arrays.get(which.ord() as usize)?.try_to::<T>().ok()
 }
 

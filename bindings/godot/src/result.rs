@@ -250,3 +250,14 @@ pub fn add_bones(skeleton: &Gd<Node3D>, target: &Skeleton, added: &[AddedBone]) 
         object.call("reset_bone_pose", &[index]);
     }
 }
+
+/// Gives a garment that answers blend shapes of the avatar the values that these have now.
+pub fn take_answers(instance: &Gd<Node3D>, avatar: &Figure) {
+    for shape in &avatar.answered {
+        let name = StringName::from(&format!("blend_shapes/{}", shape.name));
+        let nodes = avatar.parts.iter().filter(|part| part.arrays.shapes.iter().any(|own| own.name == shape.name));
+        if let Some(node) = nodes.filter_map(|part| part.shown.node?.get()).next() {
+            instance.clone().upcast::<Object>().set(&name, &node.get(&name));
+        }
+    }
+}

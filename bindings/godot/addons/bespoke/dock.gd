@@ -6,6 +6,7 @@ extends ScrollContainer
 const NodePicker := preload("node_picker.gd")
 const JointTable := preload("joint_table.gd")
 const Options := preload("options.gd")
+const Painted := preload("painted.gd")
 const Findings := preload("findings.gd")
 const Wearing := preload("wearing.gd")
 
@@ -23,7 +24,10 @@ var garment := NodePicker.new("Garment", "The mesh to put on: a MeshInstance3D."
 var source := NodePicker.new(
 	"Made for", "The body that the garment was made for: its mesh, its skeleton, or the whole character. Best to have.")
 var avatar := NodePicker.new("To be worn by", "The body to dress: its mesh, its skeleton, or the whole character.")
+var along := NodePicker.new(
+	"Goes along", "Trims, badges, levels of detail of the garment: a mesh, or all meshes below a node. They follow it without being fitted.")
 var options := Options.new()
+var painted := Painted.new()
 var joints := JointTable.new()
 var findings := Findings.new()
 var dress := Button.new()
@@ -40,11 +44,12 @@ func _init() -> void:
 	column.size_flags_horizontal = SIZE_EXPAND_FILL
 	column.size_flags_vertical = SIZE_EXPAND_FILL
 	add_child(column)
-	for picker: NodePicker in [garment, source, avatar]:
+	for picker: NodePicker in [garment, along, source, avatar]:
 		column.add_child(picker)
 		picker.changed.connect(_inputs_changed)
 	column.add_child(HSeparator.new())
 	column.add_child(options)
+	column.add_child(painted)
 	column.add_child(joints)
 	joints.changed.connect(_mended)
 	joints.asked.connect(show_joints)
@@ -75,7 +80,7 @@ func _exit_tree() -> void:
 
 ## Nodes of another scene mean nothing here.
 func scene_changed() -> void:
-	for picker: NodePicker in [garment, source, avatar]:
+	for picker: NodePicker in [garment, along, source, avatar]:
 		picker.forget_what_is_gone()
 	findings.clear()
 
@@ -113,16 +118,22 @@ func _retarget() -> BespokeRetarget:
 	var one := BespokeRetarget.new()
 	var worn: MeshInstance3D = garment.node as MeshInstance3D
 	one.set_garment(worn)
-	var bodies := source.meshes([worn])
+	var followers := along.meshes([worn])
+	if not followers.is_empty():
+		one.add_follower(followers)
+	# What goes along is no body.
+	var bodies := source.meshes([worn] + followers)
 	if not bodies.is_empty():
 		one.set_source_body(bodies, source.skeleton())
 	one.set_avatar(avatar.meshes([worn]), avatar.skeleton())
 	one.set_joint_pairs(joints.pairs)
 	options.apply(one)
+	painted.apply(one)
 	return one
 
 
 func _inputs_changed() -> void:
+	painted.show_channels(garment.node.mesh if garment.node is MeshInstance3D else null)
 	joints.clear()
 	findings.clear()
 	_say("")

@@ -2,6 +2,7 @@
 extends VBoxContainer
 ## The dials, and behind a button all other options for artists. What they say comes from the library.
 
+const Folding := preload("folding.gd")
 ## The dials, and the options that they are.
 const DIALS := {"fit": "fit_weight", "looseness": "designed_clearance", "offset": "offset"}
 ## The library's memory and threads are no matter of a garment.
@@ -9,8 +10,7 @@ const LEFT_OUT := ["threads", "memory_limit"]
 
 ## Controls by the names of the options.
 var controls := {}
-var more := Button.new()
-var _others := VBoxContainer.new()
+var more := Folding.new("More options")
 
 
 func _init() -> void:
@@ -19,29 +19,10 @@ func _init() -> void:
 		table[option.name] = option
 	for dial: String in DIALS:
 		_add(self, dial, table[DIALS[dial]])
-	more.text = "More options"
-	more.toggle_mode = true
-	more.flat = true
-	more.alignment = HORIZONTAL_ALIGNMENT_LEFT
-	more.toggled.connect(_open)
 	add_child(more)
-	_others.visible = false
-	add_child(_others)
 	for name: String in table:
 		if not table[name].is_expert and not name in DIALS.values() and not name in LEFT_OUT:
-			_add(_others, name, table[name])
-
-
-func _notification(what: int) -> void:
-	if what == NOTIFICATION_THEME_CHANGED:
-		_open(more.button_pressed)
-
-
-func _open(is_open: bool) -> void:
-	_others.visible = is_open
-	var arrow := &"GuiTreeArrowDown" if is_open else &"GuiTreeArrowRight"
-	if has_theme_icon(arrow, &"EditorIcons"):
-		more.icon = get_theme_icon(arrow, &"EditorIcons")
+			_add(more.content, name, table[name])
 
 
 ## Hands everything over that is not as by default.

@@ -6,15 +6,18 @@ extends RefCounted
 const MARK := &"bespoke_garment"
 
 
-## Puts the result under the skeleton. An earlier one of the same garment there goes.
+## Puts the result under the skeleton, with what goes along. An earlier one of the same garment there goes.
 func put_on(retarget: BespokeRetarget, garment: Node3D, skeleton: Skeleton3D, undo_redo: EditorUndoRedoManager) -> void:
 	if not is_instance_valid(skeleton) or not skeleton.is_inside_tree():
 		return
-	var instance: MeshInstance3D = retarget.create_instance()
+	var worn: Array[Node3D] = [retarget.create_instance()]
+	for k in retarget.get_follower_count():
+		worn.append(retarget.create_follower(k))
 	var root := skeleton.get_tree().edited_scene_root if skeleton.is_part_of_edited_scene() else skeleton.owner
 	var name := str(garment.name) if is_instance_valid(garment) else "Garment"
-	instance.name = name
-	instance.set_meta(MARK, name)
+	worn[0].name = name
+	for instance in worn:
+		instance.set_meta(MARK, name)
 	undo_redo.create_action("Dress in " + name, UndoRedo.MERGE_DISABLE, root)
 	for child in skeleton.get_children():
 		if child.has_meta(MARK) and child.get_meta(MARK) == name:
@@ -25,10 +28,11 @@ func put_on(retarget: BespokeRetarget, garment: Node3D, skeleton: Skeleton3D, un
 	if not retarget.get_added_bones().is_empty():
 		undo_redo.add_do_method(retarget, &"add_bones", skeleton)
 		undo_redo.add_undo_method(self, &"restore", skeleton, bones(skeleton))
-	undo_redo.add_do_method(skeleton, &"add_child", instance, true)
-	undo_redo.add_do_property(instance, &"owner", root)
-	undo_redo.add_do_reference(instance)
-	undo_redo.add_undo_method(skeleton, &"remove_child", instance)
+	for instance in worn:
+		undo_redo.add_do_method(skeleton, &"add_child", instance, true)
+		undo_redo.add_do_property(instance, &"owner", root)
+		undo_redo.add_do_reference(instance)
+		undo_redo.add_undo_method(skeleton, &"remove_child", instance)
 	undo_redo.commit_action()
 
 

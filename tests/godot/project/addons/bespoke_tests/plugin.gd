@@ -67,6 +67,8 @@ func _use(dock: Control, scene: Node) -> void:
 	await _dials(dock)
 	await _cancel(dock)
 	await _dress(dock, bones)
+	await _along(dock, vest, bones)
+	await _paint(dock, vest)
 	await _finding(dock, vest)
 
 
@@ -169,6 +171,53 @@ func _dress(dock: Control, bones: Skeleton3D) -> void:
 	_holds(saved.find_children("*", "MeshInstance3D").any(
 		func(node: Node) -> bool: return node.has_meta(&"bespoke_garment")), "it was not saved")
 	saved.free()
+
+
+## A trim goes along, and goes with the garment when that is undone.
+func _along(dock: Control, vest: MeshInstance3D, bones: Skeleton3D) -> void:
+	var before := _worn(bones)
+	var trim: MeshInstance3D = vest.duplicate()
+	trim.name = "Trim"
+	vest.get_parent().add_child(trim)
+	dock.along.choose(trim)
+	dock.dress.pressed.emit()
+	await _ended(dock)
+	await _frames(2)
+	_holds(dock.state.text.begins_with("Dressed and verified"), "it says " + dock.state.text)
+	var names := _worn(bones).map(func(node: Node) -> String: return str(node.name))
+	_holds(names == ["Mannequin_Vest", "Trim"], "the avatar wears %s" % [names])
+	var history: UndoRedo = dock.undo_redo.get_history_undo_redo(dock.undo_redo.get_object_history_id(bones))
+	history.undo()
+	_holds(_worn(bones) == before, "the trim was not taken off")
+	dock.along.choose(null)
+	trim.free()
+
+
+## What is painted on the garment is offered, and is used.
+func _paint(dock: Control, vest: MeshInstance3D) -> void:
+	_holds(not dock.painted.visible, "a garment without paint has channels")
+	var design := vest.mesh
+	var arrays := design.surface_get_arrays(0)
+	var colors := PackedColorArray()
+	for v: Vector3 in arrays[Mesh.ARRAY_VERTEX]:
+		colors.append(Color.RED if v.y < design.get_aabb().get_center().y else Color.BLACK)
+	arrays[Mesh.ARRAY_COLOR] = colors
+	var painted := ArrayMesh.new()
+	painted.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	vest.mesh = painted
+	dock.garment.choose(vest)
+	_holds(dock.painted.visible, "a garment with paint has no channels")
+	var plain: BespokeRetarget = dock._retarget()
+	var choice: OptionButton = dock.painted.choices["fit"]
+	_holds(choice.get_item_text(1) == "color.r" and choice.item_count == 5, "the channels are not offered")
+	choice.select(1)
+	var loose: BespokeRetarget = dock._retarget()
+	for retarget: BespokeRetarget in [plain, loose]:
+		_holds(retarget.start() == BespokeRetarget.STATUS_OK and retarget.wait() == BespokeRetarget.STATUS_OK, retarget.get_message())
+	_holds(plain.get_vertices() != loose.get_vertices(), "the paint does nothing")
+	vest.mesh = design
+	dock.garment.choose(vest)
+	_holds(dock.painted.chosen("fit") == "", "paint that is gone is still chosen")
 
 
 ## A garment that passes through itself, told by its triangles.
