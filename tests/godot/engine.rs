@@ -1,6 +1,7 @@
 //! Projects with the add-on, and the engine that runs them.
 
 use std::env;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -62,8 +63,40 @@ impl Project {
 
     /// Runs the engine in the project, for so many seconds at most: a script that fails early leaves it running for ever.
     pub fn run(&self, seconds: u32, arguments: &[&str]) -> Output {
+        let mut all = vec![self.engine.as_os_str(), OsStr::new("--path"), self.folder.as_os_str()];
+        all.extend(arguments.iter().map(OsStr::new));
+        self.run_program(seconds, &all)
+    }
+
+    /// The game that is made of the project, in a folder of its own.
+    pub fn export(&self) -> PathBuf {
+        let presets = self.folder.join("export_presets.cfg");
+        let template = self.engine.with_file_name("root/usr/bin/godot-template-release");
+        let text = fs::read_to_string(&presets).expect("the project has a preset");
+        fs::write(&presets, text.replace("TEMPLATE", template.to_str().expect("UTF-8"))).expect("a file");
+        fs::create_dir_all(self.folder.join("out")).expect("a folder");
+        let output = self.run(120, &["--headless", "--export-release", "Linux", "out/game.x86_64"]);
+        ends_well("the export", &output, "");
+        let game = scratch("godot-game");
+        copy(&self.folder.join("out"), &game);
+        game
+    }
+
+    /// Runs a program of the engine's system, which is unpacked beside it: a game looks for its libraries beside itself, and by the
+    /// loader it would not know where that is. None where this system has no name spaces.
+    pub fn run_inside(&self, seconds: u32, arguments: &[&OsStr]) -> Option<Output> {
+        let has_spaces = Command::new("unshare").args(["--map-root-user", "--mount", "true"]).output();
+        if !has_spaces.is_ok_and(|output| output.status.success()) {
+            println!("SKIPPED: a game that was exported, for this system gives no name spaces");
+            return None;
+        }
+        let enter = self.engine.with_file_name("enter");
+        Some(self.run_program(seconds, &[&[enter.as_os_str()], arguments].concat()))
+    }
+
+    fn run_program(&self, seconds: u32, arguments: &[&OsStr]) -> Output {
         let mut command = Command::new("timeout");
-        command.arg("--kill-after=5").arg(seconds.to_string()).arg(&self.engine).arg("--path").arg(&self.folder);
+        command.arg("--kill-after=5").arg(seconds.to_string());
         // A home of its own: settings and caches of whoever runs the tests stay as they are.
         for variable in ["HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"] {
             command.env(variable, self.folder.join("home"));

@@ -1,21 +1,22 @@
 #!/bin/sh
 # Fetches the Godot that Debian's unstable suite ships and unpacks it with what it needs: engine.sh FOLDER [pictures]
 #
-# Left is FOLDER/godot, a script that starts it, also on older systems, by the C library that is unpacked beside it. With
-# `pictures` it can also draw without a graphics card. What lies in the folder already stays.
+# Left is FOLDER/godot, a script that starts it, also on older systems, by the C library that is unpacked beside it; and
+# FOLDER/root/usr/bin/godot-template-release, of which exported games are made. With `pictures` it can also draw without a graphics
+# card. What lies in the folder already stays.
 set -eu
 unstable=$(cd "$(dirname "$0")/../../.ci" && pwd)/unstable
 mkdir -p "$1"
 cd "$1"
-if [ -f .pictures ] || { [ -f .complete ] && [ "${2-}" != pictures ]; }; then
+if [ -x enter ] && { [ -f .pictures ] || { [ -f .complete ] && [ "${2-}" != pictures ]; }; }; then
     exit
 fi
 rm -f .complete
 # The driver that draws is a third of it, and a run without a window never loads it.
 if [ "${2-}" = pictures ]; then
-    sh "$unstable" . '^$' godot libgl1 libglx-mesa0 libegl1 libgl1-mesa-dri
+    sh "$unstable" . '^$' godot godot-template-release libgl1 libglx-mesa0 libegl1 libgl1-mesa-dri
 else
-    sh "$unstable" . '^(mesa-libgallium|libllvm.*|libz3-4)$' godot
+    sh "$unstable" . '^(mesa-libgallium|libllvm.*|libz3-4)$' godot godot-template-release
 fi
 
 # By the loader that is unpacked: that of the system may be older than what Godot was built with.

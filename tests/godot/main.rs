@@ -117,6 +117,23 @@ fn dock() {
     ends_well("the dock", &output, "ran the dock");
 }
 
+/// A game that was exported finds the library, and dresses.
+#[test]
+fn exported_game() {
+    let Some(project) = project("exported") else { return };
+    write_usual(&project.data());
+    let game = project.export();
+    for file in ["game.pck", "libbespoke_godot.so"] {
+        assert!(game.join(file).exists(), "{file} was not exported");
+    }
+    let arguments = [game.join("game.x86_64"), "--headless".into(), "--".into(), project.data()];
+    let Some(output) = project.run_inside(120, &arguments.each_ref().map(|one| one.as_os_str())) else { return };
+    let [said, complained] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    // The engine's system has no shell, which it complains of as it begins.
+    let is_good = output.status.success() && said.contains("dressed in game.x86_64");
+    assert!(is_good && !complained.contains("FAILED") && !complained.contains("SCRIPT ERROR"), "{said}\n{complained}");
+}
+
 #[test]
 fn every_file_is_run() {
     let files = fs::read_dir(root().join("tests/godot/project")).expect("the folder");
