@@ -234,6 +234,7 @@ lint: dependencies
 	! cargo fmt --version >/dev/null 2>&1 || cargo fmt --all --check
 	@cargo clippy --version >/dev/null 2>&1 || echo "skipped: clippy, which is not there (rustup component add clippy)"
 	! cargo clippy --version >/dev/null 2>&1 || cargo clippy --release --workspace --all-targets -- -D warnings
+	sh bindings/godot/lint.sh
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --workspace --lib --no-deps
 
 # The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
