@@ -72,7 +72,11 @@ def nearest(thing: bpy.types.Object, skeleton: pathlib.Path) -> np.ndarray:
     points = np.array([vertex.co for vertex in thing.data.vertices])
     distances = []
     for joint, place in enumerate(places):
-        ends = [places[k] for k, parent in enumerate(PARENTS) if parent == joint] or [place + 1e-6]
+        ends = [places[k] for k, parent in enumerate(PARENTS) if parent == joint]
+        if not ends:
+            # As far as the bone of the armature.
+            along_parent = place - places[PARENTS[joint]]
+            ends = [place + along_parent / np.linalg.norm(along_parent) * 0.1]
         along = []
         for end in ends:
             t = np.clip((points - place) @ (end - place) / ((end - place) @ (end - place)), 0.0, 1.0)

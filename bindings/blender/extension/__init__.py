@@ -5,7 +5,7 @@ The library is in the wheel that comes with this extension, the package `bespoke
     dials, preferences     what is asked for
     lists, joint_map       the choice of meshes and of joints that correspond
     meshes, rigs           from objects and armatures to arrays
-    work                   the fitting itself, in a thread; knows nothing of Blender
+    work, turns            the fitting itself, in a thread; knows nothing of Blender
     results, findings      back: objects, and what is to be looked at
     dress, panel           the operator and the sidebar
     texts, troubleshooting what is said, from the package and its pages

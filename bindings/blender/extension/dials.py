@@ -51,15 +51,21 @@ class BespokeMesh(bpy.types.PropertyGroup):
         name="Rigid Group",
         description="A vertex group of buttons, buckles or plates: each connected piece of it keeps its shape",
     )
+    follows: bpy.props.PointerProperty(
+        name="Follows",
+        description="The garment that it goes along with. Without: the nearest one",
+        type=bpy.types.Object,
+        poll=_is_mesh,
+    )
 
 
-def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any, garments: Any) -> None:
+def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any) -> None:
     """Where nothing is chosen yet, all meshes that an armature bends, and that can be seen, are its body. What only
     hangs on a bone may be a prop."""
     if armature is None or any(item.object for item in bodies):
         return
     bodies.clear()
-    worn = {item.object for item in garments}
+    worn = {item.object for item in (*scene.bespoke.garments, *scene.bespoke.followers)}
     for thing in scene.objects:
         if thing.type != "MESH" or thing in worn or "bespoke_garment" in thing or not thing.visible_get():
             continue
@@ -69,12 +75,12 @@ def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any
 
 def _source_chosen(self: Any, context: bpy.types.Context) -> None:
     self.joints.clear()
-    _fill(context.scene, self.source, self.source_bodies, self.garments)
+    _fill(context.scene, self.source, self.source_bodies)
 
 
 def _target_chosen(self: Any, context: bpy.types.Context) -> None:
     self.joints.clear()
-    _fill(context.scene, self.target, self.target_bodies, self.garments)
+    _fill(context.scene, self.target, self.target_bodies)
 
 
 def _mended(self: Any, _context: bpy.types.Context) -> None:
@@ -134,6 +140,8 @@ class BespokeScene(bpy.types.PropertyGroup):
 
     garments: bpy.props.CollectionProperty(type=BespokeMesh)
     garment_index: bpy.props.IntProperty()
+    followers: bpy.props.CollectionProperty(type=BespokeMesh)
+    follower_index: bpy.props.IntProperty()
     source: bpy.props.PointerProperty(
         name="Armature",
         description="The armature of the character that the garments were made for",

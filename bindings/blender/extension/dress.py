@@ -37,12 +37,15 @@ def finish(context: bpy.types.Context, given: inputs.Inputs, run: work.Run) -> l
     if context.object is not None and context.object.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     made: list[bpy.types.Object | None] = [None] * len(run.outcomes)
+    along: list[bpy.types.Object] = []
     for index, outcome in enumerate(run.outcomes):
         if outcome.vertices is None:
             continue
-        made[index] = results.write(context, given, index, outcome)
+        made[index], *others = results.write(context, given, index, outcome)
+        along += others
         if not context.scene.bespoke.keep_results:
-            results.remove_earlier(context.scene, made[index])
+            for thing in (made[index], *others):
+                results.remove_earlier(context.scene, thing)
     if given.task.asks_for_covered and any(made):
         results.mask_covered(given, run.outcomes)
     findings.tell(context.scene, given, run.outcomes, made)
@@ -50,7 +53,7 @@ def finish(context: bpy.types.Context, given: inputs.Inputs, run: work.Run) -> l
     if objects:
         for thing in context.selected_objects:
             thing.select_set(False)
-        for thing in objects:
+        for thing in (*objects, *along):
             thing.select_set(True)
         context.view_layer.objects.active = objects[-1]
     return objects

@@ -90,6 +90,9 @@ def _meshes(
     if element.layer is not None or element.subject == bespoke.Subject.GARMENT:
         garment = inputs.garments[index]
         return [garment], [results[index] or garment.object]
+    if element.follower is not None:
+        follower = inputs.followers[index][element.follower]
+        return [follower], [follower.object]
     if element.subject == bespoke.Subject.TARGET_AVATAR:
         return inputs.target_bodies, [mesh.object for mesh in inputs.target_bodies]
     if element.subject == bespoke.Subject.SOURCE_AVATAR:

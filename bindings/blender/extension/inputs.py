@@ -6,6 +6,7 @@ import dataclasses
 
 import bespoke
 import bpy
+import mathutils.kdtree
 import numpy as np
 
 from . import dials, meshes, preferences, rigs, work
@@ -18,6 +19,8 @@ class Inputs:
 
     task: work.Task
     garments: list[Mesh]
+    followers: list[list[Mesh]]
+    """What goes along with each of them."""
     source: bpy.types.Object
     source_bodies: list[Mesh]
     target: bpy.types.Object
@@ -96,10 +99,7 @@ def _garment(
         influences=skin if brings_bones else None,
         is_bound=skin is not None,
     )
-    if meshes.has_morphs(thing):
-        turn = np.array(rigs.frame(source) @ meshes.rest_matrix(thing), np.float64)[:3, :3].T
-        for key in thing.data.shape_keys.key_blocks[1:]:
-            garment.morphs.append((key.name, (_shape(key) - _shape(key.relative_key)) @ turn))
+    garment.morphs = _morphs(thing, source)
     if item.fit_group:
         garment.fit_weights = meshes.group_weights(found, item.fit_group)
     if item.pin_group:
@@ -108,6 +108,51 @@ def _garment(
         rigid = np.flatnonzero(meshes.group_weights(found, item.rigid_group) > 0.5)
         garment.rigid_groups = meshes.islands(rigid, found.triangles)
     return found, garment
+
+
+def _morphs(thing: bpy.types.Object, source: bpy.types.Object) -> list[tuple[str, Array]]:
+    """Its shape keys, as offsets from what each is relative to."""
+    if not meshes.has_morphs(thing):
+        return []
+    turn = np.array(rigs.frame(source) @ meshes.rest_matrix(thing), np.float64)[:3, :3].T
+    keys = thing.data.shape_keys.key_blocks[1:]
+    return [(key.name, (_shape(key) - _shape(key.relative_key)) @ turn) for key in keys]
+
+
+def _followers(
+    scene: bpy.types.Scene,
+    source: bpy.types.Object,
+    found: list[tuple[Mesh, work.Garment]],
+    depsgraph: bpy.types.Depsgraph,
+) -> list[list[Mesh]]:
+    """What goes along with each garment, which is told of it."""
+    meshes_of: list[list[Mesh]] = [[] for _ in found]
+    worn = [mesh.object for mesh, _ in found]
+    for item in scene.bespoke.followers:
+        thing = item.object
+        if thing is None or thing.name not in scene.objects or thing in worn or not found:
+            continue
+        with garment_mesh(thing, depsgraph) as now:
+            mesh, vertices = cloth(now, thing, source)
+        if item.follows is not None and item.follows not in worn:
+            raise SceneError(f"{thing.name}: it follows {item.follows.name}, which is no garment in the list")
+        index = worn.index(item.follows) if item.follows is not None else _nearest(vertices, found)
+        follower = work.Follower(thing.name, vertices, mesh.triangles, _morphs(thing, source))
+        found[index][1].followers.append(follower)
+        meshes_of[index].append(mesh)
+    return meshes_of
+
+
+def _nearest(vertices: Array, found: list[tuple[Mesh, work.Garment]]) -> int:
+    """The garment whose vertices are nearest, in the mean."""
+    distances = []
+    for _, garment in found:
+        tree = mathutils.kdtree.KDTree(len(garment.vertices))
+        for k, point in enumerate(garment.vertices.tolist()):
+            tree.insert(point, k)
+        tree.balance()
+        distances.append(float(np.mean([tree.find(point)[2] for point in vertices.tolist()])))
+    return int(np.argmin(distances))
 
 
 def _shape(key: bpy.types.ShapeKey) -> Array:
@@ -129,6 +174,8 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
     source = _armature(scene, settings.source, "made for")
     target = _armature(scene, settings.target, "to be worn by")
     worn = {item.object for item in chosen}
+    along = [] if not needs_garments else _objects(scene, settings.followers)
+    worn.update(along)
     source_bodies = [thing for thing in _objects(scene, settings.source_bodies) if thing not in worn]
     roles = {item.object: item.role for item in settings.target_bodies}
     target_bodies = [thing for thing in _objects(scene, settings.target_bodies) if thing not in worn]
@@ -155,6 +202,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         for item in chosen if needs_garments else ():
             with garment_mesh(item.object, depsgraph) as mesh:
                 found.append(_garment(item, mesh, source, brings_bones))
+        followers = _followers(scene, source, found, depsgraph)
     task = work.Task(
         garments=[garment for _, garment in found],
         source_rig=rigs.joints(source),
@@ -168,7 +216,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         influences=preferences.read(context).influences,
         asks_for_covered=settings.mask_covered,
     )
-    return Inputs(task, [mesh for mesh, _ in found], source, bodies_there, target, bodies_here, layers_here)
+    return Inputs(task, [mesh for mesh, _ in found], followers, source, bodies_there, target, bodies_here, layers_here)
 
 
 def garment_mesh(thing: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> object:

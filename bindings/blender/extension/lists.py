@@ -1,4 +1,4 @@
-"""The lists of meshes in the panel: garments, and the bodies of both characters."""
+"""The lists of meshes in the panel: garments, what goes along with them, and the bodies of both characters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,12 @@ import bpy
 from . import dials
 
 # Which list of the scene, with its index.
-LISTS = {"garments": "garment_index", "source_bodies": "source_body_index", "target_bodies": "target_body_index"}
+LISTS = {
+    "garments": "garment_index",
+    "followers": "follower_index",
+    "source_bodies": "source_body_index",
+    "target_bodies": "target_body_index",
+}
 _WHICH = [(name, name.replace("_", " ").title(), "") for name in LISTS]
 
 
@@ -51,7 +56,7 @@ class BESPOKE_OT_add_meshes(bpy.types.Operator):
                 items.add().object = thing
         setattr(settings, LISTS[self.which], len(items) - 1)
         side = "target" if self.which == "target_bodies" else "source"
-        if self.which == "garments":
+        if self.which in ("garments", "followers"):
             # What is put on is no body.
             for bodies in (settings.source_bodies, settings.target_bodies):
                 for k in reversed([k for k, item in enumerate(bodies) if item.object in chosen]):

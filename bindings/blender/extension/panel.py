@@ -41,6 +41,11 @@ class BESPOKE_PT_dress(_Panel, bpy.types.Panel):
         _list(column, settings, "garments", "garment_index", 2, can_move=True)
         self._groups(column, settings)
         column.separator()
+        column.label(text="Goes along", icon="LINKED")
+        _list(column, settings, "followers", "follower_index", 1, can_move=False)
+        if len(settings.garments) > 1 and 0 <= settings.follower_index < len(settings.followers):
+            column.prop(settings.followers[settings.follower_index], "follows")
+        column.separator()
         column.label(text="Made for", icon="OUTLINER_OB_ARMATURE")
         column.prop(settings, "source", text="")
         _list(column, settings, "source_bodies", "source_body_index", 1, can_move=False)

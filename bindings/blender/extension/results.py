@@ -17,25 +17,53 @@ COVERED = "Bespoke Covered"
 def check(inputs: Inputs) -> None:
     """Errors: SceneError, where something that takes part has gone, or a garment has changed, since they were read."""
     try:
-        found = [*inputs.garments, *inputs.source_bodies, *inputs.target_bodies, *inputs.layers]
+        along = [mesh for meshes_of in inputs.followers for mesh in meshes_of]
+        found = [*inputs.garments, *along, *inputs.source_bodies, *inputs.target_bodies, *inputs.layers]
         for thing in [inputs.source, inputs.target, *(mesh.object for mesh in found)]:
             _ = thing.name
     except ReferenceError:
         raise SceneError(
             "something that takes part was deleted or undone while it was fitted; dress it again"
         ) from None
-    things = [mesh.object for mesh in inputs.garments]
+    things = [mesh.object for mesh in [*inputs.garments, *along]]
+    designs = [*inputs.task.garments, *(follower for garment in inputs.task.garments for follower in garment.followers)]
     with meshes.as_modelled(things) as depsgraph:
-        for thing, garment in zip(things, inputs.task.garments, strict=True):
+        for thing, design in zip(things, designs, strict=True):
             with garment_mesh(thing, depsgraph) as now:
-                if not now.polygons or not np.array_equal(cloth(now, thing, inputs.source)[1], garment.vertices):
+                if not now.polygons or not np.array_equal(cloth(now, thing, inputs.source)[1], design.vertices):
                     raise SceneError(f"{thing.name}: it was changed while it was fitted; dress it again")
 
 
-def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> bpy.types.Object:
-    """A new object: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature.
-    `check` was called before."""
-    thing = inputs.garments[index].object
+def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.Outcome) -> list[bpy.types.Object]:
+    """New objects: the garment with its materials, UVs, seams, attributes and shape keys, on the target's armature, and
+    what goes along with it. `check` was called before."""
+    names = [bone.name for bone in inputs.target.data.bones]
+    if outcome.skin is not None:
+        names += _add_bones(context, inputs, outcome)
+    made: list[bpy.types.Object] = []
+    things = [mesh.object for mesh in [inputs.garments[index], *inputs.followers[index]]]
+    try:
+        for thing, worn in zip(things, [outcome, *outcome.followers], strict=True):
+            made.append(_object(context, inputs, thing, worn, names))
+    except BaseException:
+        # Nothing half-made stays.
+        for result in made:
+            _remove(result)
+        raise
+    return made
+
+
+def _remove(result: bpy.types.Object) -> None:
+    mesh = result.data
+    bpy.data.objects.remove(result)
+    if mesh.users == 0:
+        bpy.data.meshes.remove(mesh)
+
+
+def _object(
+    context: bpy.types.Context, inputs: Inputs, thing: bpy.types.Object, worn: work.Worn, names: list[str]
+) -> bpy.types.Object:
+    """A new object: `thing` as it is worn, with weights on bones of these names."""
     with meshes.as_modelled([thing]) as depsgraph:
         with garment_mesh(thing, depsgraph) as now:
             # With shape keys these come along; else with the modifiers applied.
@@ -44,23 +72,18 @@ def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.
     result = thing.copy()
     try:
         result.data = mesh
-        _set_shapes(mesh, outcome)
+        _set_shapes(mesh, worn)
         result.animation_data_clear()
         result.constraints.clear()
         if not meshes.has_morphs(thing):
             for name in [modifier.name for modifier in meshes.shaping(thing)]:
                 result.modifiers.remove(result.modifiers[name])
-        names = [bone.name for bone in inputs.target.data.bones]
-        if outcome.skin is not None:
-            names += _add_bones(context, inputs, outcome)
-        _bind(result, inputs, outcome, names)
+        _bind(result, inputs, worn, names)
         result["bespoke_garment"], result["bespoke_avatar"] = thing.name, inputs.target.name
         result.name = _name(thing.name, inputs.target.name)
         _place(context, result, inputs.target)
     except BaseException:
-        # Nothing half-made stays.
-        bpy.data.objects.remove(result)
-        bpy.data.meshes.remove(mesh)
+        _remove(result)
         raise
     return result
 
@@ -70,10 +93,7 @@ def remove_earlier(scene: bpy.types.Scene, result: bpy.types.Object) -> None:
     mark = result["bespoke_garment"], result["bespoke_avatar"]
     for old in [thing for thing in scene.objects if thing != result]:
         if (old.get("bespoke_garment"), old.get("bespoke_avatar")) == mark:
-            mesh = old.data
-            bpy.data.objects.remove(old)
-            if mesh.users == 0:
-                bpy.data.meshes.remove(mesh)
+            _remove(old)
     result.name = _name(*mark)
 
 
@@ -81,11 +101,11 @@ def _name(garment: str, avatar: str) -> str:
     return f"{garment} on {avatar}"
 
 
-def _set_shapes(mesh: bpy.types.Mesh, outcome: work.Outcome) -> None:
-    vertices = outcome.vertices
+def _set_shapes(mesh: bpy.types.Mesh, worn: work.Worn) -> None:
+    vertices = worn.vertices
     if mesh.shape_keys is not None:
         keys = mesh.shape_keys.key_blocks
-        offsets = dict(zip([key.name for key in keys[1:]], outcome.morphs))
+        offsets = dict(zip([key.name for key in keys[1:]], worn.morphs))
         shapes: dict[str, Array] = {mesh.shape_keys.reference_key.name: vertices.astype(np.float64)}
 
         def shape(key: bpy.types.ShapeKey) -> Array:
@@ -99,13 +119,13 @@ def _set_shapes(mesh: bpy.types.Mesh, outcome: work.Outcome) -> None:
     mesh.update()
 
 
-def _bind(result: bpy.types.Object, inputs: Inputs, outcome: work.Outcome, names: list[str]) -> None:
+def _bind(result: bpy.types.Object, inputs: Inputs, worn: work.Worn, names: list[str]) -> None:
     target = inputs.target
     bones = {bone.name for bone in inputs.source.data.bones}.union(names)
     for group in [group for group in result.vertex_groups if group.name in bones]:
         result.vertex_groups.remove(group)
-    if outcome.skin is not None:
-        joints, weights = outcome.skin
+    if worn.skin is not None:
+        joints, weights = worn.skin
         for joint in np.unique(joints[weights > 0.0]):
             group = result.vertex_groups.new(name=names[joint])
             vertex, slot = np.nonzero((joints == joint) & (weights > 0.0))

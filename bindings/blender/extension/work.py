@@ -13,6 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from bespoke import Progress, Session, Stage
 
+from . import turns
+
 Array = npt.NDArray[Any]
 Influences = tuple[Array, Array]
 
@@ -25,6 +27,16 @@ class Body:
     triangles: Array
     influences: Influences | None
     roles: Array | None = None
+
+
+@dataclasses.dataclass
+class Follower:
+    """What goes along with a garment, as it was modelled: a trim, a badge, a level of detail."""
+
+    name: str
+    vertices: Array
+    triangles: Array
+    morphs: list[tuple[str, Array]] = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass
@@ -42,6 +54,7 @@ class Garment:
     fit_weights: Array | None = None
     pins: Array | None = None
     rigid_groups: list[Array] = dataclasses.field(default_factory=list)
+    followers: list[Follower] = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass
@@ -65,13 +78,20 @@ class Task:
 
 
 @dataclasses.dataclass
-class Outcome:
-    """What became of one garment."""
+class Worn:
+    """A mesh on the other body."""
 
     vertices: Array | None = None
     """None where it is not dressed."""
     morphs: list[Array] = dataclasses.field(default_factory=list)
     skin: Influences | None = None
+
+
+@dataclasses.dataclass
+class Outcome(Worn):
+    """What became of one garment."""
+
+    followers: list[Worn] = dataclasses.field(default_factory=list)
     added: tuple[bespoke.AddedJoint, ...] = ()
     covered: Array | None = None
     """Triangles of the body that nobody sees now, where they were asked for."""
@@ -117,6 +137,8 @@ def filled(task: Task, garment: Garment, layers: Sequence[tuple[Array, Array]]) 
         session.add_rigid_group(group)
     for name, offsets in garment.morphs:
         session.add_garment_morph(offsets, name)
+    for follower in garment.followers:
+        session.add_follower(follower.vertices, follower.triangles)
     for vertices, triangles in layers:
         session.add_layer(vertices, triangles)
     return session
@@ -280,8 +302,17 @@ class Run:
             outcome.skin = (bones, weights)
             outcome.added = session.read_added_joints()
         outcome.morphs = [session.read_garment_morph(k) for k in range(len(garment.morphs))]
+        outcome.followers = [self._follower(session, k, follower) for k, follower in enumerate(garment.followers)]
         if self.task.asks_for_covered:
             outcome.covered = session.read_covered_triangles()
         outcome.findings = session.read_diagnostics()
         outcome.report = session.read_report()
         outcome.vertices = session.read_garment_vertices()
+
+    def _follower(self, session: Session, number: int, design: Follower) -> Worn:
+        worn = Worn(vertices=session.read_follower_vertices(number))
+        if self.task.target.influences is not None:
+            worn.skin = session.read_follower_skin_influences(number, self.task.influences)[:2]
+        moved = turns.turns(design.triangles, design.vertices, worn.vertices)
+        worn.morphs = [turns.turned(moved, offsets) for _, offsets in design.morphs]
+        return worn
