@@ -16,6 +16,7 @@
 # make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
 # make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
 # make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
+# make test-blender-window  the same in the window of Blender 5.2, which is fetched from Debian's unstable suite (build/blender/window)
 # make unity  the Unity package and its tarball (build/unity; bindings/unity/README.md)
 # make godot  the add-on for Godot 4, with the library of `make dist` (build/godot-addon; bindings/godot/README.md)
 # make test-godot  its tests alone, in the engine, which is fetched from Debian's unstable suite (build/godot)
@@ -142,6 +143,13 @@ blender: wheel
 test-blender: wheel
 	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
 	sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY)
+
+# The panel, Esc and undo, in a window that nobody sees. Not a part of `make test`: Blender is 350 MB to fetch.
+.PHONY: test-blender-window
+test-blender-window: wheel
+	sh .ci/dependencies Xvfb xwd convert
+	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
+	sh tests/blender/window-test.sh build/wheel $(SAMPLE) $(BPY)
 
 # The Unity package. The library for Windows is in it where there is one.
 .PHONY: unity

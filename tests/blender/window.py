@@ -62,6 +62,29 @@ def press(kind: str) -> None:
         bpy.context.window.event_simulate(type=kind, value=value, **at)
 
 
+def watch(panels: tuple[type, ...]) -> tuple[set[str], list[str]]:
+    """From here on, which panels were drawn, and what went wrong: Blender prints that and goes on."""
+    drawn: set[str] = set()
+    failures: list[str] = []
+
+    def watched(panel: type) -> None:
+        draw = panel.draw
+
+        def drawing(self: object, context: bpy.types.Context) -> None:
+            try:
+                draw(self, context)
+                drawn.add(panel.__name__)
+            except BaseException:
+                failures.append(traceback.format_exc())
+                raise
+
+        panel.draw = drawing
+
+    for panel in panels:
+        watched(panel)
+    return drawn, failures
+
+
 def dress() -> None:
     area, region = view()
     with bpy.context.temp_override(area=area, region=region):
@@ -72,7 +95,9 @@ def steps() -> Iterator[float]:
     """All of it, with pauses in which Blender handles events and draws."""
     bpy.ops.extensions.package_install_files(filepath=ARCHIVE, repo="user_default", enable_on_install=True)
     from bl_ext.user_default.bespoke import dress as operator
+    from bl_ext.user_default.bespoke import panel
 
+    drawn, failures = watch(panel._CLASSES)
     characters.empty()
     yield 0.5
     characters.fill()
@@ -101,6 +126,7 @@ def steps() -> Iterator[float]:
     space.region_3d.view_location.z -= 0.3
     yield 1.0
     yield from picture("panel")
+    assert "BESPOKE_PT_dress" in drawn, drawn
 
     bpy.ops.ed.undo_push(message="chosen")
     before = names()
@@ -155,7 +181,6 @@ def steps() -> Iterator[float]:
     press("ESC")
 
     # All that is folded up at first, which Blender remembers by its name.
-    panel = sys.modules[operator.__package__].panel
     for each in (panel.BESPOKE_PT_joints, panel.BESPOKE_PT_more, panel.BESPOKE_PT_expert):
         bpy.utils.unregister_class(each)
         each.bl_options = set()
@@ -164,6 +189,7 @@ def steps() -> Iterator[float]:
     for each in (panel.BESPOKE_PT_joints, panel.BESPOKE_PT_more, panel.BESPOKE_PT_expert):
         bpy.utils.register_class(each)
     yield from picture("unfolded")
+    assert drawn == {each.__name__ for each in panel._CLASSES}, drawn
     bpy.ops.screen.userpref_show("INVOKE_DEFAULT")
     bpy.context.preferences.active_section = "ADDONS"
     bpy.context.window_manager.addon_search = "Bespoke"
@@ -179,6 +205,7 @@ def steps() -> Iterator[float]:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     yield from until("an end with another file", lambda: operator.running() is None and run.is_over)
     assert len(run.outcomes) == 0
+    assert not failures, failures[0]
     print("another file stopped it", flush=True)
 
 
