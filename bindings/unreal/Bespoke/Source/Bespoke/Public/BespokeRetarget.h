@@ -46,11 +46,18 @@ public:
 	UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = "Bespoke", meta = (ClampMin = "0"))
 	double Fit = 2.0;
 
-	/** How much of the looseness on its own body to aim at. Default 1, as designed. 0: tight. */
+	/**
+	 * Where a source avatar is given: the clearance that the fit aims at, as a fraction of the one that each point
+	 * of the garment had on it, in proportion to the limb there [up to 2]. Default 1, as designed. 0: tight, as
+	 * without a source avatar.
+	 */
 	UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = "Bespoke", meta = (ClampMin = "0", ClampMax = "2"))
 	double Looseness = 1.0;
 
-	/** Clearance to aim at everywhere, in addition to the designed one, in centimetres. Default 0. */
+	/**
+	 * Clearance to aim at everywhere, in addition to the designed one, in the target's unit, from 0 to half the size
+	 * of the target skeleton. What is nearer is pushed away, what is farther is drawn in. Default 0.
+	 */
 	UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = "Bespoke", meta = (ClampMin = "0"))
 	double Offset = 0.0;
 
