@@ -9,6 +9,8 @@ internal static class Cases
         new Dictionary<string, Action<string, string>>
         {
             { "dressed_as_in_rust", (characters, root) => Fittings.AsInRust(characters) },
+            { "goes_along", (characters, root) => Fittings.GoesAlong(characters) },
+            { "turned", (characters, root) => Fittings.Turned() },
             { "stopped", (characters, root) => Fittings.Stopped(characters) },
             { "refused_and_over_it", (characters, root) => Fittings.RefusedAndOverIt(characters) },
             { "joint_map", (characters, root) => Fittings.JointMap(characters) },

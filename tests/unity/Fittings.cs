@@ -37,6 +37,77 @@ internal static class Fittings
         }
     }
 
+    // A copy of the garment goes where the garment goes, with what it has, and one beside it stays beside it.
+    public static void GoesAlong(string folder)
+    {
+        FittingTask plain = Characters.Task(folder);
+        SkinnedPart vest = plain.Garments[0].Parts[0];
+        SkinnedPart body = plain.Garments[0].Parts[1];
+        float[] up = Enumerable.Range(0, vest.Positions.Length).Select(k => k % 3 == 1 ? 1f : 0f).ToArray();
+        vest.Normals = up;
+        SkinnedPart copy = Characters.Part(folder, "garment");
+        copy.Name = "coarse";
+        copy.Normals = up;
+        copy.Frames.Add(new ShapeFrame { Name = "wide", Weight = 100, Vertices = vest.Frames[0].Vertices, Normals = up });
+        FittingTask task = new FittingTask { Target = plain.Target };
+        task.Garments.Add(new Figure(plain.Garments[0].Joints, vest, copy, body));
+        task.Followers.Add(1);
+        Fitting run = new Fitting(task);
+        run.Work();
+        Outcome outcome = run.Outcomes.Single();
+        Check.That(outcome.Failure == null, $"{outcome.Failure}");
+        Check.SameBits(outcome.Positions, Characters.Floats(folder, "dressed"), "the vest, as without");
+        Worn worn = outcome.Followers.Single();
+        Near(worn.Positions, outcome.Positions, 1e-4, "where the copy is");
+        Check.That(worn.Skin.Joints.Length == outcome.Skin.Joints.Length, "its skin");
+        Check.Same(worn.Tangents, null, "tangents that it has not");
+        Check.Same(worn.Frames.Single().Weight, 100f, "the weight of its frame");
+        double far = 0;
+        for (int k = 0; k < worn.Normals.Length; k += 3)
+        {
+            double length = Length(worn.Normals, k);
+            Check.That(Math.Abs(length - 1) < 1e-5, $"normal {k / 3} is {length} long");
+            far += Distance(worn.Normals, outcome.Normals, k);
+        }
+        far /= worn.Normals.Length / 3;
+        Check.That(far < 0.2, $"normals are {far} from those of the garment, in the mean");
+        Check.Same(task.FollowersOf(5), 0, "of a garment that there is not");
+    }
+
+    // Turned by a quarter and twice as large: normals turn, offsets turn and grow.
+    public static void Turned()
+    {
+        float[] before = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 5, 5, 5 };
+        float[] after = { 9, 0, 0, 9, 2, 0, 7, 0, 0, 9, 0, 0, 5, 5, 5 };
+        Turns turns = new Turns(new[] { 0, 1, 2 }, before, after);
+        // The vertex in the place of the first one, which no triangle has, turns with it; the last one is anywhere.
+        float[] offsets = { 1, 0, 0, 1, 0, 0, 0, 0, 3, 1, 0, 0, 1, 0, 0 };
+        Near(turns.Turned(offsets, 3, true), new float[] { 0, 2, 0, 0, 2, 0, 0, 0, 6, 0, 2, 0, 1, 0, 0 }, 1e-5, "offsets");
+        float[] tangents = { 1, 0, 0, -1 };
+        Near(turns.Turned(tangents, 4, false), new float[] { 0, 1, 0, -1 }, 1e-5, "a tangent");
+        Check.Same(turns.Turned(null, 3, true), null, "nothing");
+    }
+
+    private static void Near(float[] found, float[] expected, double tolerance, string what)
+    {
+        Check.Same(found.Length, expected.Length, what);
+        for (int k = 0; k < found.Length; k++)
+        {
+            Check.That(
+                Math.Abs(found[k] - expected[k]) <= tolerance, $"{what}: number {k} is {found[k]}, not {expected[k]}");
+        }
+    }
+
+    private static double Distance(float[] one, float[] other, int at)
+    {
+        double sum = 0;
+        for (int k = at; k < at + 3; k++)
+        {
+            sum += (one[k] - other[k]) * (one[k] - other[k]);
+        }
+        return Math.Sqrt(sum);
+    }
+
     public static void Stopped(string folder)
     {
         Fitting run = new Fitting(Characters.Task(folder));

@@ -75,7 +75,7 @@ macro_rules! cases {
 }
 
 cases! {
-    dressed_as_in_rust stopped refused_and_over_it joint_map
+    dressed_as_in_rust goes_along turned stopped refused_and_over_it joint_map
     figures impossible_figures influences package_tests pairs transforms dials stages troubleshooting
 }
 

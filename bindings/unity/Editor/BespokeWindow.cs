@@ -183,7 +183,14 @@ namespace Bespoke.Unity.Editor
                     dressed.Add(renderer.gameObject);
                     if (saveMeshes)
                     {
-                        Save(renderer.sharedMesh);
+                        foreach (GameObject thing in created)
+                        {
+                            SkinnedMeshRenderer level = thing.GetComponent<SkinnedMeshRenderer>();
+                            if (level != null)
+                            {
+                                Save(level.sharedMesh);
+                            }
+                        }
                     }
                 }
             }

@@ -36,6 +36,7 @@ namespace UnityEngine
         public Transform transform { get; private set; }
         public GameObject gameObject { get; private set; }
         public T[] GetComponentsInChildren<T>() { return new T[0]; }
+        public T GetComponentInParent<T>() { return default(T); }
     }
 
     public class Behaviour : Component { }
@@ -149,6 +150,30 @@ namespace UnityEngine
         public SkinQuality quality { get; set; }
         public float GetBlendShapeWeight(int index) { return 0; }
         public void SetBlendShapeWeight(int index, float value) { }
+    }
+
+    public enum LODFadeMode { None, CrossFade, SpeedTree }
+
+    public struct LOD
+    {
+        public float screenRelativeTransitionHeight;
+        public float fadeTransitionWidth;
+        public Renderer[] renderers;
+        public LOD(float screenRelativeTransitionHeight, Renderer[] renderers)
+        {
+            this.screenRelativeTransitionHeight = screenRelativeTransitionHeight;
+            this.renderers = renderers;
+            fadeTransitionWidth = 0;
+        }
+    }
+
+    public class LODGroup : Component
+    {
+        public LODFadeMode fadeMode { get; set; }
+        public bool animateCrossFading { get; set; }
+        public LOD[] GetLODs() { return new LOD[0]; }
+        public void SetLODs(LOD[] lods) { }
+        public void RecalculateBounds() { }
     }
 
     public enum HumanBodyBones { Hips, LeftUpperLeg, RightUpperLeg, Head, LastBone }

@@ -9,9 +9,13 @@ namespace Bespoke.Unity
     /// <summary>All that is to be done.</summary>
     public sealed class FittingTask
     {
-        /// <summary>For each garment, innermost first, the character that it was made for: the garment is its part 0 and the
-        /// body, where there is one, the parts after it.</summary>
+        /// <summary>For each garment, innermost first, the character that it was made for: the garment is its part 0, then comes
+        /// what goes along with it, and the body, where there is one, is the parts after that.</summary>
         public readonly List<Figure> Garments = new List<Figure>();
+
+        /// <summary>For each garment, how many parts go along with it without being fitted, such as levels of detail; fewer
+        /// entries: none.</summary>
+        public readonly List<int> Followers = new List<int>();
 
         /// <summary>The character to dress: its body, in the space of the result.</summary>
         public Figure Target;
@@ -24,10 +28,18 @@ namespace Bespoke.Unity
 
         /// <summary>Joints of a vertex of the result.</summary>
         public int Influences = 4;
+
+        /// <summary>How many parts go along with a garment.</summary>
+        /// <param name="garment">The garment, from 0.</param>
+        /// <returns>How many.</returns>
+        public int FollowersOf(int garment)
+        {
+            return garment < Followers.Count ? Followers[garment] : 0;
+        }
     }
 
-    /// <summary>What became of one garment.</summary>
-    public sealed class Outcome
+    /// <summary>A mesh on the other body.</summary>
+    public class Worn
     {
         /// <summary>x, y, z of each vertex in the space of the target; null where it is not dressed.</summary>
         public float[] Positions;
@@ -44,6 +56,13 @@ namespace Bespoke.Unity
         /// <summary>Its skin on the joints of the target and, after them, the added ones; null where the body has
         /// none.</summary>
         public Influences Skin;
+    }
+
+    /// <summary>What became of one garment.</summary>
+    public sealed class Outcome : Worn
+    {
+        /// <summary>What goes along with it, in the order of the task.</summary>
+        public readonly List<Worn> Followers = new List<Worn>();
 
         /// <summary>Joints of its own that come along.</summary>
         public AddedJoint[] Added = new AddedJoint[0];
@@ -158,7 +177,7 @@ namespace Bespoke.Unity
                     {
                         using (Session session = Filled(k, layers))
                         {
-                            Dress(session, task.Garments[k].Parts[0], outcome);
+                            Dress(session, k, outcome);
                         }
                     }
                     catch (OperationCanceledException)
@@ -225,6 +244,11 @@ namespace Bespoke.Unity
                 {
                     session.AddGarmentMorph(frame.Name, frame.Vertices);
                 }
+                for (int k = 1; k <= task.FollowersOf(garment); k++)
+                {
+                    SkinnedPart along = task.Garments[garment].Parts[k];
+                    session.AddFollower(along.Positions, along.Triangles);
+                }
                 foreach (KeyValuePair<float[], int[]> layer in layers)
                 {
                     session.AddLayer(layer.Key, layer.Value);
@@ -242,9 +266,10 @@ namespace Bespoke.Unity
         {
             Figure made = task.Garments[garment];
             session.SetSourceRig(made.Rig());
-            if (made.Parts.Length > 1)
+            int body = 1 + task.FollowersOf(garment);
+            if (made.Parts.Length > body)
             {
-                made.Joined(1, out float[] points, out int[] corners, out Influences own);
+                made.Joined(body, out float[] points, out int[] corners, out Influences own);
                 session.SetSourceAvatar(points, corners);
                 if (own != null)
                 {
@@ -264,8 +289,9 @@ namespace Bespoke.Unity
             }
         }
 
-        private void Dress(Session session, SkinnedPart cloth, Outcome outcome)
+        private void Dress(Session session, int garment, Outcome outcome)
         {
+            SkinnedPart cloth = task.Garments[garment].Parts[0];
             try
             {
                 session.Run(new Watch(this), stop.Token);
@@ -295,7 +321,40 @@ namespace Bespoke.Unity
                 outcome.Skin = new Influences(task.Influences, Array.ConvertAll(joints, j => checked((int)j)), weights);
                 outcome.Added = session.ReadAddedJoints();
             }
+            for (int k = 0; k < task.FollowersOf(garment); k++)
+            {
+                outcome.Followers.Add(Carried(session, k, task.Garments[garment].Parts[1 + k], hasSkin));
+            }
             outcome.Positions = session.ReadGarmentVertices();
+        }
+
+        private Worn Carried(Session session, int number, SkinnedPart design, bool hasSkin)
+        {
+            float[] positions = session.ReadFollowerVertices(number);
+            Turns turns = new Turns(design.Triangles, design.Positions, positions);
+            Worn worn = new Worn
+            {
+                Positions = positions,
+                Normals = turns.Turned(design.Normals, 3, false),
+                Tangents = turns.Turned(design.Tangents, 4, false),
+            };
+            foreach (ShapeFrame frame in design.Frames)
+            {
+                worn.Frames.Add(new ShapeFrame
+                {
+                    Name = frame.Name,
+                    Weight = frame.Weight,
+                    Vertices = turns.Turned(frame.Vertices, 3, true),
+                    Normals = turns.Turned(frame.Normals, 3, false),
+                    Tangents = turns.Turned(frame.Tangents, 3, false),
+                });
+            }
+            if (hasSkin)
+            {
+                session.ReadFollowerSkinInfluences(number, task.Influences, out uint[] joints, out float[] weights);
+                worn.Skin = new Influences(task.Influences, Array.ConvertAll(joints, j => checked((int)j)), weights);
+            }
+            return worn;
         }
 
         private static bool IsPosed(Session session)

@@ -12,13 +12,15 @@ namespace Bespoke.Unity
     /// </summary>
     public sealed class GarmentRetarget
     {
-        private readonly SkinnedMeshRenderer[] garments;
+        // Each with its other levels of detail.
+        private readonly SkinnedMeshRenderer[][] garments;
         private readonly FigureReader[] made;
         private readonly FigureReader target;
         private readonly SkinnedMeshRenderer body;
 
         /// <summary>Reads all that takes part.</summary>
-        /// <param name="garments">The garments, innermost first.</param>
+        /// <param name="garments">The garments, innermost first. Other levels of detail in the LODGroup of one (Coat_LOD0,
+        /// Coat_LOD1) go along with it.</param>
         /// <param name="sourceBodies">The body that they were made for; empty: it is not there, and the fit is tight.</param>
         /// <param name="targetBodies">The body to dress; at least one renderer.</param>
         /// <param name="source">The animator of the first character: its humanoid avatar says which bone is which; null: names
@@ -38,7 +40,7 @@ namespace Bespoke.Unity
                 throw new ArgumentException(
                     garments.Count == 0 ? "no garment is chosen" : "no body is chosen that is to wear the garments");
             }
-            this.garments = List(garments);
+            this.garments = Array.ConvertAll(List(garments), WithLevels);
             body = targetBodies[0];
             target = new FigureReader(List(targetBodies));
             Task = new FittingTask { Target = target.Figure, Dials = dials ?? new Dials() };
@@ -46,8 +48,9 @@ namespace Bespoke.Unity
             Dictionary<string, int> wearer = target.Humanoid(targetAnimator);
             for (int k = 0; k < made.Length; k++)
             {
-                List<SkinnedMeshRenderer> renderers = new List<SkinnedMeshRenderer> { garments[k] };
+                List<SkinnedMeshRenderer> renderers = new List<SkinnedMeshRenderer>(this.garments[k]);
                 renderers.AddRange(sourceBodies);
+                Task.Followers.Add(this.garments[k].Length - 1);
                 made[k] = new FigureReader(renderers.ToArray());
                 Task.Garments.Add(made[k].Figure);
                 Task.Pairs.Add(JointPairs.Of(made[k].Humanoid(source), wearer, Numbers(made[k], chosen)));
@@ -77,10 +80,11 @@ namespace Bespoke.Unity
 
         /// <summary>
         /// Makes the renderer of a garment that is dressed, beside the body that wears it, with the materials and the weights of
-        /// blend shapes of the garment, and Transforms for the bones that it brings along. To be called once it is over.
+        /// blend shapes of the garment, and Transforms for the bones that it brings along. Its other levels of detail come with it,
+        /// in a LODGroup. To be called once it is over.
         /// </summary>
         /// <param name="garment">The garment, from 0.</param>
-        /// <param name="created">Every new object: the renderer's first, then bones of its own.</param>
+        /// <param name="created">Every new object: the renderer's first, then bones of its own and other levels.</param>
         /// <returns>The renderer; null where the garment is not dressed.</returns>
         public SkinnedMeshRenderer Apply(int garment, List<GameObject> created)
         {
@@ -89,17 +93,44 @@ namespace Bespoke.Unity
             {
                 return null;
             }
-            SkinnedMeshRenderer design = garments[garment];
-            GameObject wearing = new GameObject(design.name);
+            SkinnedMeshRenderer[] designs = garments[garment];
+            GameObject wearing = new GameObject(designs[0].name);
             created.Add(wearing);
-            wearing.layer = design.gameObject.layer;
             Place(wearing.transform, body.transform);
-            SkinnedMeshRenderer renderer = wearing.AddComponent<SkinnedMeshRenderer>();
             Transform[] added = AddBones(garment, outcome, created);
+            SkinnedMeshRenderer[] made = new SkinnedMeshRenderer[designs.Length];
+            made[0] = Wear(designs[0], outcome, outcome, added, wearing);
+            for (int k = 1; k < made.Length; k++)
+            {
+                GameObject level = new GameObject(designs[k].name);
+                created.Add(level);
+                level.transform.SetParent(wearing.transform, false);
+                made[k] = Wear(designs[k], outcome.Followers[k - 1], outcome, added, level);
+            }
+            if (made.Length > 1)
+            {
+                Levels.Group(designs, made, wearing);
+            }
+            return made[0];
+        }
+
+        private static SkinnedMeshRenderer[] WithLevels(SkinnedMeshRenderer garment)
+        {
+            List<SkinnedMeshRenderer> levels = Levels.Of(garment);
+            levels.Insert(0, garment);
+            return levels.ToArray();
+        }
+
+        // A renderer for one mesh of an outcome, on the bones of the wearer and those that come along.
+        private SkinnedMeshRenderer Wear(
+            SkinnedMeshRenderer design, Worn worn, Outcome outcome, Transform[] added, GameObject wearing)
+        {
+            wearing.layer = design.gameObject.layer;
+            SkinnedMeshRenderer renderer = wearing.AddComponent<SkinnedMeshRenderer>();
             int joints = target.Transforms.Count;
             int[] used;
             Mesh mesh = MeshReader.Write(
-                design.sharedMesh, outcome,
+                design.sharedMesh, worn,
                 joint => joint < joints ? target.Figure.Bind(joint) : outcome.Added[joint - joints].Bind, out used);
             mesh.name = design.sharedMesh.name + " on " + body.name;
             renderer.sharedMesh = mesh;

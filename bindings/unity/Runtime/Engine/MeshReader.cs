@@ -40,17 +40,20 @@ namespace Bespoke.Unity
         /// <summary>
         /// A copy of a mesh with what a run has given: materials' submeshes, UVs and colours stay.
         /// </summary>
-        /// <param name="design">The garment's mesh.</param>
+        /// <param name="design">The mesh of the garment, or of what goes along with it.</param>
         /// <param name="outcome">What became of it; dressed.</param>
         /// <param name="bind">For each joint of its skin, the bind transform.</param>
         /// <param name="used">The joints that are bones of the new mesh, in their order.</param>
         /// <returns>The new mesh.</returns>
-        public static Mesh Write(Mesh design, Outcome outcome, Func<int, double[]> bind, out int[] used)
+        public static Mesh Write(Mesh design, Worn outcome, Func<int, double[]> bind, out int[] used)
         {
             Mesh mesh = UnityEngine.Object.Instantiate(design);
             mesh.ClearBlendShapes();
             mesh.vertices = Vectors(outcome.Positions);
-            mesh.normals = Vectors(outcome.Normals);
+            if (outcome.Normals != null)
+            {
+                mesh.normals = Vectors(outcome.Normals);
+            }
             if (outcome.Tangents != null)
             {
                 mesh.tangents = Vectors4(outcome.Tangents);
