@@ -28,6 +28,7 @@ class Dressing(unittest.TestCase):
         unreal.made.clear()
         unreal.lines.clear()
         unreal.state["looks_until_cancel"] = None
+        unreal.state["morphs"] = []
 
     def dress(self, garments: tuple[str, ...] = ("/Game/garment",), **arguments: object) -> list[str]:
         return bespoke_unreal.dress(list(garments), "/Game/source", "/Game/target", **arguments)
@@ -101,6 +102,38 @@ class Dressing(unittest.TestCase):
         with self.assertRaises(bespoke.BespokeError):
             self.dress(pairs=[("hips", "hips"), ("spine", "hips")])
 
+    def test_joint_map(self) -> None:
+        found = bespoke_unreal.joint_map("/Game/source", "/Game/target")
+        source, target = (bespoke_unreal.read(unreal.load_asset(f"/Game/{name}")) for name in ("source", "target"))
+        self.assertEqual([match.bone for match in found], [joint.name for joint in source.rig])
+        with bespoke.Session() as session:
+            session.set_source_rig(source.rig)
+            session.set_target_rig(target.rig)
+            session.set_target_skin_influences(target.joints, target.weights, joint_count=len(target.rig))
+            wanted = session.read_joint_map()
+        names = [None if m.target is None else target.rig[m.target].name for m in wanted]
+        self.assertEqual([match.worn_by for match in found], names)
+        self.assertEqual([match.reason for match in found], [m.reason for m in wanted])
+        self.assertGreater(sum(match.confidence > 0.5 for match in found), 2)
+        self.assertEqual(len(unreal.lines), len(found))
+        # What is chosen is there, and wins.
+        bone = found[0].bone
+        mended = bespoke_unreal.joint_map("/Game/source", "/Game/target", [(bone, None)])
+        self.assertEqual((mended[0].worn_by, mended[0].reason), (None, bespoke.JointReason.CALLER))
+        self.assertTrue(any(line.startswith(f"log: {bone} ") and "caller" in line for line in unreal.lines))
+
+    def test_take_back(self) -> None:
+        self.dress()
+        second = self.dress()
+        self.assertEqual(bespoke_unreal.take_back(), second)
+        self.assertEqual(list(unreal.made), ["/Game/Bespoke/garment_on_target"])
+        self.assertEqual(bespoke_unreal.take_back(), [])
+
+    def test_what_does_not_come_along_is_told(self) -> None:
+        unreal.state["morphs"] = ["wide", "long"]
+        self.dress()
+        self.assertTrue(any("morph targets" in line and "wide, long" in line for line in unreal.lines), unreal.lines)
+
     def test_every_stage_has_words(self) -> None:
         self.assertEqual(set(bespoke_unreal.STAGES), set(bespoke.Stage))
 
@@ -144,6 +177,7 @@ class Calls(unittest.TestCase):
             ("ScopedSlowTask", "should_cancel"),
             ("SkeletalMesh", "skeleton"),
             ("SkeletalMesh", "materials"),
+            ("SkeletalMesh", "get_all_morph_target_names"),
             ("SkeletalMaterial", "material_slot_name"),
             ("SkeletalMaterial", "material_interface"),
             ("Transform", "to_matrix"),

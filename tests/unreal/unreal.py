@@ -38,6 +38,9 @@ class SkeletalMesh:
     def get_name(self):
         return self.name
 
+    def get_all_morph_target_names(self):
+        return state["morphs"]
+
 
 class Matrix:
     def __init__(self, rows):
@@ -188,6 +191,10 @@ class EditorAssetLibrary:
     @staticmethod
     def does_asset_exist(asset_path):
         return asset_path in made
+
+    @staticmethod
+    def delete_asset(asset_path_to_delete):
+        return made.pop(asset_path_to_delete, None) is not None
 
 
 class ScopedSlowTask:

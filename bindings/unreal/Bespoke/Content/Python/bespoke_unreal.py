@@ -5,6 +5,8 @@
         ["/Game/Clothes/SK_Coat"], made_for="/Game/Mannequin/SKM_Manny", worn_by="/Game/Heroes/SK_Hero"
     )
 
+`joint_map` shows which bones correspond, for `pairs` to mend; `take_back` deletes what was made last.
+
 It goes by the editor's Geometry Script plugin, and by the package `bespoke`, which asks for NumPy.
 """
 
@@ -42,6 +44,10 @@ STAGES = {
 }
 
 
+# The assets that `dress` has made last.
+_last: list[str] = []
+
+
 class BespokeStopped(Exception):
     """The user has pressed Cancel. What was dressed before stays."""
 
@@ -59,6 +65,46 @@ class Figure:
     joints: np.ndarray
     """Shape (vertices, influences)."""
     weights: np.ndarray
+
+
+@dataclasses.dataclass(frozen=True)
+class Match:
+    """A bone of the character that garments were made for, and the one that corresponds to it."""
+
+    bone: str
+    worn_by: str | None
+    """The bone of the wearer; None: nothing corresponds."""
+    reason: bespoke.JointReason
+    confidence: float
+    """From 0, a guess, to 1, sure."""
+    part: str
+    """The part of the body; empty where it is none."""
+
+
+def joint_map(
+    made_for: str, worn_by: str, pairs: Sequence[tuple[str, str | None]] = ()
+) -> list[Match]:
+    """Which bones correspond, as `dress` takes them, one entry for each bone of `made_for`. It goes to the output log as well; what is
+    wrong there is mended by `pairs`. Errors: as for `dress`."""
+    source, target = read(_load(made_for)), read(_load(worn_by))
+    with _side_by_side(source, source, target, bespoke.Options(), pairs) as session:
+        found = session.read_joint_map()
+    matches = [
+        Match(joint.name, None if m.target is None else target.rig[m.target].name, m.reason, m.confidence, m.part)
+        for joint, m in zip(source.rig, found)
+    ]
+    width = max(len(match.bone) for match in matches)
+    for match in matches:
+        why = match.reason.name.replace("_", " ").lower()
+        unreal.log(f"{match.bone:{width}}  {match.worn_by or '-'}  ({why}, {match.confidence:.0%})")
+    return matches
+
+
+def take_back() -> list[str]:
+    """Deletes the assets that the last `dress` has made, which the editor's Undo does not reach. Returns their paths."""
+    taken = [path for path in _last if unreal.EditorAssetLibrary.delete_asset(path)]
+    _last.clear()
+    return taken
 
 
 def dress(
@@ -92,7 +138,8 @@ def dress(
     target = read(target_asset)
     source = None if made_for is None else read(_load(made_for))
     layers: list[tuple[np.ndarray, np.ndarray]] = []
-    made = []
+    made = _last
+    made.clear()
     with unreal.ScopedSlowTask(len(garments), "Bespoke") as task:
         task.make_dialog(True)
         for path in garments:
@@ -102,7 +149,10 @@ def dress(
                 _run(session, garment.name, task)
                 made.append(_write(session, asset, garment, target_asset, target, folder))
                 layers.append((session.read_garment_vertices(), garment.triangles))
-    return made
+            # Geometry Script can read and write no morph targets.
+            if lost := [str(name) for name in asset.get_all_morph_target_names()]:
+                unreal.log_warning(f"{garment.name}: its morph targets do not come along: {', '.join(lost)}")
+    return list(made)
 
 
 def read(asset: unreal.SkeletalMesh) -> Figure:
@@ -161,6 +211,29 @@ def _matrix(transform: unreal.Transform) -> np.ndarray:
     return np.array([[p.x, p.y, p.z, p.w] for p in (m.x_plane, m.y_plane, m.z_plane, m.w_plane)], np.float64).T
 
 
+def _side_by_side(
+    made_for: Figure,
+    source: Figure | None,
+    target: Figure,
+    options: bespoke.Options,
+    pairs: Sequence[tuple[str, str | None]],
+) -> bespoke.Session:
+    """Both characters, which is enough for the joint map."""
+    session = bespoke.Session(options)
+    # What is bound to a skeleton is in its place, whatever it looks like.
+    session.set_source_coordinate_system(dataclasses.replace(bespoke.CoordinateSystem.UNREAL, trusted=True))
+    session.set_target_coordinate_system(bespoke.CoordinateSystem.UNREAL)
+    session.set_source_rig(made_for.rig)
+    if source is not None:
+        session.set_source_avatar(source.vertices, source.triangles)
+        session.set_source_skin_influences(source.joints, source.weights, joint_count=len(source.rig))
+    session.set_target_rig(target.rig)
+    session.set_target_avatar(target.vertices, target.triangles)
+    session.set_target_skin_influences(target.joints, target.weights, joint_count=len(target.rig))
+    session.set_joint_pairs(_pairs(pairs, made_for, target))
+    return session
+
+
 def _filled(
     garment: Figure,
     source: Figure | None,
@@ -169,22 +242,11 @@ def _filled(
     options: bespoke.Options,
     pairs: Sequence[tuple[str, str | None]],
 ) -> bespoke.Session:
-    session = bespoke.Session(options)
-    # What is bound to a skeleton is in its place, whatever it looks like.
-    session.set_source_coordinate_system(dataclasses.replace(bespoke.CoordinateSystem.UNREAL, trusted=True))
-    session.set_target_coordinate_system(bespoke.CoordinateSystem.UNREAL)
     made_for = source or garment
-    session.set_source_rig(made_for.rig)
-    if source is not None:
-        session.set_source_avatar(source.vertices, source.triangles)
-        session.set_source_skin_influences(source.joints, source.weights, joint_count=len(source.rig))
-    session.set_target_rig(target.rig)
-    session.set_target_avatar(target.vertices, target.triangles)
-    session.set_target_skin_influences(target.joints, target.weights, joint_count=len(target.rig))
+    session = _side_by_side(made_for, source, target, options, pairs)
     session.set_garment(garment.vertices, garment.triangles)
     joints, weights = _on_rig(garment, made_for)
     session.set_garment_skin_influences(joints, weights, joint_count=len(made_for.rig))
-    session.set_joint_pairs(_pairs(pairs, made_for, target))
     for vertices, triangles in layers:
         session.add_layer(vertices, triangles)
     return session
