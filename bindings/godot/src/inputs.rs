@@ -217,7 +217,7 @@ impl Inputs {
     fn set_vertices(&self, session: &Session, garment: &Figure) -> Result<()> {
         let Some(part) = garment.parts.first() else { return Ok(()) };
         if let Some(weights) = painted::numbers(&self.fit_weights, &part.arrays, "fit weights")? {
-            session.set_fit_weights(&weights)?;
+            session.set_vertex_fit_weights(&weights)?;
         }
         let pins = painted::vertices(&self.pins.vertices, &part.arrays, "pins")?;
         let targets: Vec<[f32; 3]> = self.pins.targets.as_slice().iter().map(|p| [p.x, p.y, p.z]).collect();

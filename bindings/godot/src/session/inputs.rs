@@ -73,7 +73,7 @@ impl Session {
     }
 
     /// Sets how strongly each vertex of the garment is drawn to the body.
-    pub fn set_fit_weights(&self, weights: &[f32]) -> Result<()> {
+    pub fn set_vertex_fit_weights(&self, weights: &[f32]) -> Result<()> {
         // SAFETY: as above.
         self.check(unsafe { bespoke_session_set_vertex_fit_weights(self.pointer(), &wide(weights, 1)) })
     }
