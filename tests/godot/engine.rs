@@ -74,6 +74,11 @@ impl Project {
         let template = self.engine.with_file_name("root/usr/bin/godot-template-release");
         let text = fs::read_to_string(&presets).expect("the project has a preset");
         fs::write(&presets, text.replace("TEMPLATE", template.to_str().expect("UTF-8"))).expect("a file");
+        // The editor of the other tests is not to open it.
+        let project = self.folder.join("project.godot");
+        let text = fs::read_to_string(&project).expect("there is a project");
+        let begins = "[application]\n\nrun/main_scene=\"res://exported.tscn\"";
+        fs::write(&project, text.replace("[application]", begins)).expect("a file");
         fs::create_dir_all(self.folder.join("out")).expect("a folder");
         let output = self.run(120, &["--headless", "--export-release", "Linux", "out/game.x86_64"]);
         ends_well("the export", &output, "");

@@ -28,9 +28,8 @@ func _run(task: String) -> void:
 	await _frames(10)
 	while EditorInterface.get_resource_filesystem().is_scanning():
 		await get_tree().process_frame
-	# With a window, the main scene is open already.
 	EditorInterface.open_scene_from_path("res://stage.tscn")
-	while EditorInterface.get_edited_scene_root() == null or EditorInterface.get_edited_scene_root().name != &"Stage":
+	while EditorInterface.get_edited_scene_root() == null:
 		await get_tree().process_frame
 	await _frames(5)
 	var docks := EditorInterface.get_base_control().find_children("Bespoke", "ScrollContainer", true, false)
