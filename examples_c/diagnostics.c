@@ -62,7 +62,11 @@ static BespokeDiagnostic *read_all(const BespokeSession *session, size_t *count)
         return NULL;
     }
     BespokeDiagnostic *list = calloc(*count, sizeof *list);
-    if (list != NULL && bespoke_session_read_diagnostics(session, list, *count, NULL) != BESPOKE_STATUS_OK) {
+    if (list == NULL) {
+        return NULL;
+    }
+    list->struct_size = sizeof *list;
+    if (bespoke_session_read_diagnostics(session, list, *count, NULL) != BESPOKE_STATUS_OK) {
         free(list);
         list = NULL;
     }

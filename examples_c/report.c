@@ -68,7 +68,7 @@ static bool write_measurements(const BespokeSession *session, double seconds, FI
     fputs("    \"distance_field\": { ", file);
     write_number(file, "seconds", report.field_seconds, " }\n  },\n  \"energies\": {\n");
     for (uint32_t k = 0; k < report.energy_count; k++) {
-        BespokeEnergy energy;
+        BespokeEnergy energy = {.struct_size = sizeof energy};
         if (bespoke_session_read_energy(session, k, &energy) != BESPOKE_STATUS_OK) {
             return fail(message, "the report cannot be read");
         }

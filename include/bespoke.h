@@ -372,7 +372,7 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED = 23,
   /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
   BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED = 24,
-  /// The fit ended by the limit of iterations, not by its tolerance.
+  /// The fit ended by the limit of iterations, or where no step made it better, and not by its tolerance.
   BESPOKE_DIAGNOSTIC_KIND_NOT_CONVERGED = 25,
 };
 #ifndef __cplusplus
@@ -651,7 +651,8 @@ typedef struct BespokeOptions {
   /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
   /// `dhat` and of `inflation_dhat`. Default 1e-5.
   double min_separation;
-  /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+  /// Expert. The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step promises to
+  /// gain, below this share of the objective [1e-12, 1]. Default 1e-3.
   double tolerance;
   /// Expert. Largest number of Newton iterations of each stage. Default 500.
   uint32_t max_iterations;
@@ -774,7 +775,7 @@ typedef struct BespokeReport {
   double min_separation;
   /// 1 where the verifier has checked the result, else 0.
   uint32_t is_verified;
-  /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations or not at all.
+  /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations, where no step made it better, or not at all.
   uint32_t is_converged;
   /// Number of energy terms; see bespoke_session_read_energy.
   uint32_t energy_count;
@@ -794,6 +795,10 @@ typedef struct BespokeReport {
 
 /// One term of the objective.
 typedef struct BespokeEnergy {
+  /// sizeof(BespokeEnergy).
+  uint32_t struct_size;
+  /// Always 0.
+  uint32_t reserved;
   /// Name, such as "surface"; ends with a zero byte.
   char name[BESPOKE_ENERGY_NAME_SIZE];
   /// Value without its weight.
@@ -826,6 +831,8 @@ typedef struct BespokeElement {
 
 /// A diagnostic about the inputs or the result.
 typedef struct BespokeDiagnostic {
+  /// sizeof(BespokeDiagnostic).
+  uint32_t struct_size;
   /// One of BespokeDiagnosticKind.
   uint32_t kind;
   /// One of BespokeSeverity.
@@ -834,8 +841,6 @@ typedef struct BespokeDiagnostic {
   uint32_t element_count;
   /// The elements that it is about, for a tool to select.
   struct BespokeElement elements[BESPOKE_MAX_ELEMENTS];
-  /// 0.
-  uint32_t reserved;
   /// A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
   /// has none.
   double distance;
@@ -1396,9 +1401,10 @@ BespokeStatus bespoke_session_read_distortion(const struct BespokeSession *sessi
 /// State: any. Errors: INVALID_ARGUMENT (null or struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_report(const struct BespokeSession *session, struct BespokeReport *report);
 
-/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
+/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`. The caller sets
+/// `struct_size` first.
 ///
-/// State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
+/// State: any. Errors: INVALID_ARGUMENT (null, struct_size, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_energy(const struct BespokeSession *session,
                                           uint32_t index,
                                           struct BespokeEnergy *energy);
@@ -1493,9 +1499,10 @@ BespokeStatus bespoke_session_read_covered_triangles(const struct BespokeSession
 /// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so
 /// are listed, and the last one says how many more there are.
 ///
-/// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
-/// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
-/// with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
+/// `diagnostics`: room for `capacity` of them; the first that fit are written. The caller sets the `struct_size` of the first,
+/// which is the size of each: so far apart they are written. May be null where `capacity` is 0. `*count`, unless null: how
+/// many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null with a capacity, or
+/// struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_read_diagnostics(const struct BespokeSession *session,
                                                struct BespokeDiagnostic *diagnostics,
                                                size_t capacity,

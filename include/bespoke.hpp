@@ -809,7 +809,8 @@ struct Options {
     /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
     /// `dhat` and of `inflation_dhat`. Default 1e-5.
     double min_separation = 0.0;
-    /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+    /// Expert. The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step
+    /// promises to gain, below this share of the objective [1e-12, 1]. Default 1e-3.
     double tolerance = 0.0;
     /// Expert. Largest number of Newton iterations of each stage. Default 500.
     std::uint32_t max_iterations = 0;
@@ -1809,6 +1810,7 @@ public:
     /// Term `index` of the objective, from 0 up to the report's energy_count.
     Result<Energy> read_energy(std::uint32_t index) const {
         BespokeEnergy energy{};
+        energy.struct_size = sizeof energy;
         const auto done = call(bespoke_session_read_energy, index, &energy);
         if (!done) return done.error();
         return Energy{detail::text_of(energy.name), energy.value, energy.weight};
@@ -1834,6 +1836,7 @@ public:
             return counted.error();
         }
         std::vector<BespokeDiagnostic> read(count);
+        if (count > 0) read.front().struct_size = sizeof(BespokeDiagnostic);
         if (const auto done = call(bespoke_session_read_diagnostics, read.data(), read.size(), &count); !done) {
             return done.error();
         }

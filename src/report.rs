@@ -85,8 +85,10 @@ pub struct Report {
     /// The minimum separation in force: lower than the option's where the garment is nearer to something than that, higher
     /// where the coordinates of the result are coarse.
     pub min_separation: f64,
-    /// Whether the fit ended by its tolerance, and not by the limit of iterations.
+    /// Whether the fit ended by its tolerance, and not by the limit of iterations, nor because nothing moved any more.
     pub converged: bool,
+    /// Whether the fit ended because no step decreased the objective, above its tolerance.
+    pub stuck: bool,
     /// Pairs of garment triangles that intersect or touch as designed. They are pulled apart before the start, or exempted
     /// from contact until they separate.
     pub initial_self_intersections: usize,

@@ -1,8 +1,10 @@
 //! Diagnostics about inputs and result, element by element.
 
 use std::ffi::c_char;
+use std::mem::size_of;
 
 use crate::capi::session::{BespokeSession, call};
+use crate::capi::sized::{self, Sized32};
 use crate::capi::status::BespokeStatus;
 use crate::capi::text;
 use crate::capi::view::invalid;
@@ -118,7 +120,7 @@ pub enum BespokeDiagnosticKind {
     LimbMisplaced = 23,
     /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
     PieceResized = 24,
-    /// The fit ended by the limit of iterations, not by its tolerance.
+    /// The fit ended by the limit of iterations, or where no step made it better, and not by its tolerance.
     NotConverged = 25,
 }
 
@@ -184,6 +186,8 @@ pub struct BespokeElement {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeDiagnostic {
+    /// sizeof(BespokeDiagnostic).
+    pub struct_size: u32,
     /// One of BespokeDiagnosticKind.
     pub kind: u32,
     /// One of BespokeSeverity.
@@ -192,14 +196,15 @@ pub struct BespokeDiagnostic {
     pub element_count: u32,
     /// The elements that it is about, for a tool to select.
     pub elements: [BespokeElement; BESPOKE_MAX_ELEMENTS],
-    /// 0.
-    pub reserved: u32,
     /// A distance in the normalised space, in which the longest side of the skeleton's bounding box is 2; NaN where it
     /// has none.
     pub distance: f64,
     /// One sentence, UTF-8; ends with a zero byte.
     pub message: [c_char; BESPOKE_MESSAGE_SIZE],
 }
+
+// SAFETY: repr(C) of u32, an even number of them, a 64-bit number and bytes, without padding.
+unsafe impl Sized32 for BespokeDiagnostic {}
 
 impl From<&Element> for BespokeElement {
     fn from(element: &Element) -> Self {
@@ -275,11 +280,11 @@ impl BespokeDiagnostic {
         let text = text::cut(text, BESPOKE_MESSAGE_SIZE - 1);
         message.iter_mut().zip(text.as_bytes()).for_each(|(to, &from)| *to = from as c_char);
         Self {
+            struct_size: size_of::<Self>() as u32,
             kind: kind as u32,
             severity: severity as u32,
             element_count: named.len() as u32,
             elements,
-            reserved: 0,
             distance: diagnostic.distance(),
             message,
         }
@@ -290,9 +295,10 @@ impl BespokeDiagnostic {
 /// garment where the inflation stalled, and what the verifier found in the end. Of one kind, the first thousand or so
 /// are listed, and the last one says how many more there are.
 ///
-/// `diagnostics`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0.
-/// `*count`, unless null: how many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null
-/// with a capacity), BUSY, INTERNAL. Threads: any, one at a time.
+/// `diagnostics`: room for `capacity` of them; the first that fit are written. The caller sets the `struct_size` of the first,
+/// which is the size of each: so far apart they are written. May be null where `capacity` is 0. `*count`, unless null: how
+/// many there are. State: any; there are none before prepare. Errors: INVALID_ARGUMENT (null with a capacity, or
+/// struct_size), BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_read_diagnostics(
     session: *const BespokeSession,
@@ -310,10 +316,8 @@ pub unsafe extern "C" fn bespoke_session_read_diagnostics(
             if !count.is_null() {
                 count.write(found.len());
             }
-            for (k, diagnostic) in found.iter().take(capacity).enumerate() {
-                diagnostics.add(k).write(BespokeDiagnostic::new(diagnostic, &session.sentence(diagnostic)));
-            }
-            Ok(())
+            let filled = found.iter().map(|one| BespokeDiagnostic::new(one, &session.sentence(one)));
+            sized::write_all(filled, diagnostics, capacity, "diagnostics")
         })
     }
 }

@@ -83,7 +83,8 @@ pub struct BespokeOptions {
     /// Expert. Minimum separation: distance that no contact pair ever falls below [1e-8, 0.01], less than half of
     /// `dhat` and of `inflation_dhat`. Default 1e-5.
     pub min_separation: f64,
-    /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+    /// Expert. The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step promises to
+    /// gain, below this share of the objective [1e-12, 1]. Default 1e-3.
     pub tolerance: f64,
     /// Expert. Largest number of Newton iterations of each stage. Default 500.
     pub max_iterations: u32,

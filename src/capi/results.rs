@@ -191,7 +191,7 @@ pub struct BespokeReport {
     pub min_separation: f64,
     /// 1 where the verifier has checked the result, else 0.
     pub is_verified: u32,
-    /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations or not at all.
+    /// 1 where the fit ended by its tolerance, 0 where by the limit of iterations, where no step made it better, or not at all.
     pub is_converged: u32,
     /// Number of energy terms; see bespoke_session_read_energy.
     pub energy_count: u32,
@@ -270,6 +270,10 @@ pub const BESPOKE_ENERGY_NAME_SIZE: usize = 32;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BespokeEnergy {
+    /// sizeof(BespokeEnergy).
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
     /// Name, such as "surface"; ends with a zero byte.
     pub name: [c_char; BESPOKE_ENERGY_NAME_SIZE],
     /// Value without its weight.
@@ -278,9 +282,13 @@ pub struct BespokeEnergy {
     pub weight: f64,
 }
 
-/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`.
+// SAFETY: repr(C) of two u32, bytes and 64-bit numbers, without padding.
+unsafe impl Sized32 for BespokeEnergy {}
+
+/// Fills a struct with term `index` of the objective, counted from 0 up to the report's `energy_count`. The caller sets
+/// `struct_size` first.
 ///
-/// State: any. Errors: INVALID_ARGUMENT (null, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
+/// State: any. Errors: INVALID_ARGUMENT (null, struct_size, or no such term), BUSY, INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_read_energy(
     session: *const BespokeSession,
@@ -301,8 +309,9 @@ pub unsafe extern "C" fn bespoke_session_read_energy(
             for (to, from) in name[..BESPOKE_ENERGY_NAME_SIZE - 1].iter_mut().zip(term.name.bytes()) {
                 *to = from as c_char;
             }
-            energy.write(BespokeEnergy { name, value: term.value, weight: term.weight });
-            Ok(())
+            let struct_size = size_of::<BespokeEnergy>() as u32;
+            let filled = BespokeEnergy { struct_size, reserved: 0, name, value: term.value, weight: term.weight };
+            sized::write(filled, energy, "energy")
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Structs that carry their own size, so that programs and libraries of different versions stay compatible.
 
-use std::mem::size_of;
+use std::mem::{align_of, size_of};
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -69,8 +69,48 @@ pub(super) unsafe fn read<T: Sized32>(pointer: *const T, name: &str) -> Result<T
 pub(super) unsafe fn write<T: Sized32>(value: T, pointer: *mut T, name: &str) -> Result<()> {
     let size = declared_size(pointer.cast(), name)?;
     check_size::<T>(size, name)?;
+    // SAFETY: passed on from the caller.
+    unsafe { fill(value, pointer.cast(), size) };
+    Ok(())
+}
+
+/// Fills the first of the caller's `capacity` structs, one after the other, each as large as the first says and as
+/// [`write`] fills it, with `values`, and sets the `struct_size` of each.
+///
+/// # Safety
+/// `pointer` is null or points to `capacity` times as many readable and writable bytes as its first field says.
+pub(super) unsafe fn write_all<T: Sized32>(
+    values: impl Iterator<Item = T>,
+    pointer: *mut T,
+    capacity: usize,
+    name: &str,
+) -> Result<()> {
+    if capacity == 0 {
+        return Ok(());
+    }
+    let size = declared_size(pointer.cast(), name)?;
+    check_size::<T>(size, name)?;
+    if !size.is_multiple_of(align_of::<T>()) {
+        return Err(Error::new(
+            ErrorKind::InvalidArgument,
+            format!("{name}: struct_size is {size}; the structs of an array have a multiple of {}", align_of::<T>()),
+        ));
+    }
+    for (k, value) in values.take(capacity).enumerate() {
+        // SAFETY: the caller vouches for `capacity` structs of `size` bytes, of which this is one.
+        unsafe {
+            let to = pointer.cast::<u8>().add(k * size);
+            to.cast::<u32>().write_unaligned(size as u32);
+            fill(value, to, size);
+        }
+    }
+    Ok(())
+}
+
+/// # Safety
+/// `to` points to `size` writable bytes.
+unsafe fn fill<T: Sized32>(value: T, to: *mut u8, size: usize) {
     let from = (&raw const value).cast::<u8>();
-    let to = pointer.cast::<u8>();
     let skip = size_of::<u32>();
     let known = size.min(size_of::<T>());
     // SAFETY: `value` holds `size_of::<T>()` bytes and the caller's struct `size`, both at least `known`, without overlap.
@@ -78,5 +118,4 @@ pub(super) unsafe fn write<T: Sized32>(value: T, pointer: *mut T, name: &str) ->
         std::ptr::copy_nonoverlapping(from.add(skip), to.add(skip), known - skip);
         std::ptr::write_bytes(to.add(known), 0, size - known);
     }
-    Ok(())
 }

@@ -72,7 +72,7 @@ pub enum DiagnosticKind {
     MorphNotSolved,
     /// The garment's answer to a morph of the avatar meets itself or the body at a weight between 0 and 1.
     MorphIntersects,
-    /// The fit ended by the limit of iterations, not by its tolerance.
+    /// The fit ended by the limit of iterations or where no step made it better, not by its tolerance.
     NotConverged,
     /// An input is in another unit than the one that it belongs to.
     UnitMismatch,
@@ -533,10 +533,12 @@ pub enum Diagnostic {
         /// Nobody would wear it.
         is_gross: bool,
     },
-    /// The fit ended by the limit of iterations.
+    /// The fit ended short of its tolerance.
     NotConverged {
         /// The iterations of the fit.
         iterations: u32,
+        /// No step made it better; else it was the limit.
+        stuck: bool,
     },
     /// An input is in another unit than the one that it belongs to.
     UnitMismatch {

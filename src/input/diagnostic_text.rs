@@ -364,7 +364,12 @@ impl Display for Diagnostic {
                 "result: the piece of {triangles} triangles with garment triangle {triangle} is {scale:.2} times as large as it \
                  should be beside the garment around it or the bodies; join it to what it hangs on, or make it a rigid group"
             ),
-            Self::NotConverged { iterations } => write!(
+            Self::NotConverged { iterations, stuck: true } => write!(
+                f,
+                "result: the fit ended after {iterations} iterations where no step brings the garment nearer to the body or its \
+                 own shape, short of its tolerance, for contact holds it; another dhat or barrier_weight may free it"
+            ),
+            Self::NotConverged { iterations, stuck: false } => write!(
                 f,
                 "result: the fit ended after {iterations} iterations by the limit, not by its tolerance, so that the garment is \
                  not as near to the body or its own shape as it could be; raise max_iterations"

@@ -296,7 +296,8 @@ impl Session {
         self.other_precision = Some((other, self.verify_as_read(other, || self.control.is_cancelled())?.counted));
         self.report.verify_seconds += clock.elapsed().as_secs_f64();
         if !self.report.converged {
-            self.diagnostics.push(Diagnostic::NotConverged { iterations: self.report.fit.iterations });
+            let Report { fit, stuck, .. } = &self.report;
+            self.diagnostics.push(Diagnostic::NotConverged { iterations: fit.iterations, stuck: *stuck });
         }
         self.has_ended = true;
         self.carry_followers()?;

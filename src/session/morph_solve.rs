@@ -196,8 +196,8 @@ impl MorphSolve {
         let mut fit = FitStage::begin(objective, state, &self.options);
         loop {
             self.say(Stage::Fit, 1.0, fit.iterations);
-            let converged = fit.iterate(objective, &mut newton, state, &self.options)?;
-            let ended = converged || fit.iterations >= self.options.max_iterations;
+            let end = fit.iterate(objective, &mut newton, state, &self.options)?;
+            let ended = end.is_some() || fit.iterations >= self.options.max_iterations;
             if ended {
                 finish::finish(&self.snapshot.problem, objective, state)?;
             }

@@ -111,7 +111,7 @@ impl Run {
         self.step = Step::Fit(FitStage::resume(&mut self.objective, &self.state, &self.options));
         self.report.fit = StageReport::default();
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
-        self.report.converged = false;
+        (self.report.converged, self.report.stuck) = (false, false);
         self.report.verification = None;
         self.report.verify_seconds = 0.0;
         self.update_report();

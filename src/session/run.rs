@@ -24,7 +24,7 @@ use crate::solver::newton::{Model, Newton, State};
 use crate::stage::attempts::Attempts;
 use crate::stage::blockage;
 use crate::stage::finish;
-use crate::stage::fit::FitStage;
+use crate::stage::fit::{End, FitStage};
 use crate::stage::inflate::{Inflation, stalled_message};
 use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
@@ -217,9 +217,10 @@ impl Run {
                 }
             }
             Step::Fit(fit) => {
-                let converged = fit.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
-                self.report.converged = converged;
-                (Stage::Fit, converged || fit.iterations >= options.max_iterations)
+                let end = fit.iterate(&mut self.objective, &mut self.newton, &mut self.state, options)?;
+                self.report.converged = end == Some(End::Converged);
+                self.report.stuck = end == Some(End::Stuck);
+                (Stage::Fit, end.is_some() || fit.iterations >= options.max_iterations)
             }
         };
         if stage == Stage::Fit && ended {

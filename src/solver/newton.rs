@@ -303,6 +303,16 @@ impl Newton {
         self.values = None;
     }
 
+    /// Squared Newton decrement `-g^T p0` at the last linearisation, also where no step was taken from it.
+    pub fn decrement(&self) -> f64 {
+        self.system.gradient.iter().zip(&self.response).map(|(g, p)| -g * p).sum()
+    }
+
+    /// Whether the last step was damped, or the next will be: then the decrement underestimates the possible decrease.
+    pub fn is_damped(&self) -> bool {
+        self.damping > MIN_DAMPING
+    }
+
     /// Norm of the gradient with respect to the vertices.
     pub fn gradient_norm(&self) -> f64 {
         self.system.gradient.iter().map(|g| g * g).sum::<f64>().sqrt()

@@ -15,12 +15,16 @@ use crate::energy::barrier::BarrierPathRates;
 use crate::error::Result;
 use crate::maths;
 use crate::options::Options;
-use crate::solver::newton::{Newton, State};
+use crate::solver::assembly::weighted;
+use crate::solver::newton::{Model as _, Newton, State};
 
 use super::objective::Objective;
 
 /// The iterations that must pass the test one after the other.
 const CONVERGED_STEPS: u32 = 2;
+/// Steps without any decrease, one after the other, after which the fit is stuck: after so many, the damping that contact
+/// brings about has grown as far as it does.
+const STUCK_STEPS: u32 = 6;
 /// An objective below this counts as zero: the garment is as it was designed, and every fraction of the objective is rounding.
 const NO_OBJECTIVE: f64 = 1e-9;
 /// The weight of the barrier at s = 0 as a fraction of the inflation's.
@@ -51,8 +55,22 @@ enum Phase {
     Relax(u32),
     /// Continuation in s.
     Continue { s: f64, advance: f64 },
-    /// Newton's method with the barrier at s = 1; so many steps have passed the test.
-    Converge(u32),
+    /// Newton's method with the barrier at s = 1; so many steps have passed the test, and so many have decreased nothing.
+    Converge { passed: u32, stuck: u32 },
+}
+
+/// How the fit ends by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// What is still to be gained is below the tolerance.
+    Converged,
+    /// No step decreases the objective, although more is to be gained than the tolerance: contact holds the garment.
+    Stuck,
+}
+
+impl Phase {
+    /// As it begins.
+    const CONVERGE: Self = Self::Converge { passed: 0, stuck: 0 };
 }
 
 /// The ends of the path: d-hat towards the avatar and weight of the barrier.
@@ -93,11 +111,11 @@ impl FitStage {
     /// Goes on from a result, at the end of the path.
     pub fn resume(objective: &mut Objective, state: &State, options: &Options) -> Self {
         Path::new(objective, options).set(1.0, objective, state);
-        Self { phase: Phase::Converge(0), iterations: 0, resumed: true }
+        Self { phase: Phase::CONVERGE, iterations: 0, resumed: true }
     }
 
-    /// One Newton step. True where the objective has converged: the squared Newton decrement, twice what the quadratic
-    /// model still promises, is below the tolerance times the objective, or rounding; or no step decreases it any more.
+    /// One Newton step, and how the fit has ended with it, if it has. The objective has converged where the squared Newton
+    /// decrement, twice what the quadratic model still promises, is below the tolerance times the objective, or rounding.
     ///
     /// # Errors
     /// `Internal`, `MemoryLimit` and `Cancelled` from the solver.
@@ -107,7 +125,7 @@ impl FitStage {
         newton: &mut Newton,
         state: &mut State,
         options: &Options,
-    ) -> Result<bool> {
+    ) -> Result<Option<End>> {
         self.iterations += 1;
         match &mut self.phase {
             Phase::Relax(steps) => {
@@ -138,26 +156,32 @@ impl FitStage {
                 path.set(at, objective, state);
                 newton.forget_values();
                 if at == 1.0 {
-                    self.phase = Phase::Converge(0);
+                    self.phase = Phase::CONVERGE;
                 }
             }
-            Phase::Converge(converged) => {
-                let step = newton.newton_step(objective, state, false)?;
-                let Some(step) = step else { return Ok(true) };
+            Phase::Converge { passed, stuck } => {
+                let Some(step) = newton.newton_step(objective, state, false)? else {
+                    // At a minimum, rounding alone says that nothing decreases; the test says whether this is one.
+                    let terms = objective.terms();
+                    let value = weighted(&terms, newton.values(&terms, state.configuration()));
+                    if !newton.is_damped() && newton.decrement() <= options.tolerance * value.max(NO_OBJECTIVE) {
+                        return Ok(Some(End::Converged));
+                    }
+                    (*passed, *stuck) = (0, *stuck + 1);
+                    return Ok((*stuck >= STUCK_STEPS).then_some(End::Stuck));
+                };
+                *stuck = 0;
                 if std::mem::take(&mut self.resumed) && step.decrement > FAR * step.after.max(NO_OBJECTIVE) {
                     Path::new(objective, options).set(0.0, objective, state);
                     newton.forget_values();
                     self.phase = Phase::Relax(0);
-                    return Ok(false);
+                    return Ok(None);
                 }
-                *converged = if !step.damped && step.decrement <= options.tolerance * step.after.max(NO_OBJECTIVE) {
-                    *converged + 1
-                } else {
-                    0
-                };
-                return Ok(*converged >= CONVERGED_STEPS);
+                let passes = !step.damped && step.decrement <= options.tolerance * step.after.max(NO_OBJECTIVE);
+                *passed = if passes { *passed + 1 } else { 0 };
+                return Ok((*passed >= CONVERGED_STEPS).then_some(End::Converged));
             }
         }
-        Ok(false)
+        Ok(None)
     }
 }

@@ -179,7 +179,7 @@ static void to_the_end(const Scene *scene) {
     accepted(session, bespoke_session_read_report(session, &report));
     CHECK(report.is_verified == 1 && report.garment_vertices == scene->garment.points.count);
     for (uint32_t k = 0; k < report.energy_count; k++) {
-        BespokeEnergy energy;
+        BespokeEnergy energy = {.struct_size = sizeof energy};
         accepted(session, bespoke_session_read_energy(session, k, &energy));
         CHECK(strlen(energy.name) > 0 && isfinite(energy.value));
     }

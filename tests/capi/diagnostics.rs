@@ -16,6 +16,8 @@ use testing::caller::{Caller, Mesh, bones, no_options, points, triangles, tube, 
 
 fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
     let mut list = vec![0u64; room * size_of::<BespokeDiagnostic>() / 8];
+    // The words are little-endian: the size of the first is in the lower half.
+    list.iter_mut().take(1).for_each(|first| *first = size_of::<BespokeDiagnostic>() as u64);
     let mut count = usize::MAX;
     // SAFETY: the session is alive, and there is room for as many as said.
     caller.accepted(unsafe {
@@ -84,7 +86,8 @@ fn every_flaw_is_named_by_the_callers_own_indices() {
             assert!(message(d).contains(&index.to_string()), "{}", message(d));
         }
     }
-    assert!(list.iter().all(|d| !message(d).is_empty() && d.reserved == 0));
+    assert!(list.iter().all(|d| !message(d).is_empty() && d.struct_size as usize == size_of::<BespokeDiagnostic>()));
+    a_longer_struct_is_filled_in_its_own_steps(&caller, &list);
 
     let (few, all) = read(&caller, 2);
     assert_eq!((few.len(), all), (2, count));
@@ -95,6 +98,30 @@ fn every_flaw_is_named_by_the_callers_own_indices() {
     // SAFETY: the session is alive.
     caller.accepted(unsafe { bespoke_session_reset(caller.session) });
     assert_eq!(read(&caller, 4).1, 0, "reset forgets them");
+}
+
+/// A program built with a later header has longer structs: each is written where that program looks for it.
+fn a_longer_struct_is_filled_in_its_own_steps(caller: &Caller, list: &[BespokeDiagnostic]) {
+    let size = size_of::<BespokeDiagnostic>();
+    let longer = size + 24;
+    let mut room = vec![0xee_u8; 2 * longer];
+    let read = |room: &mut [u8], size: usize| {
+        room[..4].copy_from_slice(&(size as u32).to_ne_bytes());
+        // SAFETY: the session is alive, and there is room for two of the longest size that is told.
+        unsafe { bespoke_session_read_diagnostics(caller.session, room.as_mut_ptr().cast(), 2, null_mut()) }
+    };
+    for wrong in [0, size - 8, size + 4] {
+        caller.refused(read(&mut room, wrong), InvalidArgument, &["diagnostics", "struct_size", &wrong.to_string()]);
+        assert!(room[4..].iter().all(|&byte| byte == 0xee), "nothing is written");
+    }
+    caller.accepted(read(&mut room, longer));
+    for (bytes, expected) in room.chunks(longer).zip(list) {
+        // SAFETY: as many bytes were written as the struct has, and any are one.
+        let written = unsafe { bytes.as_ptr().cast::<BespokeDiagnostic>().read_unaligned() };
+        assert_eq!((written.struct_size as usize, written.kind), (longer, expected.kind));
+        assert_eq!(message(&written), message(expected));
+        assert!(bytes[size..].iter().all(|&byte| byte == 0), "what this version does not know is 0");
+    }
 }
 
 /// Where prepare fails, what it found can be read all the same.

@@ -73,6 +73,10 @@ fn reports_have_sizes_and_named_energies() {
     // SAFETY: all fields are numbers, for which zero is a value.
     let mut energy: BespokeEnergy = unsafe { std::mem::zeroed() };
     let mut names = Vec::new();
+    // SAFETY: the session is alive and the pointer good.
+    let refused = unsafe { bespoke_session_read_energy(caller.session, 0, &mut energy) };
+    caller.refused(refused, InvalidArgument, &["energy", "struct_size"]);
+    energy.struct_size = size_of::<BespokeEnergy>() as u32;
     for index in 0..report.energy_count {
         // SAFETY: the session is alive and the pointer good.
         caller.accepted(unsafe { bespoke_session_read_energy(caller.session, index, &mut energy) });

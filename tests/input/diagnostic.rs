@@ -334,7 +334,13 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
-            Diagnostic::NotConverged { iterations: 9 },
+            Diagnostic::NotConverged { iterations: 9, stuck: true },
+            "result: the fit ended after 9 iterations where no step brings the garment nearer to the body or its own shape, \
+             short of its tolerance, for contact holds it; another dhat or barrier_weight may free it"
+                .into(),
+        ),
+        (
+            Diagnostic::NotConverged { iterations: 9, stuck: false },
             "result: the fit ended after 9 iterations by the limit, not by its tolerance, so that the garment is not as near to \
              the body or its own shape as it could be; raise max_iterations"
                 .into(),

@@ -371,7 +371,9 @@ namespace Bespoke
         /// </summary>
         PieceResized = 24,
 
-        /// <summary>The fit ended by the limit of iterations, not by its tolerance.</summary>
+        /// <summary>
+        /// The fit ended by the limit of iterations, or where no step made it better, and not by its tolerance.
+        /// </summary>
         NotConverged = 25,
     }
 

@@ -175,6 +175,8 @@ namespace Bespoke
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeEnergy
     {
+        internal uint struct_size;
+        internal uint reserved;
         internal fixed byte name[NativeConstants.EnergyNameSize];
         internal double value;
         internal double weight;
@@ -209,11 +211,11 @@ namespace Bespoke
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeDiagnostic
     {
+        internal uint struct_size;
         internal DiagnosticKind kind;
         internal Severity severity;
         internal uint element_count;
         internal NativeElements elements;
-        internal uint reserved;
         internal double distance;
         internal fixed byte message[NativeConstants.MessageSize];
     }

@@ -110,7 +110,8 @@ namespace Bespoke
         public double MinSeparation { get; set; }
 
         /// <summary>
-        /// Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.
+        /// Expert. The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step
+        /// promises to gain, below this share of the objective [1e-12, 1]. Default 1e-3.
         /// </summary>
         public double Tolerance { get; set; }
 

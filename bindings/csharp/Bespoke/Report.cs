@@ -142,7 +142,7 @@ namespace Bespoke
         /// <summary>Whether the verifier has checked the result.</summary>
         public bool IsVerified { get; }
 
-        /// <summary>Whether the fit ended by its tolerance, and not by the limit of iterations or not at all.</summary>
+        /// <summary>Whether the fit ended by its tolerance, and not by the limit of iterations, where no step made it better, or not at all.</summary>
         public bool IsConverged { get; }
 
         /// <summary>Number of energy terms; see <see cref="Session.ReadEnergy"/>.</summary>

@@ -207,7 +207,7 @@ namespace Bespoke
             {
                 throw new ArgumentOutOfRangeException(nameof(index), "Terms count from 0.");
             }
-            NativeEnergy native;
+            NativeEnergy native = new NativeEnergy { struct_size = (uint)sizeof(NativeEnergy) };
             Check(Native.bespoke_session_read_energy(handle, (uint)index, &native));
             return new Energy(&native);
         }
@@ -226,6 +226,10 @@ namespace Bespoke
             NativeDiagnostic[] native = new NativeDiagnostic[checked((int)count)];
             fixed (NativeDiagnostic* first = native)
             {
+                if (first != null)
+                {
+                    first->struct_size = (uint)sizeof(NativeDiagnostic);
+                }
                 Check(Native.bespoke_session_read_diagnostics(handle, first, count, &count));
                 // Another call between the two may have left fewer of them, or more.
                 Diagnostic[] diagnostics = new Diagnostic[Math.Min(native.Length, checked((int)count))];

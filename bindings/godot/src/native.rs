@@ -438,6 +438,8 @@ const _: () = {
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct BespokeEnergy {
+    pub struct_size: u32,
+    pub reserved: u32,
     pub name: [c_char; BESPOKE_ENERGY_NAME_SIZE as usize],
     pub value: f64,
     pub weight: f64,
@@ -445,10 +447,12 @@ pub struct BespokeEnergy {
 
 #[cfg(target_pointer_width = "64")]
 const _: () = {
-    assert!(size_of::<BespokeEnergy>() == 48);
-    assert!(std::mem::offset_of!(BespokeEnergy, name) == 0);
-    assert!(std::mem::offset_of!(BespokeEnergy, value) == 32);
-    assert!(std::mem::offset_of!(BespokeEnergy, weight) == 40);
+    assert!(size_of::<BespokeEnergy>() == 56);
+    assert!(std::mem::offset_of!(BespokeEnergy, struct_size) == 0);
+    assert!(std::mem::offset_of!(BespokeEnergy, reserved) == 4);
+    assert!(std::mem::offset_of!(BespokeEnergy, name) == 8);
+    assert!(std::mem::offset_of!(BespokeEnergy, value) == 40);
+    assert!(std::mem::offset_of!(BespokeEnergy, weight) == 48);
 };
 
 #[derive(Clone, Copy)]
@@ -486,11 +490,11 @@ const _: () = {
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct BespokeDiagnostic {
+    pub struct_size: u32,
     pub kind: u32,
     pub severity: u32,
     pub element_count: u32,
     pub elements: [BespokeElement; BESPOKE_MAX_ELEMENTS as usize],
-    pub reserved: u32,
     pub distance: f64,
     pub message: [c_char; BESPOKE_MESSAGE_SIZE as usize],
 }
@@ -498,11 +502,11 @@ pub struct BespokeDiagnostic {
 #[cfg(target_pointer_width = "64")]
 const _: () = {
     assert!(size_of::<BespokeDiagnostic>() == 584);
-    assert!(std::mem::offset_of!(BespokeDiagnostic, kind) == 0);
-    assert!(std::mem::offset_of!(BespokeDiagnostic, severity) == 4);
-    assert!(std::mem::offset_of!(BespokeDiagnostic, element_count) == 8);
-    assert!(std::mem::offset_of!(BespokeDiagnostic, elements) == 12);
-    assert!(std::mem::offset_of!(BespokeDiagnostic, reserved) == 60);
+    assert!(std::mem::offset_of!(BespokeDiagnostic, struct_size) == 0);
+    assert!(std::mem::offset_of!(BespokeDiagnostic, kind) == 4);
+    assert!(std::mem::offset_of!(BespokeDiagnostic, severity) == 8);
+    assert!(std::mem::offset_of!(BespokeDiagnostic, element_count) == 12);
+    assert!(std::mem::offset_of!(BespokeDiagnostic, elements) == 16);
     assert!(std::mem::offset_of!(BespokeDiagnostic, distance) == 64);
     assert!(std::mem::offset_of!(BespokeDiagnostic, message) == 72);
 };

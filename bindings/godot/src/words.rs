@@ -97,7 +97,7 @@ pub const WORDS: &[Word] = &[
     Word { name: "KIND_OPENING_CAP", value: 21, text: "Triangles that close an opening of the garment where a bone leaves it: left out while it is fitted, carried along with their rim, and not verified, for the body passes through them. The bone is named, and the first three of them." },
     Word { name: "KIND_LIMB_MISPLACED", value: 23, text: "The result is not as designed: a limb that went through an opening of the garment and does not now, that was outside of the garment and is shut up in it, or that was inside and is beside it. Its bone is named, and a garment vertex of the opening or an avatar triangle of the limb." },
     Word { name: "KIND_PIECE_RESIZED", value: 24, text: "A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named." },
-    Word { name: "KIND_NOT_CONVERGED", value: 25, text: "The fit ended by the limit of iterations, not by its tolerance." },
+    Word { name: "KIND_NOT_CONVERGED", value: 25, text: "The fit ended by the limit of iterations, or where no step made it better, and not by its tolerance." },
     Word { name: "SUBJECT_GARMENT", value: 1, text: "The garment." },
     Word { name: "SUBJECT_TARGET_AVATAR", value: 2, text: "The body to dress." },
     Word { name: "SUBJECT_SOURCE_AVATAR", value: 3, text: "The body that the garment was designed on." },
@@ -320,7 +320,7 @@ pub const OPTIONS: &[OptionWord] = &[
     },
     OptionWord {
         name: "tolerance",
-        text: "The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3.",
+        text: "The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step promises to gain, below this share of the objective [1e-12, 1]. Default 1e-3.",
         default: "1e-3",
         range: Some("1e-12, 1"),
         off: None,

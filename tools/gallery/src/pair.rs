@@ -32,7 +32,7 @@ pub struct Outcome {
     pub iterations: [u32; 2],
     /// How far the avatar was inflated; 1 is all of it.
     pub t: f64,
-    /// Whether the fit ended by its tolerance, and not by the limit of iterations.
+    /// Whether the fit ended by its tolerance, and not by the limit of iterations or where no step made it better.
     pub converged: bool,
     /// Smallest distance of the garment to itself and to the avatar; none where it is beyond d-hat.
     pub distances: [Option<f64>; 2],

@@ -82,7 +82,7 @@ pub fn figures(outcome: &Outcome) -> Vec<[String; 2]> {
     let ended = match (&outcome.error, outcome.converged) {
         (Some(_), _) => "no result",
         (None, true) => "converged",
-        (None, false) => "limit of iterations",
+        (None, false) => "short of its tolerance",
     };
     [
         ("intersections", intersections(outcome)),

@@ -19,7 +19,7 @@ pub struct Outcome {
     pub intersections: u64,
     pub seconds: f64,
     pub iterations: u32,
-    /// Whether the fit ended by its tolerance and not by the limit of iterations.
+    /// Whether the fit ended by its tolerance, and not by the limit of iterations or where no step made it better.
     pub converged: bool,
     /// Vertices of garment and avatar.
     pub size: [usize; 2],

@@ -21,7 +21,7 @@ pub fn print(outcomes: &[Outcome]) -> bool {
     println!("\n| {} retargets | |\n| --- | --- |", outcomes.len());
     println!("| intersections | {intersections} |\n| crashes | {crashes} |");
     println!("| results in spite of flaws | {} |", done.iter().filter(|o| !o.recipe.flaws.is_empty()).count());
-    println!("| fits that the limit of iterations ended | {} |", done.iter().filter(|o| !o.converged).count());
+    println!("| fits that ended short of their tolerance | {} |", done.iter().filter(|o| !o.converged).count());
     let [median, worst] = median_and_worst(done.iter().map(|o| o.seconds));
     println!("| seconds, median and worst | {median:.2} and {worst:.2} |");
     let [median, worst] = median_and_worst(done.iter().map(|o| f64::from(o.iterations)));

@@ -248,7 +248,10 @@ impl Session {
         unsafe { bespoke_session_read_diagnostics(self.pointer(), ptr::null_mut(), 0, &raw mut count) };
         // SAFETY: all fields are numbers.
         let mut found = vec![unsafe { std::mem::zeroed::<BespokeDiagnostic>() }; count];
-        // SAFETY: there is room for so many.
+        if let Some(first) = found.first_mut() {
+            first.struct_size = size_of::<BespokeDiagnostic>() as u32;
+        }
+        // SAFETY: there is room for so many, each as large as the first says.
         let status =
             unsafe { bespoke_session_read_diagnostics(self.pointer(), found.as_mut_ptr(), count, ptr::null_mut()) };
         if status == BESPOKE_STATUS_OK { found } else { Vec::new() }

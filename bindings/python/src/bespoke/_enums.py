@@ -328,7 +328,7 @@ class DiagnosticKind(_Number):
     """A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named."""
 
     NOT_CONVERGED = 25
-    """The fit ended by the limit of iterations, not by its tolerance."""
+    """The fit ended by the limit of iterations, or where no step made it better, and not by its tolerance."""
 
 
 class Severity(_Number):

@@ -166,6 +166,8 @@ class Handle:
         count = ctypes.c_size_t()
         self.call("bespoke_session_read_diagnostics", None, 0, ctypes.byref(count))
         native = (BespokeDiagnostic * count.value)()
+        if count.value:
+            native[0].struct_size = ctypes.sizeof(BespokeDiagnostic)
         self.call("bespoke_session_read_diagnostics", native, count.value, ctypes.byref(count))
         # Another call between the two may have left fewer of them, or more.
         return tuple(Diagnostic._from_native(one) for one in native[: count.value])

@@ -272,10 +272,14 @@ class BespokeReport(ctypes.Structure):
 
 class BespokeEnergy(ctypes.Structure):
     _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
         ("name", ctypes.c_char * BESPOKE_ENERGY_NAME_SIZE),
         ("value", ctypes.c_double),
         ("weight", ctypes.c_double),
     ]
+    struct_size: int
+    reserved: int
     name: bytes
     value: float
     weight: float
@@ -305,19 +309,19 @@ class BespokeElement(ctypes.Structure):
 
 class BespokeDiagnostic(ctypes.Structure):
     _fields_ = [
+        ("struct_size", ctypes.c_uint32),
         ("kind", ctypes.c_uint32),
         ("severity", ctypes.c_uint32),
         ("element_count", ctypes.c_uint32),
         ("elements", BespokeElement * BESPOKE_MAX_ELEMENTS),
-        ("reserved", ctypes.c_uint32),
         ("distance", ctypes.c_double),
         ("message", ctypes.c_char * BESPOKE_MESSAGE_SIZE),
     ]
+    struct_size: int
     kind: int
     severity: int
     element_count: int
     elements: ctypes.Array[BespokeElement]
-    reserved: int
     distance: float
     message: bytes
 

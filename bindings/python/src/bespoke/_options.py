@@ -103,7 +103,9 @@ class Options:
     """
 
     tolerance: float | None = None
-    """Expert. The fit ends where the relative Newton decrement falls below this [1e-12, 1]. Default 1e-3."""
+    """Expert. The fit ends where two Newton steps in turn have a squared Newton decrement, twice what the step promises
+    to gain, below this share of the objective [1e-12, 1]. Default 1e-3.
+    """
 
     max_iterations: int | None = None
     """Expert. Largest number of Newton iterations of each stage. Default 500."""

@@ -654,6 +654,7 @@ class Session:
         energies = []
         for index in range(self.read_report().energy_count):
             native = BespokeEnergy()
+            native.struct_size = ctypes.sizeof(native)
             self._handle.call("bespoke_session_read_energy", index, ctypes.byref(native))
             energies.append(Energy._from_native(native))
         return tuple(energies)

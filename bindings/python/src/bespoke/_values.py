@@ -201,7 +201,9 @@ class Report:
     """Whether the verifier has checked the result."""
 
     is_converged: bool
-    """Whether the fit ended by its tolerance, and not by the limit of iterations or not at all."""
+    """Whether the fit ended by its tolerance, and not by the limit of iterations, where no step made it better, or not
+    at all.
+    """
 
     energy_count: int
     """Number of energy terms; see `Session.read_energy`."""

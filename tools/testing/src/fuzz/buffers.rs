@@ -331,6 +331,7 @@ fn filled_structs(caller: &Caller, source: &mut Source) {
             caller.after("read_report", bespoke_session_read_report(caller.session, to))
         });
         let mut energy: BespokeEnergy = std::mem::zeroed();
+        energy.struct_size = size_of::<BespokeEnergy>() as u32;
         let index = source.u32() % 16;
         if caller.after("read_energy", bespoke_session_read_energy(caller.session, index, &mut energy))
             == BespokeStatus::Ok

@@ -120,6 +120,7 @@ pub unsafe fn after(session: *const BespokeSession, call: &str, status: BespokeS
 unsafe fn diagnostics(session: *const BespokeSession) {
     // SAFETY: all fields are numbers, for which zero is a value.
     let mut list: [BespokeDiagnostic; 8] = unsafe { std::mem::zeroed() };
+    list[0].struct_size = size_of::<BespokeDiagnostic>() as u32;
     let mut count = usize::MAX;
     // SAFETY: the session is alive, and there is room for as many as said.
     let status = unsafe { bespoke_session_read_diagnostics(session, list.as_mut_ptr(), list.len(), &mut count) };

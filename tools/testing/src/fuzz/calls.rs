@@ -462,6 +462,7 @@ impl Program {
         // SAFETY: all fields are numbers, for which zero is a value.
         let (mut report, mut energy): (BespokeReport, BespokeEnergy) = unsafe { std::mem::zeroed() };
         report.struct_size = size_of::<BespokeReport>() as u32;
+        energy.struct_size = size_of::<BespokeEnergy>() as u32;
         let index = source.u32() % 10;
         // SAFETY: the session is null or alive, the structs are as large as they say.
         unsafe {
