@@ -5,8 +5,11 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, quoted, short, turned, units,
+    at_bone, avatar_triangle, axes, bone_name, input, listed, part, part_name, point, quoted, short, turned, units,
 };
+
+/// Axes that are exchanged are turned by 90 degrees, or by 120; what stands the other way round by 180.
+const HALF_WAY: f64 = 150.0;
 
 impl Display for Diagnostic {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -388,13 +391,22 @@ impl Display for Diagnostic {
                 let also = turn.map_or(String::new(), |turn| format!(", and turn it by {}", turned(turn)));
                 write!(f, "; multiply its coordinates by {}{other}{also}", short(1.0 / factor))
             }
-            Self::FacingMismatch { subject, against, turn, told: None, .. } => write!(
-                f,
-                "{}: it lies across the {}, as where one is y-up and the other z-up; turn it by {}",
-                input(*subject),
-                input(*against),
-                turned(*turn)
-            ),
+            Self::FacingMismatch { subject, against, turn, told: None, .. } => {
+                let (subject, against) = (input(*subject), input(*against));
+                let (degrees, turn) = (turn.degrees(), turned(*turn));
+                if degrees > HALF_WAY {
+                    write!(
+                        f,
+                        "{subject}: it stands the other way round than the {against}, as where one faces backwards or is \
+                         mirrored; turn it by {turn}"
+                    )
+                } else {
+                    write!(
+                        f,
+                        "{subject}: it lies across the {against}, as where one is y-up and the other z-up; turn it by {turn}"
+                    )
+                }
+            }
             Self::FacingMismatch { turn, told: Some(system), gross: true, .. } => write!(
                 f,
                 "target avatar and skeleton: they are turned against the source by {}, which the option strict refuses; tell \
