@@ -156,6 +156,14 @@ impl BespokeRetarget {
     #[constant]
     pub const ELEMENT_BONE: i64 = 3;
     #[constant]
+    pub const ROLE_AUTOMATIC: i64 = 0;
+    #[constant]
+    pub const ROLE_BODY: i64 = 1;
+    #[constant]
+    pub const ROLE_COLLISION: i64 = 2;
+    #[constant]
+    pub const ROLE_IGNORED: i64 = 3;
+    #[constant]
     pub const REASON_NOTHING: i64 = 0;
     #[constant]
     pub const REASON_CALLER: i64 = 1;

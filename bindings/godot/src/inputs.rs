@@ -6,7 +6,7 @@ use godot::meta::ToGodot;
 use godot::obj::Gd;
 
 use crate::engine::is;
-use crate::figure::{Figure, Taken};
+use crate::figure::{Figure, Part, Taken};
 use crate::findings::Scene;
 use crate::job::{Design, Wanted};
 use crate::native::*;
@@ -80,6 +80,8 @@ pub struct Inputs {
     pub source_body: Input,
     /// The body to dress.
     pub avatar: Input,
+    /// Meshes of the body to dress, and what each is to the garment.
+    pub roles: Vec<(Variant, i64)>,
     /// What it wears already.
     pub layers: Vec<Input>,
     /// What goes along with the garment.
@@ -106,6 +108,7 @@ impl Default for Inputs {
             garment: Input::default(),
             source_body: Input::default(),
             avatar: Input::default(),
+            roles: Vec::new(),
             layers: Vec::new(),
             followers: Vec::new(),
             pairs: VarDictionary::new(),
@@ -199,6 +202,9 @@ impl Inputs {
         session.set_target_rig(&scene.target.joints)?;
         session.set_target_avatar(&scene.avatar.positions, &scene.avatar.triangles)?;
         influences(bespoke_session_set_target_skin_influences, &scene.avatar.skin, target)?;
+        if let Some(roles) = self.roles(&scene.avatar)? {
+            session.set_avatar_parts(&roles)?;
+        }
         for shape in &scene.avatar.answered {
             session.add_target_morph(&shape.name, &shape.offsets)?;
         }
@@ -211,6 +217,25 @@ impl Inputs {
         session.set_joint_pairs(&self.pairs(&scene.source, &scene.target)?)?;
         self.set_vertices(&session, &scene.garment)?;
         Ok(session)
+    }
+
+    /// What each triangle of the avatar is to the garment; none where nothing was said.
+    fn roles(&self, avatar: &Figure) -> Result<Option<Vec<u32>>> {
+        let mut roles = vec![BESPOKE_PART_ROLE_AUTOMATIC; avatar.triangles.len()];
+        for (mesh, role) in &self.roles {
+            let role = u32::try_from(*role).unwrap_or(u32::MAX);
+            for shown in meshes(mesh, "avatar role")? {
+                let is_it = |part: &&Part| match shown.node {
+                    Some(node) => part.shown.node == Some(node),
+                    None => part.shown.mesh == shown.mesh,
+                };
+                let part = avatar.parts.iter().find(is_it).ok_or_else(|| {
+                    Failure::argument(format!("{}: it is no mesh of the avatar; set it with the others", shown.name))
+                })?;
+                roles[part.first_triangle..][..part.arrays.triangles.len()].fill(role);
+            }
+        }
+        Ok((!self.roles.is_empty()).then_some(roles))
     }
 
     /// What is said of single vertices.

@@ -62,6 +62,12 @@ impl BespokeRetarget {
     }
 
     #[func]
+    fn set_avatar_role(&mut self, mesh: Variant, role: i64) {
+        self.inputs.roles.retain(|(other, _)| *other != mesh);
+        self.inputs.roles.push((mesh, role));
+    }
+
+    #[func]
     fn add_layer(&mut self, mesh: Variant, #[opt(default = NodeArgument::none())] skeleton: NodeArgument) {
         self.inputs.layers.push(Input::new(mesh, skeleton.node));
     }

@@ -218,3 +218,36 @@ func test_ranges() -> void:
 	retarget.looseness = 1.0
 	retarget.set_option("threads", 5000)
 	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["threads"])
+
+
+## What a part of the avatar is to the garment: a collar of armour that the vest does not pass through, and is not drawn to.
+func test_roles_of_the_avatar() -> void:
+	var retarget := vest_and_avatar()
+	var bones := skeleton_in(get_child(1))
+	var spine := bones.get_bone_global_rest(bones.find_bone("mixamorig_Spine1")).origin
+	var armour := MeshInstance3D.new()
+	armour.name = "Armour"
+	var ring := TorusMesh.new()
+	ring.inner_radius = 0.19
+	ring.outer_radius = 0.21
+	armour.mesh = ring
+	bones.add_child(armour)
+	armour.position = spine
+	var found := {}
+	for role: int in [BespokeRetarget.ROLE_BODY, BespokeRetarget.ROLE_COLLISION, BespokeRetarget.ROLE_IGNORED]:
+		retarget.set_avatar([mesh_named(get_child(1), "Body"), armour])
+		retarget.set_avatar_role(armour, role)
+		same(await outcome(retarget), BespokeRetarget.STATUS_OK, retarget.get_message())
+		same(retarget.get_report().avatar_intersections, 0, "intersections")
+		found[role] = retarget.get_vertices()
+	holds(found[BespokeRetarget.ROLE_COLLISION] != found[BespokeRetarget.ROLE_IGNORED], "the role changes nothing")
+	holds(found[BespokeRetarget.ROLE_COLLISION] != found[BespokeRetarget.ROLE_BODY], "the vest is drawn to what it only meets")
+	# Without it, the same as ignored.
+	var plain := vest_and_avatar()
+	plain.set_avatar(mesh_named(get_child(1), "Body"))
+	same(await outcome(plain), BespokeRetarget.STATUS_OK, plain.get_message())
+	same(found[BespokeRetarget.ROLE_IGNORED], plain.get_vertices(), "an armour that is ignored")
+	plain.set_avatar_role(armour, BespokeRetarget.ROLE_COLLISION)
+	refused(plain, plain.start(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["'Armour'", "no mesh of the avatar"])
+	retarget.set_avatar_role(armour, 77)
+	refused(retarget, retarget.start(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["77"])

@@ -25,6 +25,12 @@ impl Session {
         self.check(unsafe { bespoke_session_set_target_avatar(self.pointer(), &view(positions), &view(triangles)) })
     }
 
+    /// Sets what each triangle of the body to dress is to the garment.
+    pub fn set_avatar_parts(&self, roles: &[u32]) -> Result<()> {
+        // SAFETY: as above.
+        self.check(unsafe { bespoke_session_set_avatar_parts(self.pointer(), &wide(roles, 1)) })
+    }
+
     /// Adds what the body wears already.
     pub fn add_layer(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<()> {
         // SAFETY: as above.

@@ -16,6 +16,7 @@ const PUBLIC: &[(&str, &str)] = &[
     ("BespokeDiagnosticKind", "KIND"),
     ("BespokeSubject", "SUBJECT"),
     ("BespokeElementKind", "ELEMENT"),
+    ("BespokePartRole", "ROLE"),
     ("BespokeJointReason", "REASON"),
 ];
 
