@@ -68,10 +68,10 @@ impl Project {
         self.run_program(seconds, &all)
     }
 
-    /// The game that is made of the project, in a folder of its own.
-    pub fn export(&self) -> PathBuf {
+    /// The game that is made of the project, in a folder of its own; none where there is no template for it.
+    pub fn export(&self) -> Option<PathBuf> {
         let presets = self.folder.join("export_presets.cfg");
-        let template = self.engine.with_file_name("root/usr/bin/godot-template-release");
+        let template = made("BESPOKE_GODOT_TEMPLATE", "build/godot/root/usr/bin/godot-template-release")?;
         let text = fs::read_to_string(&presets).expect("the project has a preset");
         fs::write(&presets, text.replace("TEMPLATE", template.to_str().expect("UTF-8"))).expect("a file");
         // The editor of the other tests is not to open it.
@@ -84,7 +84,7 @@ impl Project {
         ends_well("the export", &output, "");
         let game = scratch("godot-game");
         copy(&self.folder.join("out"), &game);
-        game
+        Some(game)
     }
 
     /// Runs a program of the engine's system, which is unpacked beside it: a game looks for its libraries beside itself, and by the
@@ -95,7 +95,7 @@ impl Project {
             println!("SKIPPED: a game that was exported, for this system gives no name spaces");
             return None;
         }
-        let enter = self.engine.with_file_name("enter");
+        let enter = made("BESPOKE_GODOT_ENTER", "build/godot/enter")?;
         Some(self.run_program(seconds, &[&[enter.as_os_str()], arguments].concat()))
     }
 
