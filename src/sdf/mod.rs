@@ -250,8 +250,8 @@ impl Field {
     #[cold]
     fn outside<S: Sample>(&self, p: DVec3, spline: impl FnOnce() -> S::Output) -> S::Output {
         let high = self.node(self.extent.map(|blocks| (blocks * BLOCK) as f64));
-        let off = p - p.clamp(self.origin, high);
-        let far = off.length() * self.per_voxel;
+        let beyond = p - p.clamp(self.origin, high);
+        let far = beyond.length() * self.per_voxel;
         let share = (far - SPLINE_TO) / (EXACT_FROM - SPLINE_TO);
         if share.is_nan() || share <= 0.0 {
             return spline();
@@ -264,7 +264,7 @@ impl Field {
         // Twice differentiable at both ends.
         let weight = share * share * share * (10.0 + share * (6.0 * share - 15.0));
         let rise = 30.0 * share * share * (1.0 - share) * (1.0 - share) / (EXACT_FROM - SPLINE_TO);
-        S::between(spline(), exact, weight, rise * self.per_voxel / off.length() * off)
+        S::between(spline(), exact, weight, rise * self.per_voxel / beyond.length() * beyond)
     }
 
     /// The nodes around a cell outside the stored region.
