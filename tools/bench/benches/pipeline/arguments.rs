@@ -6,7 +6,7 @@ use std::path::PathBuf;
 pub const USAGE: &str = "usage: cargo bench --bench pipeline -- [options]
 
   --tables LIST   of pairs, growth, threads, refit; default all, separated by commas
-  --only TEXT     pairs and refits whose name, such as \"jumpsuit_dense Goblin\", has this in it
+  --only TEXT     pairs, refits and grown garments whose name, such as \"jumpsuit_dense Goblin\", has this in it
   --runs N        runs of each case, of which the median counts; default 3, and 1 beyond 10,000 vertices
   --threads N     threads of a session; default 2
   --tight         every pair once more, down to a tolerance of 1e-6, to compare the objectives

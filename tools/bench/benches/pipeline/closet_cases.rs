@@ -1,4 +1,4 @@
-//! The closet's own cases: the jacket on its two bodies, and jackets of other densities.
+//! Cases that are made: the closet's jacket on its two bodies, and garments of other densities.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -8,6 +8,7 @@ use crate::case::Case;
 use closet::files;
 use closet::mesh::Mesh;
 use closet::{Kind, Sample, jacket, sample};
+use testing::obj::read_mesh;
 
 /// How much coarser than the sample a jacket of about 1000 and one of about 2000 vertices is.
 const COARSE: [(u32, f64); 2] = [(1, 1.74), (2, 1.22)];
@@ -51,6 +52,32 @@ pub fn write_densities(folder: &Path) -> io::Result<Vec<PathBuf>> {
     }
     folders.sort();
     Ok(folders.into_iter().map(|(_, own)| own).collect())
+}
+
+/// Writes the garment in `source` to `folder` as it is and subdivided once and twice.
+pub fn write_subdivided(source: &Path, folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let read = read_mesh(&source.join("garment.obj"));
+    let mut mesh = Mesh { positions: read.positions, triangles: read.triangles };
+    let mut no_fit: Vec<u32> = match fs::read_to_string(source.join("no-fit.txt")) {
+        Ok(text) => text.split_whitespace().filter_map(|word| word.parse().ok()).collect(),
+        Err(_) => Vec::new(),
+    };
+    let name = source.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut folders = Vec::new();
+    for level in 0..=SUBDIVISIONS {
+        if level > 0 {
+            subdivide(&mut mesh, &mut no_fit);
+        }
+        let own = folder.join(format!("{name}_{}x", 1 << (2 * level)));
+        fs::create_dir_all(&own)?;
+        files::write_mesh(&own.join("garment.obj"), &mesh)?;
+        fs::copy(source.join("skeleton.obj"), own.join("skeleton.obj"))?;
+        if !no_fit.is_empty() {
+            files::write_indices(&own.join("no-fit.txt"), &no_fit)?;
+        }
+        folders.push(own);
+    }
+    Ok(folders)
 }
 
 fn write_garment(folder: &Path, sample: &Sample, mesh: &Mesh, no_fit: &[u32]) -> io::Result<()> {

@@ -46,7 +46,7 @@ struct Figures {
     threads: u32,
     goals: Vec<Goal>,
     pairs: Vec<Pair>,
-    growth: Option<Growth>,
+    growth: Vec<Growth>,
     scaling: Option<Scaling>,
     refits: Vec<Refit>,
     failed: Vec<String>,
@@ -115,10 +115,13 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
             }
         }
     }
-    let growth = match arguments.has("growth") {
-        true => Some(Growth::measure(&densities(&folder, &closet)?, setup, &mut failed)),
-        false => None,
-    };
+    let mut growth = Vec::new();
+    if arguments.has("growth") {
+        let families = densities(&folder, &closet, &real)?;
+        for (garment, cases) in families.iter().filter(|(garment, _)| garment.contains(&arguments.only)) {
+            growth.push(Growth::measure(garment, cases, setup, &mut failed));
+        }
+    }
     // The pair that takes longest.
     let widest = real.iter().find(|case| case.name() == "jumpsuit_dense Goblin").or(closet.last());
     let scaling = arguments.has("threads").then_some(widest).flatten();
@@ -139,7 +142,7 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
     growth.iter().for_each(Growth::print);
     scaling.iter().for_each(Scaling::print);
     refit::print(&refits);
-    let goals = summary::goals(&pairs, growth.as_ref(), scaling.as_ref());
+    let goals = summary::goals(&pairs, &growth, scaling.as_ref());
     summary::print(&goals);
     for pair in pairs.iter().filter(|pair| pair.measured.intersections != [0; 2]) {
         failed.push(format!("{}: the result intersects", pair.measured.case));
@@ -162,11 +165,18 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
     Ok(failed)
 }
 
-/// Jackets of several densities on the closet's heavy body.
-fn densities(folder: &Path, closet: &[Case]) -> Result<Vec<Case>, Failure> {
+/// Garments in several densities, each on one body: jackets on the closet's heavy one, and each real garment on the heavy adult.
+fn densities(folder: &Path, closet: &[Case], real: &[Case]) -> Result<Vec<(String, Vec<Case>)>, Failure> {
+    let on = |avatar: &Path, garments: Vec<PathBuf>| {
+        garments.into_iter().map(|garment| Case { garment, avatar: avatar.into() }).collect::<Vec<_>>()
+    };
     let avatar = &closet.first().ok_or("the closet is empty")?.avatar;
-    let garments: Vec<PathBuf> = closet_cases::write_densities(folder)?;
-    Ok(garments.into_iter().map(|garment| Case { garment, avatar: avatar.clone() }).collect())
+    let mut families = vec![("jacket".to_string(), on(avatar, closet_cases::write_densities(folder)?))];
+    for case in real.iter().filter(|case| case.avatar.ends_with("heavy_adult")) {
+        let name = case.garment.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        families.push((name, on(&case.avatar, closet_cases::write_subdivided(&case.garment, folder)?)));
+    }
+    Ok(families)
 }
 
 fn write(path: &Path, figures: &Figures) -> Result<(), Failure> {

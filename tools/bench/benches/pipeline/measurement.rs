@@ -73,6 +73,8 @@ pub struct Measurement {
     pub seconds: f64,
     /// Those of all runs.
     pub runs: Vec<f64>,
+    /// Seconds of all threads in user mode: hardly more on a busy machine. None where the system does not tell.
+    pub cpu_seconds: Option<f64>,
     /// Seconds of one factorisation, the median of many between the runs.
     pub unit: f64,
     /// `seconds / unit`.
@@ -111,15 +113,16 @@ pub fn measure(case: &Case, options: &Options, runs: usize) -> Result<Measuremen
     let (mut done, mut units, mut peak_memory, mut unit): (Vec<Run>, _, _, _) = (Vec::new(), Vec::new(), None, None);
     let runs = if weld.mesh.positions.len() > LARGE { 1 } else { runs.max(1) };
     for _ in 0..runs {
-        let clock = Instant::now();
+        let (clock, user) = (Instant::now(), user_seconds());
         let mut session = inputs.session(options.clone())?;
         let stage = session.run()?;
         let seconds = clock.elapsed().as_secs_f64();
+        let cpu_seconds = user_seconds().zip(user).map(|(after, before)| after - before);
         if stage != Stage::Done {
             return Err(format!("it ended as {stage:?}").into());
         }
         peak_memory = peak_memory.or_else(peak_resident_size);
-        done.push(Run::new(&session, seconds)?);
+        done.push(Run::new(&session, seconds, cpu_seconds)?);
         drop(session);
         let unit = match &mut unit {
             Some(unit) => unit,
@@ -145,18 +148,19 @@ pub fn measure(case: &Case, options: &Options, runs: usize) -> Result<Measuremen
 
 struct Run {
     seconds: f64,
+    cpu_seconds: Option<f64>,
     report: Report,
     result: Vec<DVec3>,
     hash: u64,
 }
 
 impl Run {
-    fn new(session: &Session, seconds: f64) -> bespoke::error::Result<Self> {
+    fn new(session: &Session, seconds: f64, cpu_seconds: Option<f64>) -> bespoke::error::Result<Self> {
         let result = session.garment_as_read(Precision::F32)?;
         let bytes = result.iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes);
         let hash =
             bytes.fold(0xcbf2_9ce4_8422_2325, |h: u64, byte| (h ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
-        Ok(Self { seconds, report: session.report(), result, hash })
+        Ok(Self { seconds, cpu_seconds, report: session.report(), result, hash })
     }
 
     fn measurement(&self, case: String, unit: f64) -> Measurement {
@@ -175,6 +179,7 @@ impl Run {
             avatar_vertices: report.avatar_size[0],
             seconds,
             runs: Vec::new(),
+            cpu_seconds: self.cpu_seconds,
             unit,
             f: seconds / unit,
             stages: Stages {
@@ -235,6 +240,14 @@ fn judge(weld: &Weld, avatar: &TriangleMesh, result: &[DVec3]) -> Result<[u64; 2
     let positions = weld.vertex_of.iter().map(|&v| result[v as usize].as_vec3().as_dvec3()).collect();
     let garment = TriangleMesh { positions, triangles: weld.mesh.triangles.clone() };
     Ok([intersections(&garment, None, 0)?.count, intersections(&garment, Some(avatar), 0)?.count])
+}
+
+/// Seconds that this process has computed, as Linux counts them: in hundredths.
+fn user_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The second field is a name in parentheses, with whatever in it; the twelfth after that is the time.
+    let hundredths = stat.rsplit_once(')')?.1.split_whitespace().nth(11)?;
+    Some(hundredths.parse::<f64>().ok()? / 100.0)
 }
 
 /// Bytes, as Linux counts them.
