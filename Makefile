@@ -13,6 +13,7 @@
 # make sanitize  the C programs under AddressSanitizer, UndefinedBehaviourSanitizer and valgrind
 # make dist   the folder to ship and its archive (build/dist; docs/dist.md)
 # make dist-windows  the same for Windows, built here (docs/windows.md)
+# make dist-aarch64  the same for Linux on 64-bit Arm, built here; make test-aarch64 tries it under QEMU (docs/dist.md)
 # make wheel  the Python package as a wheel, with the library of `make dist` (build/wheel; docs/python.md)
 # make blender  the Blender extension, with the wheel inside (build/blender/extension; bindings/blender/README.md)
 # make test-blender  its tests, in Blender as a Python module; BPY=5.0.1 takes another one than 4.5 LTS
@@ -124,6 +125,19 @@ tested-windows: dependencies
 		{ echo "skipped: the tests of the folder for Windows, for MinGW and Wine cannot be had"; exit 0; }; \
 	sh packaging/windows/dist.sh build/dist build/windows || { ended=$$?; rm -rf $(WINDOWS); [ $$ended -eq 77 ] || exit $$ended; \
 		echo "skipped: the tests of the folder for Windows, for Rust's standard library for it cannot be had"; }
+
+# The folder for Linux on 64-bit Arm, by Debian's cross compiler. PAIRS: how many real pairs are dressed, for QEMU is slow.
+AARCH64 = build/dist/bespoke-$(VERSION)-linux-aarch64
+.PHONY: dist-aarch64
+dist-aarch64: dependencies
+	sh .ci/dependencies aarch64-linux-gnu-g++
+	MACHINE=aarch64 sh packaging/dist/dist.sh build/dist
+
+.PHONY: test-aarch64
+test-aarch64: dist-aarch64 build/retarget
+	sh .ci/dependencies qemu-aarch64
+	BESPOKE_AARCH64=$(CURDIR)/$(AARCH64) BESPOKE_AARCH64_PAIRS=$(PAIRS) BESPOKE_RETARGET=$(CURDIR)/build/retarget \
+		cargo test --release --test aarch64
 
 # The Python package, with the library of the folder to ship.
 SHIPPED = build/dist/bespoke-$(VERSION)-linux-x86_64

@@ -37,6 +37,8 @@ fn shim() {
     let mut build = cc::Build::new();
     // The voxeliser is two orders slower without optimisation, so the profile does not decide.
     build.cpp(true).std("c++17").opt_level(2).warnings(true).extra_warnings(true);
+    // A product and a sum are rounded each, also where the processor could do both at once: the same bits everywhere.
+    build.flag_if_supported("-ffp-contract=off");
     // Half floats are only named by the headers, never used: no need to link Imath for its table.
     build.define("IMATH_HALF_NO_LOOKUP_TABLE", None);
     if let Some(root) = &static_root {

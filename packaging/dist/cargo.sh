@@ -9,7 +9,7 @@ set -eu
 shift
 
 # The C library of the VFX Reference Platform since 2023, and of RHEL 8.
-if [ "$(uname -m)" = x86_64 ]; then
+if [ "$machine" = x86_64 ]; then
     sh "$here/floor/stubs.sh" "$folder/floor" 2.28
     export BESPOKE_GLIBC_FLOOR="$folder/floor"
 fi
@@ -18,4 +18,10 @@ fi
 cargo=${CARGO_HOME:-$HOME/.cargo}
 sysroot=$(rustc --print sysroot)
 flags=$(printf -- '--remap-path-prefix=%s\037' "$cargo=cargo" "$sysroot=rust" "$root=bespoke")
-CARGO_ENCODED_RUSTFLAGS=${flags%?} BESPOKE_STATIC_OPENVDB=$folder/static cargo build --locked --profile dist "$@" >&2
+if [ -n "$target" ]; then
+    std=$(sh "$here/std.sh" "$folder/rust" "$target")
+    [ -z "$std" ] || flags=$(printf -- '%s--sysroot\037%s\037' "$flags" "$std")
+    flags=$(printf -- '%s-Clinker=%s\037' "$flags" "$CC")
+    set -- --target "$target" "$@"
+fi
+CARGO_ENCODED_RUSTFLAGS=${flags%?} BESPOKE_STATIC_OPENVDB=$static cargo build --locked --profile dist "$@" >&2

@@ -12,7 +12,7 @@ if [ "$(uname)" != Linux ]; then
     exit 1
 fi
 version=$(sed -n 's/^version = "\(.*\)"$/\1/p' Cargo.toml | head -n 1)
-name=bespoke-$version-linux-$(uname -m)
+name=bespoke-$version-linux-$machine
 stage=$folder/$name
 # Git's answers also where the sources belong to somebody else; none where they came without their history.
 ours() {
@@ -27,20 +27,21 @@ library=$(sh "$here/library.sh" "$folder")
 echo "dist: the programs"
 sh "$here/cargo.sh" "$folder" -p bespoke-cli
 # What the linker looks for by its plain name, the loader by the name within.
-mkdir -p "$folder/link"
-ln -sf "$library" "$folder/link/libbespoke.so"
+link=$folder/link${tools:+-$machine}
+mkdir -p "$link"
+ln -sf "$library" "$link/libbespoke.so"
 floor=""
 # The older C library has what the library asks for in other files; that it is there says stubs.sh.
-[ ! -d "$folder/floor" ] || floor="-L$folder/floor -lfloor -Wl,--allow-shlib-undefined"
+[ "$machine" != x86_64 ] || floor="-L$folder/floor -lfloor -Wl,--allow-shlib-undefined"
 # The flags are words.
 # shellcheck disable=SC2016,SC2086
-cc -std=c99 -O2 -Iinclude examples_c/*.c -o "$folder/link/retarget" -L"$folder/link" -lbespoke -lm $floor \
+"$CC" -std=c99 -O2 -Iinclude examples_c/*.c -o "$link/retarget" -L"$link" -lbespoke -lm $floor \
     '-Wl,-rpath,$ORIGIN/../lib'
 
 rm -rf "$stage"
 env -u DESTDIR -u BINDIR -u LIBDIR -u INCLUDEDIR PREFIX="$stage" DOCDIR="$stage" \
-    sh packaging/install.sh install "$library" "$folder/link/retarget"
-install -m 755 "${CARGO_TARGET_DIR:-target}/dist/bespoke" "$stage/bin/bespoke"
+    sh packaging/install.sh install "$library" "$link/retarget"
+install -m 755 "$built/bespoke" "$stage/bin/bespoke"
 # What a plugin author reads and copies from: the files of the project, without what was built among them.
 for sources in examples_c bindings; do
     [ -d "$sources" ] || continue
@@ -53,6 +54,6 @@ archive=$folder/$name.tar.gz
 tar -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$epoch" --mode=u+rw,go+r,go-w --format=gnu \
     -cf - "$name" | gzip -9n >"$archive.new"
 mv "$archive.new" "$archive"
-sh "$here/needs.sh" "$stage"
+OBJDUMP=${tools}objdump sh "$here/needs.sh" "$stage"
 echo "dist: $archive"
 echo "dist: $(wc -c <"$archive") bytes, SHA-256 $(sha256sum <"$archive" | cut -d ' ' -f 1)"

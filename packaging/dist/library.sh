@@ -8,11 +8,11 @@ set -eu
 
 sh "$here/sources.sh" "$folder/sources" >&2
 echo "dist: OpenVDB and oneTBB as static libraries" >&2
-make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$folder/static" >&2
+make --silent -f "$here/static.mk" -j"$(nproc)" SOURCES="$folder/sources" OUT="$static" CROSS="$tools" >&2
 
 echo "dist: the library" >&2
 touch "$folder/asked"
 sh "$here/cargo.sh" "$folder" --lib
 # The date since which no source has changed.
 mv "$folder/asked" "$folder/fresh"
-realpath "${CARGO_TARGET_DIR:-target}/dist/libbespoke.so"
+realpath "$built/libbespoke.so"

@@ -3,17 +3,19 @@
 #   make -f static.mk -j SOURCES=folder OUT=folder [CROSS=prefix]
 #
 # SOURCES is what sources.sh left. OUT gets include and lib, as build.rs takes them in BESPOKE_STATIC_OPENVDB. CROSS is the
-# prefix of MinGW's tools where it is for Windows: x86_64-w64-mingw32-.
+# prefix of the tools where it is for another system: x86_64-w64-mingw32- for Windows, aarch64-linux-gnu- for Arm.
 #
 # No compression, no delayed loading, no logging, and half floats of OpenVDB's own: so that nothing but these two and
 # headers of Boost is linked in.
 
 CROSS =
+MINGW = $(findstring mingw,$(CROSS))
 # With the threads of C++11, where MinGW has a choice.
-CXX = $(if $(CROSS),$(CROSS)g++-posix,c++)
+CXX = $(if $(CROSS),$(CROSS)g++$(if $(MINGW),-posix),c++)
 AR = $(CROSS)ar
-# Paths of this machine stay out of what is built.
-FLAGS = -std=c++17 -O2 -DNDEBUG -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections \
+# Paths of this machine stay out of what is built. A product and a sum are rounded each, also where the processor could do
+# both at once, as Arm's can and GCC would: the same bits everywhere.
+FLAGS = -std=c++17 -O2 -DNDEBUG -ffp-contract=off -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections \
 	-fdata-sections -ffile-prefix-map=$(abspath $(OUT))/include=include -ffile-prefix-map=$(abspath $(SOURCES))=.
 
 VDB = $(SOURCES)/openvdb/openvdb/openvdb
@@ -28,14 +30,16 @@ TBB_OBJECTS = $(patsubst $(TBB)/src/tbb/%.cpp,$(OUT)/objects/tbb/%.o,$(wildcard 
 # them in memory, and so die with them.
 TBB_FLAGS = -D__TBB_BUILD -D__TBB_SOURCE_DIRECTLY_INCLUDED=1 -D__TBB_DYNAMIC_LOAD_ENABLED=0 \
 	-D__TBB_WEAK_SYMBOLS_PRESENT=0 -flifetime-dse=1
-ifneq ($(filter x86_64,$(shell uname -m))$(CROSS),)
+ifneq ($(filter x86_64%,$(or $(CROSS),$(shell uname -m))),)
 TBB_FLAGS += -mrtm -mwaitpkg
 endif
 # For Windows the names of OpenVDB are marked as those of a library to load, if it is not told otherwise, and those of both
 # would be exported by whatever links them: the marks are taken out. No name is kept back there unless it is marked.
-ifneq ($(CROSS),)
+ifneq ($(MINGW),)
 FLAGS += -DOPENVDB_STATICLIB
 UNMARK = $(CROSS)objcopy --remove-section .drectve $@
+endif
+ifneq ($(CROSS),)
 # The system's headers are not for this compiler; those of Boost are.
 BOOST = ln -s /usr/include/boost $(OUT)/include/boost
 endif

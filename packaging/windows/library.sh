@@ -12,7 +12,7 @@ sh packaging/dist/sources.sh build/dist/sources >&2
 echo "windows: OpenVDB and oneTBB as static libraries" >&2
 make --silent -f packaging/dist/static.mk -j"$(nproc)" SOURCES=build/dist/sources OUT="$folder/static" CROSS="$cross" >&2
 
-sysroot=$(sh "$here/std.sh" "$folder/rust")
+sysroot=$(sh packaging/dist/std.sh "$folder/rust" x86_64-pc-windows-gnu)
 echo "windows: the library" >&2
 # As packaging/dist/library.sh: sentences of a defect name places in the sources as they are called everywhere.
 cargo=${CARGO_HOME:-$HOME/.cargo}

@@ -29,9 +29,8 @@ fn ctrl_c_stops_and_leaves_nothing() {
         return;
     }
     let place = scratch("windows-stop");
-    let files: Vec<String> = sample::write_obj(&place).iter().map(|file| format!("'{}'", file.display())).collect();
-    let options = ["--garment", "--source-skeleton", "--avatar", "--target-skeleton"];
-    let words: Vec<String> = options.iter().zip(&files).map(|(option, file)| format!("{option} {file}")).collect();
+    let words: Vec<String> = sample::words(&place).iter().map(|word| format!("'{word}'")).collect();
+    let before = fs::read_dir(&place).expect("the folder").count();
     let program = wine.bin.join("retarget.exe");
     // Where the terminal takes the key itself, the shell is interrupted like the program: it shall live to tell the code.
     let run = format!("wine '{}' {} --threads 1 -o out.obj", program.display(), words.join(" "));
@@ -62,5 +61,5 @@ fn ctrl_c_stops_and_leaves_nothing() {
     let code = fs::read_to_string(place.join("code")).expect("the shell lives to write the code");
     assert_eq!(code.trim(), "130", "{seen}");
     let left = fs::read_dir(&place).expect("the folder").count();
-    assert_eq!(left, files.len() + 1, "something but the code is left in {}", place.display());
+    assert_eq!(left, before + 1, "something but the code is left in {}", place.display());
 }

@@ -1,5 +1,5 @@
 //! What the tests and the programs that measure the library share: random numbers and random scenes, OBJ files and rigged
-//! characters, also as engines have them, callers of the C API, programs to run, the library as others link it, the sample of
+//! characters, also as engines have them, callers of the C API, programs to run and what they are told, the library as others link it, the sample of
 //! bindings.
 
 pub mod caller;
@@ -11,6 +11,7 @@ pub mod gltf;
 pub mod library;
 pub mod obj;
 pub mod obj_text;
+pub mod pairs;
 pub mod posing;
 pub mod process;
 mod random;

@@ -113,3 +113,10 @@ pub fn write_obj(folder: &Path) -> Vec<PathBuf> {
     };
     files.into_iter().map(write).collect()
 }
+
+/// What the program `retarget` is told to dress it: the files of [`write_obj`] with their options.
+pub fn words(folder: &Path) -> Vec<String> {
+    let options = ["--garment", "--source-skeleton", "--avatar", "--target-skeleton"];
+    let files = write_obj(folder).into_iter().map(|file| file.display().to_string());
+    options.into_iter().map(str::to_owned).zip(files).flat_map(|(option, file)| [option, file]).collect()
+}

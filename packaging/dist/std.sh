@@ -1,12 +1,12 @@
 #!/bin/sh
-# Sees that Rust's standard library for Windows is at hand: std.sh FOLDER
+# Sees that Rust's standard library for another system is at hand: std.sh FOLDER TARGET
 #
 # Says as its last line with which `--sysroot` rustc finds it, or nothing where the toolchain has it itself. Where rustup
 # cannot bring it, it is built once into FOLDER, from the sources of the very version of rustc that is used, which Debian
 # has as a package. Ends with 77 where it cannot be had.
 set -eu
 export LC_ALL=C
-target=x86_64-pc-windows-gnu
+target=$2
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
@@ -54,7 +54,7 @@ fetch() {
 sources=$folder/source-$version
 if [ ! -f "$sources/.unpacked" ]; then
     if ! fetch >&2; then
-        echo "windows: neither rustup nor Debian has Rust's standard library $version for $target" >&2
+        echo "std: neither rustup nor Debian has Rust's standard library $version for $target" >&2
         exit 77
     fi
     rm -rf "$sources"
@@ -64,11 +64,11 @@ fi
 # Where the package has it; other folders of that name are of tests.
 library=$(find "$sources/usr/src" -maxdepth 1 -name 'rustc-*')
 if [ ! -d "$library/library/std" ]; then
-    echo "windows: Debian's rust-src $version has no standard library in $sources/usr/src" >&2
+    echo "std: Debian's rust-src $version has no standard library in $sources/usr/src" >&2
     exit 1
 fi
 
-echo "windows: Rust's standard library, once" >&2
+echo "std: Rust's standard library for $target, once" >&2
 # A toolchain like the one that is used, with the sources where cargo looks for them.
 toolchain=$folder/toolchain-$version
 rm -rf "$toolchain"
@@ -88,8 +88,10 @@ rm -rf "$sysroot.new" "$sysroot"
 mkdir -p "$place"
 cp "$folder/built/$target/release/deps"/*.rlib "$place"
 rm -f "$place"/libempty-*.rlib
-# What is linked before and after everything else.
-for part in rsbegin rsend; do
+# What is linked before and after everything else, on Windows.
+parts="rsbegin rsend"
+case $target in *-windows-gnu) ;; *) parts="" ;; esac
+for part in $parts; do
     RUSTC_BOOTSTRAP=1 rustc --target "$target" --crate-type rlib --emit=obj="$place/$part.o" "$library/library/rtstartup/$part.rs"
 done
 mv "$sysroot.new" "$sysroot"
