@@ -114,6 +114,21 @@ impl ClosestPoint {
         meets
     }
 
+    /// [`Self::meets_ray`], where `last` is what a half-line nearby has met: it is looked at first, and becomes what this one meets.
+    /// To begin with, `u32::MAX`.
+    pub fn meets_ray_near(&self, p: DVec3, direction: DVec3, last: &mut u32) -> bool {
+        let known = self.corners.get(*last as usize);
+        if known.is_some_and(|corners| ray_triangle(p, direction, corners).is_some()) {
+            return true;
+        }
+        let mut meets = false;
+        self.slots_along_ray(p, direction, |_, slot| {
+            (meets, *last) = (true, slot as u32);
+            false
+        });
+        meets
+    }
+
     /// Where the half-line from `p` along `direction` first meets a triangle, in multiples of `direction`. Edges and corners as
     /// for [`Self::meets_ray`].
     pub fn first_hit(&self, p: DVec3, direction: DVec3) -> Option<f64> {
@@ -151,6 +166,11 @@ impl ClosestPoint {
 
     /// Calls `visit` with each triangle that the half-line meets and where, in no order, until it returns false.
     fn along_ray(&self, p: DVec3, direction: DVec3, mut visit: impl FnMut(f64, &[DVec3; 3]) -> bool) {
+        self.slots_along_ray(p, direction, |along, slot| visit(along, &self.corners[slot]));
+    }
+
+    /// The same with the slot of each triangle.
+    fn slots_along_ray(&self, p: DVec3, direction: DVec3, mut visit: impl FnMut(f64, usize) -> bool) {
         let inverse = direction.recip();
         let meets_box = |node: &Node| {
             let (to_low, to_high) = ((node.low - p) * inverse, (node.high - p) * inverse);
@@ -174,9 +194,9 @@ impl ClosestPoint {
                 continue;
             }
             let from = node.start as usize;
-            for corners in &self.corners[from..from + node.count as usize] {
+            for (slot, corners) in (from..).zip(&self.corners[from..from + node.count as usize]) {
                 if let Some(along) = ray_triangle(p, direction, corners)
-                    && !visit(along, corners)
+                    && !visit(along, slot)
                 {
                     return;
                 }

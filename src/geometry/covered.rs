@@ -36,6 +36,9 @@ const LIFT: f64 = 1e-7;
 /// each such length along an edge.
 const COARSE: f64 = 0.03;
 
+/// Neighbours that are looked at one after the other. Fixed, so that the work is the same for any number of threads.
+const CHUNK: usize = 64;
+
 /// A triangle is cut into at most this many pieces along an edge.
 const MAX_PIECES: usize = 6;
 
@@ -79,12 +82,15 @@ pub fn covered_triangles(
 ) -> Result<Vec<u32>, Cancelled> {
     let asked = &wearer.mesh.triangles[wearer.asked.start as usize..wearer.asked.end as usize];
     let scene = Scene::new(wearer, asked, garment, cancel)?;
-    let is_covered = |t: u32| {
+    let triangles: Vec<u32> = wearer.asked.clone().collect();
+    let are_covered = |triangles: &[u32]| {
         cancel.check()?;
-        Ok(!scene.is_seen(t, options.openness))
+        let (mut garment, mut inside) = (LastMet::default(), LastMet::default());
+        let mut is_covered = |&t: &u32| !scene.is_seen(t, options.openness, &mut garment, &mut inside);
+        Ok(triangles.iter().map(&mut is_covered).collect::<Vec<bool>>())
     };
-    let of_asked = wearer.asked.clone().into_par_iter().with_min_len(64);
-    let mut covered = of_asked.map(is_covered).collect::<Result<Vec<bool>, Cancelled>>()?;
+    let parts = triangles.par_chunks(CHUNK).map(are_covered).collect::<Result<Vec<Vec<bool>>, Cancelled>>()?;
+    let mut covered = parts.concat();
     if options.margin > 0 {
         let places = places(wearer.mesh);
         (0..options.margin).for_each(|_| take_ring_off(asked, &places, &mut covered));
@@ -100,7 +106,7 @@ struct Scene<'a> {
     inside: ClosestPoint,
     is_inside: Vec<bool>,
     directions: Vec<DVec3>,
-    /// In which directions each vertex sees the garment.
+    /// In which of the directions that matter each vertex sees the garment.
     seen: Vec<u128>,
     /// 1, or -1 where the triangles that are asked about face inwards.
     side: f64,
@@ -120,20 +126,41 @@ impl<'a> Scene<'a> {
         let [(low, high), (mesh_low, mesh_high)] = [garment, mesh].map(bounds);
         let tree = ClosestPoint::new(garment);
         let directions: Vec<DVec3> = (0..DIRECTIONS).map(|k| direction(k, DIRECTIONS)).collect();
+        let volume = TriangleMesh { positions: mesh.positions.clone(), triangles: asked.to_vec() }.signed_volume();
+        let side = if volume < 0.0 { -1.0 } else { 1.0 };
+        // Outside of the box a plane separates it from the garment, and it sees that in less than half of the directions.
         let is_used = mesh.used_vertices();
-        let looks = |(&p, &used): (&DVec3, &bool)| {
+        let near = |(p, used): (&DVec3, &bool)| *used && p.cmpge(low).all() && p.cmple(high).all();
+        let is_near: Vec<bool> = mesh.positions.iter().zip(&is_used).map(near).collect();
+        // Into which directions the triangles at each vertex look.
+        let mut wanted = vec![0u128; mesh.positions.len()];
+        let of_asked = asked.par_iter().with_min_len(CHUNK).map(|t| {
+            if !t.iter().all(|&v| is_near[v as usize]) {
+                return 0;
+            }
+            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+            let normal = (side * (b - a).cross(c - a)).normalize_or_zero();
+            let front = facing(&directions, normal);
+            if wearer.is_cloth { front | facing(&directions, -normal) } else { front }
+        });
+        let of_asked: Vec<u128> = of_asked.collect();
+        for (triangle, of) in asked.iter().zip(of_asked) {
+            triangle.iter().for_each(|&v| wanted[v as usize] |= of);
+        }
+        let look = |((positions, are_near), wanted): ((&[DVec3], &[bool]), &[u128])| {
             cancel.check()?;
-            // Outside of the box a plane separates it from the garment, and it sees that in less than half of the directions.
-            let is_near = used && p.cmpge(low).all() && p.cmple(high).all();
-            Ok(if is_near { bits(&directions, u128::MAX, |d| tree.meets_ray(p, d)) } else { 0 })
+            let mut met = LastMet::default();
+            let mut looks = |((&p, &near), &wanted): ((&DVec3, &bool), &u128)| {
+                if near { met.directions_around(&tree, &directions, wanted, p) } else { 0 }
+            };
+            Ok(positions.iter().zip(are_near).zip(wanted).map(&mut looks).collect::<Vec<u128>>())
         };
-        let places = mesh.positions.par_iter().with_min_len(16).zip(&is_used);
-        let seen = places.map(looks).collect::<Result<Vec<u128>, Cancelled>>()?;
+        let places = mesh.positions.par_chunks(CHUNK).zip(is_near.par_chunks(CHUNK)).zip(wanted.par_chunks(CHUNK));
+        let seen = places.map(look).collect::<Result<Vec<Vec<u128>>, Cancelled>>()?.concat();
         let is_around = |t: &[u32; 3]| t.iter().all(|&v| seen[v as usize].count_ones() >= AROUND);
         let is_inside: Vec<bool> = mesh.triangles.iter().map(is_around).collect();
         let inner = mesh.triangles.iter().zip(&is_inside).filter(|(_, inside)| **inside).map(|(&t, _)| t).collect();
         let inner = TriangleMesh { positions: mesh.positions.clone(), triangles: inner };
-        let volume = TriangleMesh { positions: mesh.positions.clone(), triangles: asked.to_vec() }.signed_volume();
         Ok(Self {
             inside: ClosestPoint::new(&inner),
             wearer,
@@ -141,34 +168,41 @@ impl<'a> Scene<'a> {
             is_inside,
             directions,
             seen,
-            side: if volume < 0.0 { -1.0 } else { 1.0 },
+            side,
             lift: LIFT * (mesh_high - mesh_low).max_element(),
             coarse: COARSE * (high - low).max_element(),
         })
     }
 
     /// Whether a triangle can be seen from outside of the garment.
-    fn is_seen(&self, triangle: u32, openness: f64) -> bool {
+    fn is_seen(&self, triangle: u32, openness: f64, garment: &mut LastMet, inside: &mut LastMet) -> bool {
         if !self.is_inside[triangle as usize] {
             return true;
         }
         let [a, b, c] = self.wearer.mesh.corners(triangle);
         let normal = (self.side * (b - a).cross(c - a)).normalize_or_zero();
         let sides: &[DVec3] = if self.wearer.is_cloth { &[normal, -normal] } else { &[normal] };
-        sides.iter().any(|&normal| self.is_seen_from(triangle, normal, openness))
+        sides.iter().any(|&normal| self.is_seen_from(triangle, normal, openness, garment, inside))
     }
 
     /// The same from the side to which `normal` points.
-    fn is_seen_from(&self, triangle: u32, normal: DVec3, openness: f64) -> bool {
+    fn is_seen_from(
+        &self,
+        triangle: u32,
+        normal: DVec3,
+        openness: f64,
+        garment: &mut LastMet,
+        inside: &mut LastMet,
+    ) -> bool {
         let corners = self.wearer.mesh.corners(triangle);
         let [a, b, c] = corners;
-        let facing = bits(&self.directions, u128::MAX, |d| d.dot(normal) > FLAT);
+        let facing = facing(&self.directions, normal);
         let allowed = (openness * f64::from(facing.count_ones())) as u32;
         // In which of the directions without garment nothing of the wearer is in the way either.
-        let is_open = |p: DVec3, without: u128| {
+        let mut is_open = |p: DVec3, without: u128| {
             let p = p + self.lift * normal;
             without.count_ones() > allowed
-                && bits(&self.directions, without, |d| !self.inside.meets_ray(p, d)).count_ones() > allowed
+                && inside.directions_without(&self.inside, &self.directions, without, p).count_ones() > allowed
         };
         let middle = (a + b + c) / 3.0;
         let vertices = self.wearer.mesh.triangles[triangle as usize];
@@ -178,14 +212,57 @@ impl<'a> Scene<'a> {
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let pieces = ((longest / self.coarse) as usize).min(MAX_PIECES);
         points_within(corners, pieces)
-            .any(|p| is_open(p, bits(&self.directions, facing, |d| !self.garment.meets_ray(p, d))))
+            .any(|p| is_open(p, garment.directions_without(&self.garment, &self.directions, facing, p)))
     }
 }
 
-/// Those of the directions `of` for which something holds.
-fn bits(directions: &[DVec3], of: u128, holds: impl Fn(DVec3) -> bool) -> u128 {
-    let each = (0..).zip(directions).filter(|(k, _)| of >> k & 1 == 1);
-    each.fold(0, |all, (k, &d)| all | u128::from(holds(d)) << k)
+/// What was met last in each direction: a point beside mostly meets the same.
+struct LastMet([u32; DIRECTIONS]);
+
+impl Default for LastMet {
+    fn default() -> Self {
+        Self([u32::MAX; DIRECTIONS])
+    }
+}
+
+impl LastMet {
+    /// Those of the directions `of`, a bit each, in which `p` does not see `mesh`.
+    fn directions_without(&mut self, mesh: &ClosestPoint, directions: &[DVec3], of: u128, p: DVec3) -> u128 {
+        let mut without = 0;
+        for (k, (&d, last)) in directions.iter().zip(&mut self.0).enumerate() {
+            if of >> k & 1 == 1 && !mesh.meets_ray_near(p, d, last) {
+                without |= 1 << k;
+            }
+        }
+        without
+    }
+
+    /// The directions in which `p` sees `mesh`; none where these are too few for being in it. Of those that are not `wanted`, only
+    /// as many as it takes to know that.
+    fn directions_around(&mut self, mesh: &ClosestPoint, directions: &[DVec3], wanted: u128, p: DVec3) -> u128 {
+        let (mut seen, mut left) = (0u128, DIRECTIONS as u32 - AROUND);
+        for of in [wanted, !wanted] {
+            for (k, (&d, last)) in directions.iter().zip(&mut self.0).enumerate().filter(|(k, _)| of >> k & 1 == 1) {
+                if wanted >> k & 1 == 0 && seen.count_ones() >= AROUND {
+                    return seen;
+                }
+                if mesh.meets_ray_near(p, d, last) {
+                    seen |= 1 << k;
+                } else if left == 0 {
+                    return 0;
+                } else {
+                    left -= 1;
+                }
+            }
+        }
+        seen
+    }
+}
+
+/// The directions in which a surface with this normal is looked at, a bit each.
+fn facing(directions: &[DVec3], normal: DVec3) -> u128 {
+    let bits = directions.iter().enumerate().map(|(k, d)| u128::from(d.dot(normal) > FLAT) << k);
+    bits.fold(0, |all, bit| all | bit)
 }
 
 /// The middles of the pieces into which a triangle is cut, so many along each edge.
