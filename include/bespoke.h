@@ -578,6 +578,21 @@ typedef struct BespokeMappedJoint {
   char part[BESPOKE_PART_NAME_SIZE];
 } BespokeMappedJoint;
 
+/// Of two garments of an outfit that meet, which is worn beneath the other.
+typedef struct BespokeWornPair {
+  /// The garment beneath, by its number.
+  uint32_t inner;
+  /// The garment above it.
+  uint32_t outer;
+  /// From 0, as much speaks for the other order, to 1, nothing does; at most 0.5 where neither encloses the other and the
+  /// distance from the source avatar decides.
+  double confidence;
+  /// 1 where the order does not follow this pair, for with surer pairs it would have gone around in a circle, else 0.
+  uint32_t is_overruled;
+  /// Always 0.
+  uint32_t reserved;
+} BespokeWornPair;
+
 /// An array of the caller that points, or what else the parameter is said to hold, are written to. Bytes between them stay
 /// as they are.
 typedef struct BespokeBuffer {
@@ -817,6 +832,16 @@ typedef struct BespokeAddedJoint {
   /// Its bind transform in the coordinate system of the target, as in BespokeJoint.
   double bind[BESPOKE_TRANSFORM_SIZE];
 } BespokeAddedJoint;
+
+/// Pairs of triangles that pass through each other in a key pose and not in the result's own, counted by the exact verifier.
+typedef struct BespokePoseIntersections {
+  /// Of the garment with itself.
+  uint64_t garment_garment;
+  /// Of the garment with the avatar or its layers, where these do not pass through themselves.
+  uint64_t garment_avatar;
+  /// Of the garment with the avatar or its layers where these do, so that nothing can lie between.
+  uint64_t in_folds;
+} BespokePoseIntersections;
 
 /// A vertex, triangle or bone of an input.
 typedef struct BespokeElement {
@@ -1141,6 +1166,66 @@ BespokeStatus bespoke_session_add_layer(struct BespokeSession *session,
 ///
 /// State: SETUP. Errors: INVALID_ARGUMENT (null), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_layers(struct BespokeSession *session);
+
+/// Optional: a garment of an outfit as it was modelled, so that the order in which the outfit is worn can be read:
+/// bespoke_session_read_outfit_order. Each call adds one; they are numbered from 0. All of the outfit is added, also what is
+/// dressed in this session; none of it takes part in the run.
+///
+/// To dress an outfit: add its garments and read the order; then for each garment from the innermost outwards,
+/// bespoke_session_reset, bespoke_session_set_garment, run, read the result, and add it as a layer with bespoke_session_add_layer.
+///
+/// `positions`: points in the coordinate system of the garment and the source avatar, F32 or F64. `triangles`: three vertices
+/// each, U16 or U32. Ownership: copied during the call. State: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE,
+/// BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_add_outfit_garment(struct BespokeSession *session,
+                                                 const struct BespokeView *positions,
+                                                 const struct BespokeView *triangles);
+
+/// Removes all garments of the outfit.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_outfit(struct BespokeSession *session);
+
+/// Writes the order in which the garments of the outfit are worn, from the innermost outwards, as their geometry tells: of two
+/// garments the inner one is that of which more lies in the other, and where neither does, that which is nearer to the source
+/// avatar, if one is set. Of garments that do not meet, the one that was added first comes first.
+///
+/// `order`: room for `capacity` numbers of garments; the first that fit are written. May be null where `capacity` is 0.
+/// `*count`, unless null: garments of the outfit. State: any. Errors: INVALID_ARGUMENT (null with a capacity), CANCELLED (the
+/// state does not change), NO_THREAD, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_outfit_order(struct BespokeSession *session,
+                                                uint32_t *order,
+                                                size_t capacity,
+                                                size_t *count);
+
+/// Writes what the order of bespoke_session_read_outfit_order is made of: the pairs of garments that meet, the surest first, so
+/// that an editor can show where it is a guess.
+///
+/// `pairs`: room for `capacity` of them; the first that fit are written. May be null where `capacity` is 0. `*count`, unless
+/// null: how many there are. All else as for bespoke_session_read_outfit_order.
+BespokeStatus bespoke_session_read_worn_pairs(struct BespokeSession *session,
+                                              struct BespokeWornPair *pairs,
+                                              size_t capacity,
+                                              size_t *count);
+
+/// Finds the pairs of triangles of two meshes that touch or cross each other, such as two garments that hang beside each other, or
+/// those within one mesh; by the exact verifier. The inputs and the result of the session have no part in it.
+///
+/// `positions`, `triangles`: a mesh. `other_positions`, `other_triangles`: another one in the same coordinate system; both null:
+/// pairs within the first. There, triangles that share a vertex count where they touch elsewhere too, and vertices in one place
+/// with different indices are a contact. `pairs`: room for `capacity` pairs, two numbers each: the triangle of the first
+/// mesh and that of the other, ascending; the first that fit are written. May be null where `capacity` is 0. `*count`, unless
+/// null: how many there are. Ownership: copied during the call. State: any. Errors: INVALID_ARGUMENT (null with a capacity, one of
+/// the second mesh null), INVALID_MESH, CANCELLED (the state does not change), NO_THREAD, BUSY, INTERNAL. Threads: any, one at a
+/// time.
+BespokeStatus bespoke_session_find_intersections(const struct BespokeSession *session,
+                                                 const struct BespokeView *positions,
+                                                 const struct BespokeView *triangles,
+                                                 const struct BespokeView *other_positions,
+                                                 const struct BespokeView *other_triangles,
+                                                 uint32_t *pairs,
+                                                 size_t capacity,
+                                                 size_t *count);
 
 /// Optional: what each triangle of the avatar is to the garment. Without it, or with BESPOKE_PART_ROLE_AUTOMATIC, the library
 /// leaves out pieces that are no part of the body, with a diagnostic, and takes all else for body. With the option strict
@@ -1475,6 +1560,54 @@ BespokeStatus bespoke_session_read_pose_transforms(const struct BespokeSession *
                                                    double *transforms,
                                                    size_t capacity,
                                                    size_t *count);
+
+/// Optional: a pose of the target rig in which the garment is to keep out of the body, such as a bent arm or a crouch. Each call
+/// adds one; they are numbered from 0.
+///
+/// `name`: UTF-8, for messages; null: none. `transforms`: for each joint of the target rig how it moves what it moves from the bind
+/// pose to this pose, in the coordinate system of the target: BESPOKE_TRANSFORM_SIZE numbers each, column after column, to be
+/// multiplied from the left. In an engine's words: the joint's posed global transform times its inverse bind matrix.
+/// `joint_count`: as many as the target rig has. Ownership: copied during the call. State: SETUP or DONE, with a target rig;
+/// in DONE the result stays. Errors: INVALID_ARGUMENT (null, another number of joints, a number that is not finite, a transform
+/// without inverse), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_add_key_pose(struct BespokeSession *session,
+                                           const char *name,
+                                           const double *transforms,
+                                           size_t joint_count);
+
+/// Removes all key poses.
+///
+/// State: SETUP or DONE. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_clear_key_poses(struct BespokeSession *session);
+
+/// Finds the correction of each key pose: offsets of the garment's vertices in the bind pose, a blend shape to be added before the
+/// skin weights move them, at full weight in that pose and at none in the bind pose. From the result on, body and garment go to the
+/// pose by their skin weights, with no triangle through another on the way, and the garment gives way where it has to. Where the
+/// posed body passes through itself, as at the fold of a bent hip, nothing can lie between, and that part of it is left out. The
+/// result stays as it is. Corrections that are there already are not sought again. It takes about as long as the fit for each
+/// pose in which something passes through something. Meanwhile the progress is in the stage REPOSE.
+///
+/// `influences`: joints a vertex, as the host will read them with bespoke_session_read_garment_skin_influences. State: DONE, with
+/// a target rig and skin weights of the target avatar set; but not where the result is in the pose of the design (POSE_BLOCKED).
+/// Errors: INVALID_ARGUMENT (no influences), INVALID_STATE, INVALID_WEIGHTS, CANCELLED (the state stays DONE, and what was found is
+/// kept), MEMORY_LIMIT, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_solve_pose_corrections(struct BespokeSession *session,
+                                                     size_t influences);
+
+/// Writes the correction of a key pose: offsets from the result, in the coordinate system of the target. They are 0 where the
+/// weights alone do, and all of them where nothing passes through anything, or where none was found that is better.
+///
+/// `pose`: its number. `offsets`: where to, one for each vertex of the garment, F32 or F64. With null data and capacity 0 nothing
+/// is written. `*count`, unless null: vertices of the garment, also where they do not fit. `before`, `after`, unless null: what
+/// passes through what in that pose by the weights alone, and with the offsets. State: DONE, after
+/// bespoke_session_solve_pose_corrections. Errors: INVALID_ARGUMENT (no such pose, too small a capacity; nothing is written
+/// then), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_read_pose_correction(const struct BespokeSession *session,
+                                                   uint32_t pose,
+                                                   const struct BespokeBuffer *offsets,
+                                                   size_t *count,
+                                                   struct BespokePoseIntersections *before,
+                                                   struct BespokePoseIntersections *after);
 
 /// Writes the triangles of the avatar, or of a layer, that the garment covers: from outside nobody sees them in the pose that the
 /// result is in, so that a game may leave them out while the garment is worn. It does not count as covering that a part of the

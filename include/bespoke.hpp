@@ -1005,6 +1005,28 @@ struct GarmentSkin {
     std::vector<float> weights;
 };
 
+/// Of two garments of an outfit that meet, which is worn beneath the other: BespokeWornPair.
+struct WornPair {
+    /// The garment beneath, by its number.
+    std::uint32_t inner;
+    /// The garment above it.
+    std::uint32_t outer;
+    /// From 0, as much speaks for the other order, to 1, nothing does.
+    double confidence;
+    /// The order does not follow this pair, for with surer ones it would have gone around in a circle.
+    bool is_overruled;
+};
+
+/// Offsets of the garment in a key pose, and what they are good for.
+template <class Point> struct PoseCorrection {
+    /// One for each vertex of the garment, from the result, in the coordinate system of the target; added before skin weights.
+    std::vector<Point> offsets;
+    /// What passes through what in that pose by the weights alone.
+    BespokePoseIntersections before;
+    /// The same with the offsets.
+    BespokePoseIntersections after;
+};
+
 /// What counts as covered by a garment.
 struct Covering {
     /// The layer that is asked about; none: the avatar.
@@ -1478,6 +1500,44 @@ public:
     /// Removes all morphs of the target avatar.
     Result<void> clear_target_morphs() { return call(bespoke_session_clear_target_morphs); }
 
+    /// Optional: a pose of the target rig in which the garment is to keep out of the body: for each joint how it moves what it moves
+    /// from the bind pose, column after column. Each call adds one, counted from 0; before prepare, or after the end.
+    Result<void> add_key_pose(const std::string &name,
+                              const std::vector<std::array<double, BESPOKE_TRANSFORM_SIZE>> &transforms) {
+        if (!handle_) return detail::empty_handle("session");
+        std::vector<double> numbers(1);
+        numbers.reserve(transforms.size() * BESPOKE_TRANSFORM_SIZE + 1);
+        numbers.clear();
+        for (const auto &transform : transforms) numbers.insert(numbers.end(), transform.begin(), transform.end());
+        return call(bespoke_session_add_key_pose, name.c_str(), static_cast<const double *>(numbers.data()),
+                    transforms.size());
+    }
+
+    /// Removes all key poses.
+    Result<void> clear_key_poses() { return call(bespoke_session_clear_key_poses); }
+
+    /// Finds the correction of each key pose, for so many joints a vertex; after the end. The result stays as it is.
+    Result<void> solve_pose_corrections(std::size_t influences) {
+        return call(bespoke_session_solve_pose_corrections, influences);
+    }
+
+    /// The correction of a key pose, after solve_pose_corrections.
+    template <class Point = std::array<float, 3>>
+    Result<PoseCorrection<Point>> read_pose_correction(std::uint32_t pose) const {
+        std::size_t count = 0;
+        PoseCorrection<Point> correction{};
+        const BespokeBuffer nowhere{nullptr, 0, 0, BESPOKE_COMPONENT_F64};
+        const auto counted = call(bespoke_session_read_pose_correction, pose, &nowhere, &count, &correction.before,
+                                  &correction.after);
+        if (!counted) return counted.error();
+        correction.offsets.resize(count);
+        const BespokeBuffer buffer = PointBuffer(correction.offsets).get();
+        BespokePoseIntersections *const none = nullptr;
+        const auto done = call(bespoke_session_read_pose_correction, pose, &buffer, &count, none, none);
+        if (!done) return done.error();
+        return correction;
+    }
+
     /// Optional: a mesh that follows the garment without being solved. Each call adds one, counted from 0.
     Result<void> add_follower(Points positions, Triangles triangles) {
         return set(bespoke_session_add_follower, "follower positions", positions, "follower triangles", triangles);
@@ -1493,6 +1553,73 @@ public:
 
     /// Takes all layers off the avatar.
     Result<void> clear_layers() { return call(bespoke_session_clear_layers); }
+
+    /// Optional: a garment of an outfit as it was modelled, for read_outfit_order. Each call adds one, counted from 0.
+    Result<void> add_outfit_garment(Points positions, Triangles triangles) {
+        return set(bespoke_session_add_outfit_garment, "outfit garment positions", positions,
+                   "outfit garment triangles", triangles);
+    }
+
+    /// Removes all garments of the outfit.
+    Result<void> clear_outfit() { return call(bespoke_session_clear_outfit); }
+
+    /// The garments of the outfit from the innermost outwards, by their numbers; in any state.
+    Result<std::vector<std::uint32_t>> read_outfit_order() {
+        std::uint32_t *const nowhere = nullptr;
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_outfit_order, nowhere, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<std::uint32_t> order(count);
+        if (const auto done = call(bespoke_session_read_outfit_order, order.data(), order.size(), &count); !done) {
+            return done.error();
+        }
+        if (count < order.size()) order.resize(count);
+        return order;
+    }
+
+    /// The pairs of garments of the outfit that meet, the surest first; in any state.
+    Result<std::vector<WornPair>> read_worn_pairs() {
+        BespokeWornPair *const nowhere = nullptr;
+        std::size_t count = 0;
+        if (const auto counted = call(bespoke_session_read_worn_pairs, nowhere, std::size_t{0}, &count); !counted) {
+            return counted.error();
+        }
+        std::vector<BespokeWornPair> read(count);
+        if (const auto done = call(bespoke_session_read_worn_pairs, read.data(), read.size(), &count); !done) {
+            return done.error();
+        }
+        if (count < read.size()) read.resize(count);
+        std::vector<WornPair> pairs;
+        pairs.reserve(read.size());
+        for (const BespokeWornPair &from : read) {
+            pairs.push_back(WornPair{from.inner, from.outer, from.confidence, from.is_overruled != 0});
+        }
+        return pairs;
+    }
+
+    /// The pairs of triangles of two meshes that touch or cross: that of the first and that of the other; in any state. The inputs
+    /// of the session have no part in it.
+    Result<std::vector<std::array<std::uint32_t, 2>>> find_intersections(Points positions, Triangles triangles,
+                                                                         Points other_positions,
+                                                                         Triangles other_triangles) const {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides("first mesh positions", positions); !whole) return whole.error();
+        if (auto whole = divides("first mesh triangles", triangles); !whole) return whole.error();
+        if (auto whole = divides("second mesh positions", other_positions); !whole) return whole.error();
+        if (auto whole = divides("second mesh triangles", other_triangles); !whole) return whole.error();
+        const BespokeView views[] = {positions.get(), triangles.get(), other_positions.get(), other_triangles.get()};
+        return pairs_of(views, views + 2);
+    }
+
+    /// The same within one mesh, the lower triangle first.
+    Result<std::vector<std::array<std::uint32_t, 2>>> find_intersections(Points positions, Triangles triangles) const {
+        if (!handle_) return detail::empty_handle("session");
+        if (auto whole = divides("first mesh positions", positions); !whole) return whole.error();
+        if (auto whole = divides("first mesh triangles", triangles); !whole) return whole.error();
+        const BespokeView views[] = {positions.get(), triangles.get()};
+        return pairs_of(views, nullptr);
+    }
 
     /// Replaces all options by these.
     Result<void> set_options(const Options &options) {
@@ -1940,6 +2067,22 @@ private:
         }
         return set(function, (what + " joints").c_str(), joints, (what + " weights").c_str(), weights,
                    joints.columns(), joint_count);
+    }
+
+    /// Positions and triangles of one mesh, and of another or null.
+    Result<std::vector<std::array<std::uint32_t, 2>>> pairs_of(const BespokeView *first, const BespokeView *other) const {
+        const BespokeView *const positions = other, *const triangles = other == nullptr ? nullptr : other + 1;
+        std::uint32_t *const nowhere = nullptr;
+        std::size_t count = 0;
+        const auto counted = call(bespoke_session_find_intersections, first, first + 1, positions, triangles, nowhere,
+                                  std::size_t{0}, &count);
+        if (!counted) return counted.error();
+        std::vector<std::array<std::uint32_t, 2>> pairs(count);
+        if (count == 0) return pairs;
+        const auto done = call(bespoke_session_find_intersections, first, first + 1, positions, triangles,
+                               pairs.data()->data(), pairs.size(), &count);
+        if (!done) return done.error();
+        return pairs;
     }
 
     using AddMorph = BespokeStatus(BespokeSession *, const char *, const BespokeView *);

@@ -21,6 +21,8 @@ pub mod fit;
 
 pub mod layers;
 
+pub mod outfit;
+
 pub mod avatar_parts;
 
 pub mod morphs;
@@ -38,6 +40,8 @@ pub mod results;
 pub mod normals;
 
 pub mod rig_results;
+
+pub mod key_poses;
 
 pub mod covered;
 

@@ -50,6 +50,11 @@ impl Pins {
         Self { name: "carry", pins }
     }
 
+    /// The same for a garment that is held to where its skin weights put it, under a name of its own.
+    pub fn holding(pins: Vec<Pin>) -> Self {
+        Self { name: "hold", pins }
+    }
+
     /// The pins.
     pub fn pins(&self) -> &[Pin] {
         &self.pins

@@ -9,6 +9,7 @@ pub mod diagnostic_facts;
 pub mod diagnostic_text;
 pub mod diagnostic_words;
 pub mod element;
+pub mod key_pose;
 mod mesh;
 pub mod morph;
 pub mod near_seams;

@@ -8,6 +8,7 @@ pub mod landmark;
 pub mod names;
 pub mod part_name;
 pub mod places;
+pub mod pose_path;
 pub mod posing;
 pub mod reading;
 pub mod structure;

@@ -15,6 +15,7 @@ use crate::input::body::{Body, PartRole};
 use crate::input::coordinate_system::{AxisTurn, CoordinateSystem};
 use crate::input::curve::Curve;
 use crate::input::diagnostic::{Diagnostic, Subject};
+use crate::input::key_pose::KeyPose;
 use crate::input::morph::Morph;
 use crate::input::placement;
 use crate::input::placement::scene::Scene;
@@ -56,7 +57,10 @@ pub(super) struct Inputs {
     pub(super) curves: Vec<Arc<Curve>>,
     pub(super) garment_morphs: Vec<Arc<Morph>>,
     pub(super) target_morphs: Vec<Arc<Morph>>,
+    pub(super) key_poses: Vec<Arc<KeyPose>>,
     pub(super) followers: Vec<(Arc<TriangleMesh>, Precision)>,
+    /// Garments that are worn together, as they were modelled; only their order is asked for.
+    pub(super) outfit: Vec<Arc<TriangleMesh>>,
     pub(super) source_coordinate_system: CoordinateSystem,
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
@@ -321,7 +325,9 @@ impl Inputs {
         let controls = weights + bytes(&self.pins) + groups + curves;
         let further: u64 =
             self.garment_morphs.iter().chain(&self.target_morphs).map(|morph| morph.memory()).sum::<u64>()
-                + self.followers.iter().map(|follower| mesh(&follower.0)).sum::<u64>();
+                + self.followers.iter().map(|follower| mesh(&follower.0)).sum::<u64>()
+                + self.outfit.iter().map(mesh).sum::<u64>()
+                + self.key_poses.iter().map(|pose| bytes(&pose.motions)).sum::<u64>();
         meshes.into_iter().flatten().map(mesh).sum::<u64>()
             + worn
             + body

@@ -14,11 +14,14 @@ mod followers;
 mod garment_normals;
 mod garment_skin;
 mod inputs;
+mod key_poses;
 mod morph_solve;
 mod morphs;
 mod on_the_way;
 mod other_pose;
+mod outfit;
 mod plausibility;
+mod pose_solve;
 mod refit;
 mod reposing;
 mod rig_inputs;
@@ -40,10 +43,12 @@ pub use crate::control::Stage;
 use crate::control::{Cancel, Cancelled, Control, MAX_TERMS, Progress};
 use crate::error::{Error, ErrorKind, Result};
 pub use crate::geometry::covered::CoveredOptions;
+use crate::geometry::mesh::TriangleMesh;
 pub use crate::geometry::outfit::{OutfitOrder, WornPair, outfit_order};
 pub use crate::input::body::PartRole;
 pub use crate::input::curve::Curve;
 use crate::input::diagnostic::Diagnostic;
+pub use crate::input::key_pose::KeyPose;
 pub use crate::input::morph::Morph;
 pub use crate::input::precision::Precision;
 pub use crate::options::Options;
@@ -59,6 +64,7 @@ pub use garment_normals::RenderMesh;
 pub use garment_skin::GarmentSkin;
 use inputs::Inputs;
 pub use inputs::Pin;
+pub use pose_solve::{PoseCorrection, PoseCounts};
 use run::Run;
 use snapshot::Snapshot;
 use target_morphs::Answer;
@@ -102,10 +108,14 @@ pub struct Session {
     skin: OnceLock<Arc<GarmentSkin>>,
     /// What the result covers, as it was asked for last.
     covered: Mutex<Option<Covered>>,
+    /// In which order the outfit is worn, and on which body, once it was asked for.
+    outfit_order: Option<(Option<Arc<TriangleMesh>>, Arc<OutfitOrder>)>,
     /// The followers at the result.
     followers: Vec<Follower>,
     /// What is known of the garment's answers to the avatar's morphs.
     answers: Vec<Answer>,
+    /// The corrections of key poses that are solved, and for how many joints a vertex.
+    corrections: Vec<Option<(usize, PoseCorrection)>>,
     /// How each joint of the target rig moves into the pose that the result is in, where that is not its own.
     pose: Option<Vec<DAffine3>>,
     /// The joints of the common skeleton of two rigs, once something is said of them.
@@ -140,13 +150,7 @@ impl Session {
         if self.control.is_cancelled() {
             return Err(self.answer(Cancelled.into()));
         }
-        // More threads than cores would wait for each other at every loop.
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = match self.inputs.options.threads as usize {
-            0 => cores,
-            wanted if self.crowded => wanted,
-            wanted => wanted.min(cores),
-        };
+        let threads = self.wanted_threads();
         self.joint_names = OnceLock::new();
         let inputs = self.inputs.clone();
         let context = Context { stop: Cancel::new(), panics: self.panics.clone(), fault: self.fault };
@@ -178,6 +182,16 @@ impl Session {
         self.run = Some(run);
         self.enter(Stage::Prepared);
         Ok(())
+    }
+
+    /// As many threads as the options say. More than cores would wait for each other at every loop.
+    fn wanted_threads(&self) -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        match self.inputs.options.threads as usize {
+            0 => cores,
+            wanted if self.crowded => wanted,
+            wanted => wanted.min(cores),
+        }
     }
 
     /// Requests to stop that a call has answered.
@@ -500,6 +514,7 @@ impl Session {
         self.covered = Mutex::default();
         self.followers.clear();
         self.answers.clear();
+        self.corrections.clear();
         self.pose = None;
     }
 }

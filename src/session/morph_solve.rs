@@ -212,7 +212,7 @@ impl MorphSolve {
     }
 
     /// Refuses to go on where contacts were left out for want of memory.
-    fn check_contacts(&self, objective: &Objective) -> Result<()> {
+    pub(super) fn check_contacts(&self, objective: &Objective) -> Result<()> {
         if objective.contact.exceeds_pair_budget() {
             let limit = MemoryLimit::new(self.options.memory_limit).reserving(self.held);
             return Err(limit.exceeded_error("contacts of the garment, more pairs than there is budget for"));
@@ -220,18 +220,18 @@ impl MorphSolve {
         Ok(())
     }
 
-    fn newton(&self, objective: &Objective, state: &State) -> Result<Newton> {
+    pub(super) fn newton(&self, objective: &Objective, state: &State) -> Result<Newton> {
         let limit = MemoryLimit::new(self.options.memory_limit).reserving(self.held + objective.memory());
         Newton::new(state.x.len(), &objective.terms(), limit, self.cancel.clone())
     }
 
-    fn say(&self, stage: Stage, t: f64, iteration: u32) {
+    pub(super) fn say(&self, stage: Stage, t: f64, iteration: u32) {
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         (progress.stage, progress.t, progress.iteration) = (stage, t, iteration);
     }
 
     /// A welded vertex of the result as it is read, caps left out.
-    fn read(&self, x: DVec3) -> DVec3 {
+    pub(super) fn read(&self, x: DVec3) -> DVec3 {
         self.precision.round(self.snapshot.restored(x))
     }
 

@@ -128,6 +128,15 @@ impl Session {
     }
 
     fn solve_morph(&self, index: usize) -> Result<Outcome> {
+        let morph = self.inputs.target_morphs[index].clone();
+        self.beside_the_run(move |solve| solve.run(&morph.offsets))
+    }
+
+    /// Does `work` from the result on, which stays as it is, in the session's threads and with progress.
+    pub(super) fn beside_the_run<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(MorphSolve) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
         let (Some(snapshot), Some(pool), Some(run)) = (&self.snapshot, &self.pool, &self.run) else {
             return Err(Error::new(ErrorKind::Internal, "there is no run in a session that has ended"));
         };
@@ -148,7 +157,6 @@ impl Session {
             cancel: stop.clone(),
             progress: progress.clone(),
         };
-        let morph = self.inputs.target_morphs[index].clone();
         // This thread alone publishes; the job says what.
         let should_stop = || {
             let now = *progress.lock().unwrap_or_else(PoisonError::into_inner);
@@ -157,7 +165,7 @@ impl Session {
             }
             control.requests() > answered
         };
-        pool.run(should_stop, &stop, move || solve.run(&morph.offsets))?
+        pool.run(should_stop, &stop, move || work(solve))?
     }
 }
 

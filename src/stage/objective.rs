@@ -36,6 +36,8 @@ pub struct Objective {
     roams: bool,
     /// Carried pieces are not held to their places.
     carried_roam: bool,
+    /// Where all of the garment is held to, in a key pose.
+    hold: Option<Pins>,
 }
 
 impl Objective {
@@ -57,6 +59,7 @@ impl Objective {
             barrier_weight: weights.inflation_barrier_weight,
             roams: false,
             carried_roam: false,
+            hold: None,
         }
     }
 
@@ -69,6 +72,11 @@ impl Objective {
     /// Leaves out the places of carried pieces, which are those on the avatar's own shape.
     pub fn release_carried(&mut self) {
         self.carried_roam = true;
+    }
+
+    /// Holds the garment to places that move with t.
+    pub fn hold(&mut self, hold: Pins) {
+        self.hold = Some(hold);
     }
 
     /// Bytes that it holds.
@@ -140,6 +148,9 @@ impl Model for Objective {
         }
         if !shape.rigid.is_empty() {
             terms.push(Term { energy: &shape.rigid, weight: RIGIDITY });
+        }
+        if let Some(hold) = &self.hold {
+            terms.push(Term { energy: hold, weight: 1.0 });
         }
         if let Some(inflation) = &self.inflation {
             terms.push(Term { energy: inflation, weight: 1.0 });

@@ -18,6 +18,7 @@ fn generated() -> String {
         "rigs",
         "fit",
         "layers",
+        "outfit",
         "avatar_parts",
         "morphs",
         "followers",
@@ -27,6 +28,7 @@ fn generated() -> String {
         "results",
         "normals",
         "rig_results",
+        "key_poses",
         "covered",
         "diagnostics",
     ];

@@ -71,6 +71,50 @@ void maps() {
     CHECK(session.read_joint_map().value()[3].target == 3u);
 }
 
+/// A shirt under a jacket, and what passes through what.
+void outfits() {
+    const Scene scene;
+    std::vector<Triple<double>> jacket, shirt;
+    for (const auto &p : scene.garment.points) {
+        jacket.push_back({p[0], p[1], p[2]});
+        shirt.push_back({0.8 * p[0], p[1], 0.8 * p[2]});
+    }
+    Session session = Session::create().value();
+    ACCEPTED(session.add_outfit_garment(jacket, scene.garment.triangles));
+    ACCEPTED(session.clear_outfit());
+    CHECK(session.read_outfit_order().value().empty() && session.read_worn_pairs().value().empty());
+    ACCEPTED(session.add_outfit_garment(jacket, scene.garment.triangles));
+    ACCEPTED(session.add_outfit_garment(shirt, scene.garment.triangles));
+    CHECK((session.read_outfit_order().value() == std::vector<std::uint32_t>{1, 0}));
+    const auto pairs = session.read_worn_pairs().value();
+    CHECK(pairs.size() == 1 && pairs[0].inner == 1 && pairs[0].outer == 0 && !pairs[0].is_overruled);
+    const auto &corners = scene.garment.triangles;
+    CHECK(session.find_intersections(jacket, corners, shirt, corners).value().empty());
+    CHECK(session.find_intersections(jacket, corners).value().empty());
+    const std::vector<Triple<double>> across{{-3, 0.011, -3}, {9, 0.012, -3}, {-3, 0.013, 9}};
+    const std::vector<Triple<std::uint32_t>> one{{0, 1, 2}}, wrong{{0, 1, 7}};
+    const auto cut = session.find_intersections(jacket, corners, across, one).value();
+    CHECK(!cut.empty() && cut[0][1] == 0);
+    REFUSED(session.find_intersections(jacket, corners, across, wrong), Status::invalid_mesh, "second mesh");
+}
+
+void key_poses() {
+    std::vector<std::array<double, BESPOKE_TRANSFORM_SIZE>> still(7);
+    for (auto &transform : still) {
+        for (std::size_t k = 0; k < transform.size(); k += 5) transform[k] = 1.0;
+    }
+    Session session = Session::create().value();
+    REFUSED(session.add_key_pose("still", still), Status::invalid_state, "target rig");
+    ACCEPTED(session.set_target_rig(target_rig()));
+    ACCEPTED(session.add_key_pose("still", still));
+    REFUSED(session.solve_pose_corrections(4), Status::invalid_state, "result");
+    REFUSED(session.read_pose_correction(0), Status::invalid_state, "still");
+    still.resize(2);
+    REFUSED(session.add_key_pose("short", still), Status::invalid_argument, "2 joints");
+    REFUSED(session.add_key_pose("none", {}), Status::invalid_argument, "0 joints");
+    ACCEPTED(session.clear_key_poses());
+}
+
 void refusals() {
     Session session = Session::create().value();
     REFUSED(session.set_source_rig({}), Status::invalid_skeleton, "source rig");
@@ -124,4 +168,6 @@ void rigs() {
     maps();
     refusals();
     skeletons_and_skins();
+    outfits();
+    key_poses();
 }

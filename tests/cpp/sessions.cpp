@@ -81,6 +81,16 @@ void empty(Session &session) {
     refused(session.clear_followers());
     refused(session.read_follower_vertices(0));
     refused(session.read_follower_skin_influences(0, 4));
+    refused(session.add_outfit_garment(points, triangles));
+    refused(session.clear_outfit());
+    refused(session.read_outfit_order());
+    refused(session.read_worn_pairs());
+    refused(session.find_intersections(points, triangles));
+    refused(session.find_intersections(points, triangles, points, triangles));
+    refused(session.add_key_pose("bent", {}));
+    refused(session.clear_key_poses());
+    refused(session.solve_pose_corrections(4));
+    refused(session.read_pose_correction(0));
     refused(session.read_report());
     refused(session.read_energy(0));
     refused(session.read_energies());

@@ -37,6 +37,8 @@ internal static class Layout
             { "BespokeJoint", sizeof(NativeJoint) },
             { "BespokeAddedJoint", sizeof(NativeAddedJoint) },
             { "BespokeMappedJoint", sizeof(NativeMappedJoint) },
+            { "BespokeWornPair", sizeof(NativeWornPair) },
+            { "BespokePoseIntersections", sizeof(NativePoseIntersections) },
             { "BespokeCoordinateSystem", sizeof(NativeCoordinateSystem) },
             { "BespokeOptions", sizeof(NativeOptions) },
             { "BespokeIntersections", sizeof(NativeIntersections) },

@@ -11,6 +11,54 @@ internal static class Rigs
         Maps();
         Refusals();
         SkeletonsAndSkins();
+        Outfits();
+        KeyPoses();
+    }
+
+    // A jacket over a shirt, and what passes through what.
+    private static void Outfits()
+    {
+        Inputs inputs = Inputs.Tube();
+        float[] jacket = inputs.GarmentPositions;
+        float[] shirt = jacket.Select((x, k) => k % 3 == 1 ? x : 0.8f * x).ToArray();
+        using (Session session = new Session())
+        {
+            session.AddOutfitGarment(jacket, inputs.GarmentTriangles);
+            session.ClearOutfit();
+            Check.Same(session.ReadOutfitOrder().Length, 0, "garments of no outfit");
+            session.AddOutfitGarment(jacket, inputs.GarmentTriangles);
+            session.AddOutfitGarment(shirt, inputs.GarmentTriangles);
+            Check.Same(string.Join(", ", session.ReadOutfitOrder()), "1, 0", "order");
+            WornPair pair = session.ReadWornPairs().Single();
+            Check.That(pair.Inner == 1 && pair.Outer == 0 && pair.Confidence > 0.5 && !pair.IsOverruled, "the pair");
+            uint[] apart = session.FindIntersections(jacket, inputs.GarmentTriangles, shirt, inputs.GarmentTriangles);
+            Check.Same(apart.Length, 0, "pairs of garments that are apart");
+            float[] across = { -3f, 0.011f, -3f, 9f, 0.012f, -3f, -3f, 0.013f, 9f };
+            int[] one = { 0, 1, 2 };
+            uint[] cut = session.FindIntersections(jacket, inputs.GarmentTriangles, across, one);
+            Check.That(cut.Length > 0 && cut.Where((t, k) => k % 2 == 1).All(t => t == 0), "a plane cuts the jacket");
+            Check.Same(session.FindIntersections(jacket, inputs.GarmentTriangles).Length, 0, "pairs within the jacket");
+            Check.Refused(
+                Status.InvalidMesh, () => session.FindIntersections(jacket, inputs.GarmentTriangles, across, new[] { 0, 1, 7 }),
+                "second mesh");
+        }
+    }
+
+    private static void KeyPoses()
+    {
+        double[] still = Enumerable.Range(0, 7 * 16).Select(k => k % 16 % 5 == 0 ? 1.0 : 0.0).ToArray();
+        using (Session session = new Session())
+        {
+            Check.Refused(Status.InvalidState, () => session.AddKeyPose(null, still), "target rig");
+            session.SetTargetRig(Target());
+            session.AddKeyPose("still", still);
+            Check.Refused(Status.InvalidArgument, () => session.AddKeyPose(null, still.Take(32).ToArray()), "2 joints");
+            Check.Refused(Status.InvalidArgument, () => session.AddKeyPose(null, still.Take(33).ToArray()), "33");
+            Check.Refused(Status.InvalidState, () => session.SolvePoseCorrections(4), "result");
+            Check.Refused(Status.InvalidState, () => session.ReadPoseCorrection(0), "still");
+            session.ClearKeyPoses();
+            Check.Refused(Status.InvalidArgument, () => session.ReadPoseCorrection(0), "key pose 0");
+        }
     }
 
     // By names, in another order and with another naming; the caller's pairs win.

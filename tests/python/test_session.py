@@ -306,6 +306,61 @@ class Rigs(scenes.Case):
             session.set_joint_pairs([[0, 9]])
             self.refused(Status.INVALID_ARGUMENT, session.read_joint_map, "joint 9 of the target rig")
 
+    def test_outfits(self) -> None:
+        jacket, shirt = scenes.tube(0.4, 0.6, 20, 9), scenes.tube(0.35, 0.5, 18, 8)
+        with bespoke.Session(threads=1) as session:
+            self.assertEqual(session.read_outfit_order().tolist(), [])
+            session.add_outfit_garment(*jacket)
+            session.clear_outfit()
+            session.add_outfit_garment(*jacket)
+            session.add_outfit_garment(*shirt)
+            order = session.read_outfit_order()
+            self.assertEqual((order.tolist(), order.dtype), ([1, 0], np.uint32))
+            (pair,) = session.read_worn_pairs()
+            self.assertEqual((pair.inner, pair.outer, pair.is_overruled), (1, 0, False))
+            self.assertGreater(pair.confidence, 0.9)
+            self.refused(Status.INVALID_MESH, lambda: session.add_outfit_garment(jacket[0][:3], jacket[1]), "outfit garment 2")
+
+            self.assertEqual(session.find_intersections(*jacket, *shirt).shape, (0, 2))
+            across = np.array([[-1, 0.01, -1], [3, 0.02, -1], [-1, 0.03, 3]]), [[0, 1, 2]]
+            cut = session.find_intersections(*jacket, *across)
+            self.assertTrue(len(cut) >= 20 and np.all(cut[:, 1] == 0) and np.all(np.diff(cut[:, 0].astype(int)) > 0))
+            both = np.concatenate([jacket[0], across[0]]), np.concatenate([jacket[1], [[len(jacket[0]) + k for k in range(3)]]])
+            self.assertEqual(len(session.find_intersections(*both)), len(cut))
+            with self.assertRaises(ValueError):
+                session.find_intersections(*jacket, shirt[0])
+            self.refused(Status.INVALID_MESH, lambda: session.find_intersections(*jacket, shirt[0][:3], shirt[1]), "second mesh")
+
+    def test_key_poses(self) -> None:
+        scene = scenes.tubes()
+        vertices = len(scene.avatar[0])
+        bones = [at("Hips", None, 0, -1), at("Spine", 0, 0, 0), at("Head", 1, 0, 1)]
+        with scene.session() as session:
+            session.set_source_rig(bones)
+            session.set_target_rig([at(one.name, one.parent, 0, 1.1 * (k - 1)) for k, one in enumerate(bones)])
+            above = (np.asarray(scene.avatar[0])[:, 1:2] > 0.0).astype(np.int64)
+            session.set_target_skin_influences(above, np.ones((vertices, 1)), 3)
+            session.add_key_pose(np.tile(np.eye(4), (3, 1, 1)), "still")
+            session.run()
+            self.refused(Status.INVALID_STATE, lambda: session.read_pose_correction(0), "still")
+            turn = np.eye(4)
+            turn[0, 0], turn[0, 1], turn[1, 0], turn[1, 1] = np.cos(0.6), -np.sin(0.6), np.sin(0.6), np.cos(0.6)
+            session.add_key_pose([np.eye(4), turn, turn])
+            session.solve_pose_corrections(1)
+            offsets, before, after = session.read_pose_correction(0)
+            self.assertEqual((offsets.shape, offsets.dtype), ((len(scene.garment[0]), 3), np.float32))
+            self.assertFalse(np.any(offsets))
+            self.assertEqual((before, after), (bespoke.PoseIntersections(0, 0, 0),) * 2)
+            offsets, before, after = session.read_pose_correction(1, dtype=np.float64)
+            pairs = [one.garment_garment + one.garment_avatar for one in (before, after)]
+            self.assertTrue(pairs[1] < pairs[0] or (pairs == [0, 0] and not np.any(offsets)), pairs)
+            self.refused(Status.INVALID_ARGUMENT, lambda: session.read_pose_correction(2), "key pose 2")
+            self.refused(Status.INVALID_ARGUMENT, lambda: session.add_key_pose(np.eye(4)), "(joints, 4, 4)")
+            self.refused(Status.INVALID_ARGUMENT, lambda: session.add_key_pose([np.eye(4)] * 2), "2 joints")
+            with self.assertRaises(ValueError):
+                session.read_pose_correction(-1)
+            session.clear_key_poses()
+
     def test_own_joints_come_along(self) -> None:
         scene = scenes.tubes()
         n, vertices = len(scene.garment[0]), len(scene.avatar[0])

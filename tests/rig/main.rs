@@ -6,6 +6,7 @@ mod large;
 mod limbs;
 mod names;
 mod own_joints;
+mod pose_path;
 mod posing;
 mod weights;
 mod weights_random;

@@ -15,6 +15,7 @@ mod followers;
 mod hanging;
 mod initial_self_intersections;
 mod joints;
+mod key_poses;
 mod layers;
 mod memory;
 mod morphs;

@@ -130,6 +130,25 @@ namespace Bespoke
         internal static extern Status bespoke_session_clear_layers(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_outfit_garment(
+            SessionHandle session, NativeView* positions, NativeView* triangles);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_outfit(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_outfit_order(
+            SessionHandle session, uint* order, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_worn_pairs(
+            SessionHandle session, NativeWornPair* pairs, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_find_intersections(
+            SessionHandle session, NativeView* positions, NativeView* triangles, NativeView* otherPositions, NativeView* otherTriangles, uint* pairs, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_avatar_parts(SessionHandle session, NativeView* roles);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
@@ -247,6 +266,20 @@ namespace Bespoke
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_pose_transforms(
             SessionHandle session, double* transforms, UIntPtr capacity, UIntPtr* count);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_add_key_pose(
+            SessionHandle session, byte* name, double* transforms, UIntPtr jointCount);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_clear_key_poses(SessionHandle session);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_solve_pose_corrections(SessionHandle session, UIntPtr influences);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_read_pose_correction(
+            SessionHandle session, uint pose, NativeBuffer* offsets, UIntPtr* count, NativePoseIntersections* before, NativePoseIntersections* after);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_read_covered_triangles(

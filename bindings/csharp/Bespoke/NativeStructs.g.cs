@@ -62,6 +62,16 @@ namespace Bespoke
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    internal struct NativeWornPair
+    {
+        internal uint inner;
+        internal uint outer;
+        internal double confidence;
+        internal uint is_overruled;
+        internal uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeBuffer
     {
         internal void* data;
@@ -188,6 +198,14 @@ namespace Bespoke
         internal uint source;
         internal uint parent;
         internal fixed double bind[NativeConstants.TransformSize];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal struct NativePoseIntersections
+    {
+        internal ulong garment_garment;
+        internal ulong garment_avatar;
+        internal ulong in_folds;
     }
 
     [StructLayout(LayoutKind.Sequential)]

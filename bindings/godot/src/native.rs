@@ -215,6 +215,26 @@ const _: () = {
 
 #[derive(Clone, Copy)]
 #[repr(C)]
+pub struct BespokeWornPair {
+    pub inner: u32,
+    pub outer: u32,
+    pub confidence: f64,
+    pub is_overruled: u32,
+    pub reserved: u32,
+}
+
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    assert!(size_of::<BespokeWornPair>() == 24);
+    assert!(std::mem::offset_of!(BespokeWornPair, inner) == 0);
+    assert!(std::mem::offset_of!(BespokeWornPair, outer) == 4);
+    assert!(std::mem::offset_of!(BespokeWornPair, confidence) == 8);
+    assert!(std::mem::offset_of!(BespokeWornPair, is_overruled) == 16);
+    assert!(std::mem::offset_of!(BespokeWornPair, reserved) == 20);
+};
+
+#[derive(Clone, Copy)]
+#[repr(C)]
 pub struct BespokeBuffer {
     pub data: *mut c_void,
     pub capacity: usize,
@@ -473,6 +493,22 @@ const _: () = {
 
 #[derive(Clone, Copy)]
 #[repr(C)]
+pub struct BespokePoseIntersections {
+    pub garment_garment: u64,
+    pub garment_avatar: u64,
+    pub in_folds: u64,
+}
+
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    assert!(size_of::<BespokePoseIntersections>() == 24);
+    assert!(std::mem::offset_of!(BespokePoseIntersections, garment_garment) == 0);
+    assert!(std::mem::offset_of!(BespokePoseIntersections, garment_avatar) == 8);
+    assert!(std::mem::offset_of!(BespokePoseIntersections, in_folds) == 16);
+};
+
+#[derive(Clone, Copy)]
+#[repr(C)]
 pub struct BespokeElement {
     pub subject: u32,
     pub kind: u32,
@@ -623,6 +659,34 @@ unsafe extern "C" {
         triangles: *const BespokeView,
     ) -> u32;
     pub fn bespoke_session_clear_layers(session: *mut BespokeSession) -> u32;
+    pub fn bespoke_session_add_outfit_garment(
+        session: *mut BespokeSession,
+        positions: *const BespokeView,
+        triangles: *const BespokeView,
+    ) -> u32;
+    pub fn bespoke_session_clear_outfit(session: *mut BespokeSession) -> u32;
+    pub fn bespoke_session_read_outfit_order(
+        session: *mut BespokeSession,
+        order: *mut u32,
+        capacity: usize,
+        count: *mut usize,
+    ) -> u32;
+    pub fn bespoke_session_read_worn_pairs(
+        session: *mut BespokeSession,
+        pairs: *mut BespokeWornPair,
+        capacity: usize,
+        count: *mut usize,
+    ) -> u32;
+    pub fn bespoke_session_find_intersections(
+        session: *const BespokeSession,
+        positions: *const BespokeView,
+        triangles: *const BespokeView,
+        other_positions: *const BespokeView,
+        other_triangles: *const BespokeView,
+        pairs: *mut u32,
+        capacity: usize,
+        count: *mut usize,
+    ) -> u32;
     pub fn bespoke_session_set_avatar_parts(session: *mut BespokeSession, roles: *const BespokeView) -> u32;
     pub fn bespoke_session_add_garment_morph(
         session: *mut BespokeSession,
@@ -737,6 +801,22 @@ unsafe extern "C" {
         transforms: *mut f64,
         capacity: usize,
         count: *mut usize,
+    ) -> u32;
+    pub fn bespoke_session_add_key_pose(
+        session: *mut BespokeSession,
+        name: *const c_char,
+        transforms: *const f64,
+        joint_count: usize,
+    ) -> u32;
+    pub fn bespoke_session_clear_key_poses(session: *mut BespokeSession) -> u32;
+    pub fn bespoke_session_solve_pose_corrections(session: *mut BespokeSession, influences: usize) -> u32;
+    pub fn bespoke_session_read_pose_correction(
+        session: *const BespokeSession,
+        pose: u32,
+        offsets: *const BespokeBuffer,
+        count: *mut usize,
+        before: *mut BespokePoseIntersections,
+        after: *mut BespokePoseIntersections,
     ) -> u32;
     pub fn bespoke_session_read_covered_triangles(
         session: *const BespokeSession,

@@ -25,7 +25,17 @@ from ._library import path as library_path
 from ._library import version as library_version
 from ._options import OptionArguments, Options
 from ._session import Session, read_default_options
-from ._values import Diagnostic, Element, Energy, Intersections, Progress, Report, StageReport
+from ._values import (
+    Diagnostic,
+    Element,
+    Energy,
+    Intersections,
+    PoseIntersections,
+    Progress,
+    Report,
+    StageReport,
+    WornPair,
+)
 
 __all__ = [
     "AddedJoint",
@@ -50,6 +60,7 @@ __all__ = [
     "OptionArguments",
     "Options",
     "PartRole",
+    "PoseIntersections",
     "Progress",
     "Report",
     "Session",
@@ -63,6 +74,7 @@ __all__ = [
     "Subject",
     "SurfaceForm",
     "Winding",
+    "WornPair",
     "dress",
     "library_path",
     "library_version",

@@ -78,6 +78,21 @@ class BespokeMappedJoint(ctypes.Structure):
     part: bytes
 
 
+class BespokeWornPair(ctypes.Structure):
+    _fields_ = [
+        ("inner", ctypes.c_uint32),
+        ("outer", ctypes.c_uint32),
+        ("confidence", ctypes.c_double),
+        ("is_overruled", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+    ]
+    inner: int
+    outer: int
+    confidence: float
+    is_overruled: int
+    reserved: int
+
+
 class BespokeBuffer(ctypes.Structure):
     _fields_ = [
         ("data", ctypes.c_void_p),
@@ -296,6 +311,17 @@ class BespokeAddedJoint(ctypes.Structure):
     bind: ctypes.Array[ctypes.c_double]
 
 
+class BespokePoseIntersections(ctypes.Structure):
+    _fields_ = [
+        ("garment_garment", ctypes.c_uint64),
+        ("garment_avatar", ctypes.c_uint64),
+        ("in_folds", ctypes.c_uint64),
+    ]
+    garment_garment: int
+    garment_avatar: int
+    in_folds: int
+
+
 class BespokeElement(ctypes.Structure):
     _fields_ = [
         ("subject", ctypes.c_uint32),
@@ -492,6 +518,46 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         ],
     ),
     "bespoke_session_clear_layers": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_add_outfit_garment": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+        ],
+    ),
+    "bespoke_session_clear_outfit": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_read_outfit_order": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(ctypes.c_uint32),
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_read_worn_pairs": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(BespokeWornPair),
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_find_intersections": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(BespokeView),
+            ctypes.POINTER(ctypes.c_uint32),
+            ctypes.c_size_t,
+            ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
     "bespoke_session_set_avatar_parts": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.POINTER(BespokeView)]),
     "bespoke_session_add_garment_morph": (
         ctypes.c_uint32,
@@ -653,6 +719,28 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
             ctypes.POINTER(ctypes.c_double),
             ctypes.c_size_t,
             ctypes.POINTER(ctypes.c_size_t),
+        ],
+    ),
+    "bespoke_session_add_key_pose": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.POINTER(ctypes.c_char),
+            ctypes.POINTER(ctypes.c_double),
+            ctypes.c_size_t,
+        ],
+    ),
+    "bespoke_session_clear_key_poses": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_solve_pose_corrections": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.c_size_t]),
+    "bespoke_session_read_pose_correction": (
+        ctypes.c_uint32,
+        [
+            ctypes.c_void_p,
+            ctypes.c_uint32,
+            ctypes.POINTER(BespokeBuffer),
+            ctypes.POINTER(ctypes.c_size_t),
+            ctypes.POINTER(BespokePoseIntersections),
+            ctypes.POINTER(BespokePoseIntersections),
         ],
     ),
     "bespoke_session_read_covered_triangles": (

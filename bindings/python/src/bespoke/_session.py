@@ -23,10 +23,12 @@ from ._native import (
     BespokeIntersections,
     BespokeMappedJoint,
     BespokeOptions,
+    BespokePoseIntersections,
     BespokeReport,
+    BespokeWornPair,
 )
 from ._options import Options
-from ._values import Diagnostic, Energy, Intersections, Progress, Report
+from ._values import Diagnostic, Energy, Intersections, PoseIntersections, Progress, Report, WornPair
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -335,6 +337,124 @@ class Session:
     def clear_layers(self) -> None:
         """Takes all layers off the avatar. Stage: SETUP."""
         self._handle.call("bespoke_session_clear_layers")
+
+    def add_outfit_garment(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
+        """Optional: a garment of an outfit as it was modelled, so that the order in which the outfit is worn can be read:
+        `read_outfit_order`. Each call adds one; they are numbered from 0. All of the outfit is added, also what is dressed in
+        this session; none of it takes part in the run.
+
+        `vertices`: shape (n, 3), in the coordinate system of the garment and the source avatar. `triangles`: shape (m, 3),
+        vertices from 0. Stage: SETUP. Errors: INVALID_ARGUMENT, INVALID_MESH.
+        """
+        self._mesh("add_outfit_garment", vertices, triangles, "outfit garment")
+
+    def clear_outfit(self) -> None:
+        """Removes all garments of the outfit. Stage: SETUP."""
+        self._handle.call("bespoke_session_clear_outfit")
+
+    def read_outfit_order(self) -> npt.NDArray[np.uint32]:
+        """The order in which the garments of the outfit are worn, from the innermost outwards, by their numbers, shape (n,), as
+        their geometry tells: of two garments the inner one is that of which more lies in the other, and where neither does,
+        that which is nearer to the source avatar, if one is set. Of garments that do not meet, the first comes first.
+
+        Stage: any. Errors: CANCELLED, NO_THREAD.
+        """
+        return np.array(self._list("bespoke_session_read_outfit_order", ctypes.c_uint32), np.uint32)
+
+    def read_worn_pairs(self) -> tuple[WornPair, ...]:
+        """What that order is made of: the pairs of garments that meet, the surest first, so that an editor can show where it is
+        a guess. Stage and errors: as there.
+        """
+        native = self._list("bespoke_session_read_worn_pairs", BespokeWornPair)
+        return tuple(WornPair._from_native(one) for one in native)
+
+    def find_intersections(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        other_vertices: npt.ArrayLike | None = None,
+        other_triangles: npt.ArrayLike | None = None,
+    ) -> npt.NDArray[np.uint32]:
+        """Finds the pairs of triangles of two meshes that touch or cross each other, such as two garments that hang beside each
+        other, or those within one mesh; by the exact verifier. The inputs and the result of the session have no part in it.
+
+        `vertices`, `triangles`: a mesh. `other_vertices`, `other_triangles`: another one in the same coordinate system; both
+        None: pairs within the first. Returns the triangle of the first mesh and that of the other, shape (pairs, 2),
+        ascending. Stage: any. Errors: INVALID_ARGUMENT, INVALID_MESH, CANCELLED, NO_THREAD; ValueError, where one of the
+        others is None.
+        """
+        if (other_vertices is None) != (other_triangles is None):
+            raise ValueError("the other mesh has vertices and triangles, or is left out")
+        meshes = [("first mesh", vertices, triangles)]
+        if other_vertices is not None and other_triangles is not None:
+            meshes.append(("second mesh", other_vertices, other_triangles))
+        views = []
+        for what, points, corners in meshes:
+            views.append(arrays.floats(points, 3, f"{what}: vertices", _POINTS))
+            views.append(arrays.indices(corners, 3, f"{what}: triangles", "(m, 3)", Status.INVALID_MESH))
+        given = [view.pointer for view in views] + [None] * (4 - len(views))
+        name = "bespoke_session_find_intersections"
+        count = ctypes.c_size_t()
+        self._handle.call_long(name, *given, None, 0, ctypes.byref(count))
+        pairs = np.empty((count.value, 2), np.uint32)
+        into = pairs.ctypes.data_as(ctypes.POINTER(ctypes.c_uint32))
+        self._handle.call(name, *given, into, count.value, ctypes.byref(count))
+        return pairs
+
+    def add_key_pose(self, transforms: npt.ArrayLike, name: str = "") -> None:
+        """Optional: a pose of the target rig in which the garment is to keep out of the body, such as a bent arm or a crouch.
+        Each call adds one; they are numbered from 0.
+
+        `transforms`: shape (joints, 4, 4), for each joint of the target rig how it moves what it moves from the bind pose to
+        this pose, in the coordinate system of the target, to be multiplied from the left: its posed matrix times the inverse
+        of its bind matrix. `name`: for messages. Stage: SETUP or DONE, with a target rig. Errors: INVALID_ARGUMENT (another
+        number of joints, a number that is not finite, a transform without inverse).
+        """
+        given = np.asarray(transforms, np.float64)
+        if given.ndim != 3 or given.shape[1:] != (4, 4):
+            raise error(Status.INVALID_ARGUMENT, f"key pose: transforms have shape (joints, 4, 4), not {given.shape}")
+        # Not empty, so that there is a pointer to it.
+        numbers = np.zeros(16 * len(given) + 1)
+        numbers[:-1] = given.transpose((0, 2, 1)).ravel()
+        first = numbers.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+        # A zero byte would end the name for C.
+        text = name.replace("\0", " ").encode("utf-8", "replace") if name else None
+        self._handle.call("bespoke_session_add_key_pose", text, first, len(given))
+
+    def clear_key_poses(self) -> None:
+        """Removes all key poses. Stage: SETUP or DONE."""
+        self._handle.call("bespoke_session_clear_key_poses")
+
+    def solve_pose_corrections(self, influences: int = 4) -> None:
+        """Finds the correction of each key pose: offsets of the garment's vertices in the bind pose, a blend shape to be added
+        before the skin weights move them, at full weight in that pose and at none in the bind pose. The result stays as it
+        is; corrections that are there already are not sought again.
+
+        `influences`: joints a vertex, as in `read_garment_skin_influences`. Stage: DONE, with a target rig and skin weights of
+        the target avatar set. Errors: INVALID_WEIGHTS, CANCELLED (what was found is kept), MEMORY_LIMIT.
+        """
+        self._handle.call_long("bespoke_session_solve_pose_corrections", influences)
+
+    def read_pose_correction(
+        self, pose: int, *, dtype: npt.DTypeLike | None = None
+    ) -> tuple[npt.NDArray[Any], PoseIntersections, PoseIntersections]:
+        """The correction of a key pose: offsets from the result, shape (n, 3), in the coordinate system of the target, and what
+        passes through what in that pose by the weights alone, and with the offsets.
+
+        `pose`: its number. `dtype`: as for `read_garment_vertices`. Stage: DONE, after `solve_pose_corrections`. Errors:
+        INVALID_ARGUMENT (no such pose).
+        """
+        if pose < 0:
+            raise ValueError(f"key poses count from 0, and {pose} is below")
+        name = "bespoke_session_read_pose_correction"
+        count = ctypes.c_size_t()
+        before, after = BespokePoseIntersections(), BespokePoseIntersections()
+        counts = (ctypes.byref(before), ctypes.byref(after))
+        self._handle.call(name, pose, ctypes.byref(arrays.NOTHING), ctypes.byref(count), *counts)
+        kind = self._dtype if dtype is None else dtype
+        array, buffer = arrays.buffer(None, kind, (count.value, 3), "pose correction")
+        self._handle.call(name, pose, ctypes.byref(buffer), None, None, None)
+        return array, PoseIntersections._from_native(before), PoseIntersections._from_native(after)
 
     def add_follower(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
         """Optional: a mesh that follows the garment without being solved, such as a level of detail, a trim, a badge or a

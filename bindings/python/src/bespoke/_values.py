@@ -14,6 +14,8 @@ from ._native import (
     BespokeEnergy,
     BespokeElement,
     BespokeDiagnostic,
+    BespokeWornPair,
+    BespokePoseIntersections,
 )
 
 
@@ -344,4 +346,56 @@ class Diagnostic:
             elements=tuple(Element._from_native(item) for item in native.elements[: native.element_count]),
             distance=native.distance,
             message=native.message.decode("utf-8", "replace"),
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class WornPair:
+    """Of two garments of an outfit that meet, which is worn beneath the other."""
+
+    inner: int
+    """The garment beneath, by its number."""
+
+    outer: int
+    """The garment above it."""
+
+    confidence: float
+    """From 0, as much speaks for the other order, to 1, nothing does; at most 0.5 where neither encloses the other and
+    the distance from the source avatar decides.
+    """
+
+    is_overruled: bool
+    """Whether the order does not follow this pair, for with surer pairs it would have gone around in a circle."""
+
+    @classmethod
+    def _from_native(cls, native: BespokeWornPair) -> WornPair:
+        return cls(
+            inner=native.inner,
+            outer=native.outer,
+            confidence=native.confidence,
+            is_overruled=bool(native.is_overruled),
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class PoseIntersections:
+    """Pairs of triangles that pass through each other in a key pose and not in the result's own, counted by the exact
+    verifier.
+    """
+
+    garment_garment: int
+    """Of the garment with itself."""
+
+    garment_avatar: int
+    """Of the garment with the avatar or its layers, where these do not pass through themselves."""
+
+    in_folds: int
+    """Of the garment with the avatar or its layers where these do, so that nothing can lie between."""
+
+    @classmethod
+    def _from_native(cls, native: BespokePoseIntersections) -> PoseIntersections:
+        return cls(
+            garment_garment=native.garment_garment,
+            garment_avatar=native.garment_avatar,
+            in_folds=native.in_folds,
         )

@@ -16,6 +16,8 @@ const READ: &[&str] = &[
     "BespokeEnergy",
     "BespokeElement",
     "BespokeDiagnostic",
+    "BespokeWornPair",
+    "BespokePoseIntersections",
 ];
 
 /// What a class has in Python only.

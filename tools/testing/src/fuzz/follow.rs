@@ -1,4 +1,4 @@
-//! Calls for what goes along with a garment: normals of render vertices, morphs and meshes that follow.
+//! Calls for what goes along with a garment: normals of render vertices, morphs, meshes that follow, and what is worn with it.
 
 use std::ptr::{null, null_mut};
 
@@ -11,17 +11,19 @@ use bespoke::capi::view::{BespokeBuffer, BespokeComponent};
 
 use super::array::Array;
 use super::caller::after;
+use super::outfit;
 use super::source::Source;
 
 /// One call.
 pub fn call(session: *mut BespokeSession, source: &mut Source) {
-    match source.below(8) {
+    match source.below(10) {
         0 => read_normals(session, source),
         1 | 2 => add_morph(session, source),
         3 => add_follower(session, source),
         4 => clear(session, source),
         // SAFETY: the session is null or alive.
         5 => drop(unsafe { after(session, "solve_target_morphs", bespoke_session_solve_target_morphs(session)) }),
+        6 | 7 => outfit::call(session, source),
         _ => read_points(session, source),
     }
 }

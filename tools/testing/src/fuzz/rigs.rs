@@ -9,6 +9,7 @@ use bespoke::capi::status::BespokeStatus;
 
 use super::array::Array;
 use super::caller::after;
+use super::key_poses;
 use super::source::Source;
 
 const NAMES: [&CStr; 12] = [
@@ -32,6 +33,7 @@ pub fn call(session: *mut BespokeSession, source: &mut Source) {
         0..4 => set_joints(session, source),
         4 => set_pairs(session, source),
         5 => set_weights(session, source),
+        6 => key_poses::call(session, source),
         _ => read_map(session, source),
     }
 }
