@@ -13,6 +13,7 @@
 //! # Ok::<(), bespoke_gltf::Error>(())
 //! ```
 
+mod animation;
 mod bind;
 mod buffers;
 mod container;
@@ -25,11 +26,13 @@ mod json;
 mod mesh;
 mod nodes;
 mod output;
+mod posed;
 mod reader;
 mod scene;
 mod skin;
 mod text;
 
+pub use animation::{Animation, Channel, Interpolation, Pose, Property, Sampler};
 pub use buffers::{Resolver, file_name, files_in, nothing_outside};
 pub use container::Form;
 pub use document::Document;
@@ -40,5 +43,6 @@ pub use import::{Change, Deltas, Import};
 pub use mesh::{Mesh, Morph, Primitive};
 pub use nodes::{Local, Matrix, Node, Nodes};
 pub use output::{Output, replace};
+pub use posed::Posable;
 pub use scene::{Character, Instance, Joint, Scene};
 pub use skin::Skin;

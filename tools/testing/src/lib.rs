@@ -7,7 +7,6 @@ pub mod character;
 pub mod engine;
 pub mod fuzz;
 pub mod glb;
-pub mod gltf;
 pub mod library;
 pub mod obj;
 pub mod obj_text;
