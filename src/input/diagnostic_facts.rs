@@ -126,11 +126,8 @@ impl Diagnostic {
             Self::SelfIntersection { triangles, .. }
             | Self::ResultSelfIntersection { triangles }
             | Self::Untangled { first: triangles, .. } => triangles.map(triangle).into(),
-            Self::BoneMoved { bone, ref triangles, .. } => {
+            Self::BoneMoved { bone, ref triangles, .. } | Self::OpeningCap { bone, ref triangles } => {
                 std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
-            }
-            Self::OpeningCap { bone, ref triangles } => {
-                std::iter::once(bone.element()).chain(triangles.iter().take(3).map(|&t| triangle(t))).collect()
             }
             Self::CycleCut { ref triangles } => triangles.iter().map(|&t| triangle(t)).collect(),
             Self::AvatarPenetrates { garment, bone, avatar } => {

@@ -5,7 +5,7 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, quoted, short, turned, units,
+    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, quoted, ranges, short, turned, units,
 };
 
 /// Axes that are exchanged are turned by 90 degrees, or by 120; what stands the other way round by 180.
@@ -350,14 +350,12 @@ impl Display for Diagnostic {
             }
             Self::OpeningCap { bone, triangles } => {
                 let [a, b] = bone.joints;
-                let named: Vec<String> = triangles.iter().take(8).map(u32::to_string).collect();
-                let dots = if triangles.len() > named.len() { ", ..." } else { "" };
                 write!(
                     f,
-                    "garment: the bone between joints {a} and {b} leaves it through a cap, triangles {}{dots} ({} in all), taken \
+                    "garment: the bone between joints {a} and {b} leaves it through a cap, triangles {} ({} in all), taken \
                      for an opening: left out while it is fitted, carried along with the rim, and not verified, for the body \
                      passes through; delete them in the result, or set keep_caps to refuse them",
-                    named.join(", "),
+                    ranges(triangles),
                     triangles.len()
                 )
             }

@@ -111,6 +111,27 @@ pub(super) fn axes(system: &CoordinateSystem) -> String {
     format!("right {}, up {}, forward {}", system.right.name(), system.up.name(), system.forward.name())
 }
 
+/// Characters for the triangles of a cap, enough for those of most; a diagnostic's message has room for so many.
+const RANGES: usize = 120;
+
+/// Indices, ascending: "0-57, 110-131, 140".
+pub(super) fn ranges(indices: &[u32]) -> String {
+    let mut text = String::new();
+    for run in indices.chunk_by(|a, b| *b == a + 1) {
+        let more = match run {
+            [first, .., last] => format!("{first}-{last}"),
+            [only] => only.to_string(),
+            [] => continue,
+        };
+        if text.len() + more.len() > RANGES {
+            return text + ", ...";
+        }
+        text += if text.is_empty() { "" } else { ", " };
+        text += &more;
+    }
+    text
+}
+
 /// "a", "a and b", "a, b and c".
 pub(super) fn listed(words: &[&str]) -> String {
     match words {

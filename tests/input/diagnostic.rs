@@ -199,9 +199,9 @@ fn every_sentence_is_made_of_its_data() {
         ),
         (
             Diagnostic::OpeningCap { bone: BONE, triangles: (0..12).collect() },
-            "garment: the bone between joints 5 and 7 leaves it through a cap, triangles 0, 1, 2, 3, 4, 5, 6, 7, ... (12 in \
-             all), taken for an opening: left out while it is fitted, carried along with the rim, and not verified, for the \
-             body passes through; delete them in the result, or set keep_caps to refuse them"
+            "garment: the bone between joints 5 and 7 leaves it through a cap, triangles 0-11 (12 in all), taken for an \
+             opening: left out while it is fitted, carried along with the rim, and not verified, for the body passes through; \
+             delete them in the result, or set keep_caps to refuse them"
                 .into(),
         ),
         (
@@ -348,7 +348,8 @@ fn every_sentence_is_made_of_its_data() {
     ];
     for (diagnostic, sentence) in cases {
         assert_eq!(diagnostic.to_string(), sentence);
-        assert!(diagnostic.elements().len() <= 4);
+        // Of a cap all triangles are elements; the C API has room for the first.
+        assert!(diagnostic.elements().len() <= 4 || diagnostic.kind() == DiagnosticKind::OpeningCap);
         // Of many, the last says how many more there are, and nothing else.
         let more = Diagnostic::More { like: Box::new(diagnostic.clone()), count: 3 };
         assert_eq!((more.kind(), more.severity()), (diagnostic.kind(), diagnostic.severity()));

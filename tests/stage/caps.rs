@@ -115,8 +115,16 @@ fn a_capped_tube_ends_like_its_opened_twin() {
             .collect();
         assert_eq!(caps_of(&session), expected);
         for diagnostic in session.diagnostics().iter().filter(|d| d.kind() == DiagnosticKind::OpeningCap) {
-            assert_eq!((diagnostic.severity(), diagnostic.elements().len()), (Severity::Warning, 4));
-            assert_eq!(diagnostic.elements()[0].kind, ElementKind::Bone);
+            assert_eq!(diagnostic.severity(), Severity::Warning);
+            let (elements, Diagnostic::OpeningCap { triangles, .. }) = (diagnostic.elements(), diagnostic) else {
+                unreachable!("its kind was asked for")
+            };
+            assert_eq!(elements[0].kind, ElementKind::Bone);
+            // All of them, in the elements and in words.
+            let named: Vec<u32> = elements[1..].iter().map(|element| element.index).collect();
+            assert_eq!(named, *triangles);
+            let words = format!("triangles {}-{} ({} in all)", named[0], named[named.len() - 1], named.len());
+            assert!(session.sentence(diagnostic).contains(&words), "{}", session.sentence(diagnostic));
         }
         let (result, other) = (session.garment_positions().unwrap(), twin.garment_positions().unwrap());
         assert_eq!(result.len(), closed.positions.len());
