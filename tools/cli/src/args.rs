@@ -163,6 +163,13 @@ pub struct Check {
     /// The garments, where their names do not say it: as for `dress`.
     #[arg(long, value_name = "NAMES")]
     pub nodes: Option<String>,
+    /// Moments of an animation too, by its name or number; without a NAME of all animations of the file.
+    #[arg(long, value_name = "NAME", num_args = 0..=1)]
+    #[allow(clippy::option_option, reason = "clap's way to say that the value may be missing")]
+    pub animation: Option<Option<String>>,
+    /// How many moments of each animation: all of its keys where it has no more, else evenly between first and last key.
+    #[arg(long, value_name = "N", default_value_t = 6, requires = "animation", value_parser = clap::value_parser!(u32).range(1..))]
+    pub moments: u32,
     /// As JSON, for programs.
     #[arg(long)]
     pub json: bool,

@@ -129,6 +129,11 @@ impl Figure {
         on_rig.get(index).unwrap_or_else(|| &self.scene.loose[index - on_rig.len()])
     }
 
+    /// All meshes, in that order.
+    pub fn instances(&self) -> impl Iterator<Item = &Instance> {
+        self.scene.characters.first().map(|c| c.meshes.as_slice()).unwrap_or_default().iter().chain(&self.scene.loose)
+    }
+
     /// The parts of one kind.
     pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Part> {
         self.parts.iter().filter(move |part| part.sorted.kind == kind)

@@ -3,7 +3,7 @@
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::CoordinateSystem;
-use bespoke::input::diagnostic::{DiagnosticKind, Severity};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Severity};
 use bespoke::input::rig::Rig;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
@@ -86,6 +86,8 @@ pub struct Fitted {
     pub skin: SkinWeights,
     /// Joints of its own that come along.
     pub added: Vec<AddedJoint>,
+    /// Triangles of caps that close openings, through which the body goes; ascending.
+    pub caps: Vec<u32>,
     /// What is not as designed, if anything.
     pub flaw: Option<String>,
     /// What the library has to say.
@@ -133,6 +135,7 @@ impl Job<'_> {
                     .collect::<bespoke::error::Result<_>>()?,
                 skin: session.garment_skin(self.influences)?,
                 added: session.added_joints()?,
+                caps: caps(&session),
                 flaw,
                 findings: findings.clone(),
                 report: session.report(),
@@ -153,6 +156,14 @@ impl Job<'_> {
             findings.push(Finding { severity: Severity::Error, kind: None, sentence: error.message });
         }
         findings
+    }
+
+    /// The triangles of the garment's caps, as they are found before it is dressed.
+    pub fn caps(&self) -> Vec<u32> {
+        let mut session = Session::new();
+        // A garment that is refused may have caps all the same.
+        let _ = self.fill(&mut session).and_then(|()| session.prepare());
+        caps(&session)
     }
 
     fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>) -> Box<Refused> {
@@ -190,6 +201,17 @@ impl Job<'_> {
         }
         session.set_joint_pairs(self.pairs.to_vec())
     }
+}
+
+fn caps(session: &Session) -> Vec<u32> {
+    let of = |diagnostic: &Diagnostic| match diagnostic {
+        Diagnostic::OpeningCap { triangles, .. } => triangles.clone(),
+        _ => Vec::new(),
+    };
+    let mut caps: Vec<u32> = session.diagnostics().iter().flat_map(of).collect();
+    caps.sort_unstable();
+    caps.dedup();
+    caps
 }
 
 fn findings(session: &Session) -> Vec<Finding> {

@@ -1,17 +1,15 @@
 //! `bespoke inspect`: what is in a file, and what will need attention.
 
-use bespoke::options::Options;
 use bespoke::rig::joint_map::JointMap;
 use bespoke::rig::reading::Reading;
-use bespoke::session::{PartRole, RenderMesh};
 use serde::Serialize;
 
 use crate::args::Inspect;
-use crate::bodies::{self, joined};
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure, Part};
-use crate::fit::{Finding, Job};
+use crate::fit::Finding;
 use crate::outfit::{self, Garment};
+use crate::own_body::on_own_body;
 use crate::parts::Role;
 use crate::report::{self, FindingLine, JointLine};
 use crate::say::in_lines;
@@ -138,31 +136,7 @@ fn part_line(figure: &Figure, part: &Part) -> PartLine {
 
 /// What the library says of a garment on its own body, before it is dressed.
 fn findings(figure: &Figure, garment: &Garment) -> Vec<Finding> {
-    if figure.rig.joints.is_empty() {
-        return Vec::new();
-    }
-    let parts = garment.parts.iter().map(|&part| &figure.parts[part]);
-    let (cloth, _) = joined(parts, figure.rig.joints.len());
-    let Some(body) = bodies::sources(figure).into_iter().next() else { return Vec::new() };
-    let roles = vec![PartRole::Automatic; body.mesh.triangles.len()];
-    let job = Job {
-        name: &garment.name,
-        garment: &cloth,
-        drawn: &RenderMesh::default(),
-        morphs: &[],
-        has_skin: true,
-        source: Some(&body),
-        source_rig: &figure.rig,
-        avatar: &body,
-        roles: &roles,
-        target_rig: &figure.rig,
-        layers: &[],
-        pairs: &[],
-        influences: 4,
-        options: &Options::default(),
-        quiet: true,
-    };
-    job.look()
+    on_own_body(figure, garment, |job| job.look()).unwrap_or_default()
 }
 
 fn in_words(inspected: &Inspected) -> String {

@@ -8,6 +8,7 @@ use glam::{DAffine3, DMat4, DVec3};
 use serde_json::{Value, json};
 
 use crate::args::{Dress, Keep};
+use crate::caps;
 use crate::dress::Dressed;
 use crate::failure::{Failure, Result};
 use crate::figure::{Figure, Part};
@@ -168,6 +169,7 @@ impl Garments<'_> {
         // Primitives with the same vertices share their attributes, here as in the outfit's file.
         let mut shared: HashMap<usize, Attributes> = HashMap::new();
         let mut primitives = Vec::new();
+        let mut triangle = 0;
         for part in &parts {
             let range = part.primitive.vertices.clone();
             let attributes = match shared.get(&range.start) {
@@ -195,6 +197,10 @@ impl Garments<'_> {
             if let Some(extras) = source.get("extras") {
                 primitive["extras"] = extras.clone();
             }
+            let last = triangle + part.triangles.len() as u32;
+            let caps = dressed.fitted.caps.iter().filter(|t| (triangle..last).contains(t)).map(|t| t - triangle);
+            caps::write(&mut primitive, caps.collect());
+            triangle = last;
             primitives.push(primitive);
         }
         let mut mesh = json!({ "name": dressed.garment.name, "primitives": primitives });

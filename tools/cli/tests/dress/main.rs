@@ -1,5 +1,6 @@
 //! The program on files.
 
+mod animated;
 mod batch;
 mod files;
 mod judges;
