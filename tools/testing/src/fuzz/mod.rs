@@ -1,12 +1,13 @@
-//! Bytes become programs for the C API: what the fuzz targets run, and what `tests/fuzz_corpus` runs without a fuzzer.
+//! Bytes become programs for the C API, and files: what the fuzz targets run, and what `tests/fuzz_corpus` runs without a fuzzer.
 //!
-//! Each of the three functions takes any bytes and panics where the library breaks a promise. They use the library
-//! as a C program does; only the judge of the results is called as Rust.
+//! Each of the functions takes any bytes and panics where the library breaks a promise. They use the library as a C program
+//! does; only the judge of the results, and the reader of files, is called as Rust.
 
 mod array;
 mod buffers;
 mod caller;
 mod calls;
+mod files;
 mod follow;
 mod key_poses;
 mod meshes;
@@ -30,3 +31,11 @@ pub fn buffers(bytes: &[u8]) {
 pub fn meshes(bytes: &[u8]) -> bool {
     meshes::run(bytes)
 }
+
+/// A glTF, GLB or VRM file that is read, posed, written and read again; as it is, and with true lengths in its header. How often
+/// it was whole.
+pub fn files(bytes: &[u8]) -> usize {
+    files::run(bytes)
+}
+
+pub use files::whole as file;
