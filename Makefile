@@ -5,6 +5,7 @@
 #             makes the paper's figures
 # make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
 # make wardrobe  dresses the pairs in WARDROBE, folders as in ../shared/rigs/ready: build/wardrobe/sheet.png, wardrobe.md
+# make moments  six moments of dressed, animated files: build/moments/moments.png; MOMENTS='dressed.glb Walking_A' says which
 # make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
 #             removes them again. docs/packaging.md says what goes where. OpenVDB is inside the library, as in the folder
 #             to ship, where its sources can be had; make install OPENVDB=system takes the system's
@@ -232,6 +233,12 @@ wardrobe: painter
 		--out build/wardrobe; ended=$$?; [ $$ended -le 1 ] || exit $$ended; \
 	$(RENDER) build/wardrobe/sheet.json build/wardrobe/sheet.png && exit $$ended
 
+# MOMENTS: files that `bespoke dress` has written, each with the name of an animation in it.
+.PHONY: moments
+moments: painter
+	cargo run --release -p gallery --bin moments -- $(MOMENTS) --out build/moments
+	$(RENDER) build/moments/moments.json build/moments/moments.png
+
 .PHONY: figures
 figures: painter
 	cargo run --release -p figures -- --out build/gallery/figures $(FIGURES); ended=$$?; \
@@ -264,6 +271,7 @@ lint: dependencies
 .PHONY: test
 test: dependencies
 	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
+	sh .ci/dependencies node npm || true
 	$(if $(SHIPS),sh .ci/dependencies $(MINGW) wine || true)
 	$(MAKE) python-environment
 	$(if $(SHIPS),$(MAKE) dist host-tbb tested-windows & shipped=$$!,shipped=); \
@@ -271,6 +279,8 @@ test: dependencies
 	[ $$built -eq 0 ] || { kill $$shipped 2>/dev/null; exit $$built; }; wait $$shipped
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
 	$(MAKE) godot-environment
+	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/blender/environment.sh $(BLENDER) $(BPY) || [ $$? -eq 3 ])
+	[ ! -d $(BLENDER) ] || export BESPOKE_BLENDER=$(CURDIR)/$(BLENDER)/bin/python; \
 	[ ! -d $(WINDOWS) ] || export BESPOKE_WINDOWS=$(CURDIR)/$(WINDOWS); BESPOKE_RETARGET=$(CURDIR)/build/retarget \
 		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
 	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
@@ -293,13 +303,13 @@ sanitize: dependencies
 # What is found new goes to build/fuzz, and what fails to tests/fuzz/artifacts. A nightly build of its own, so the first
 # run takes minutes longer.
 FUZZ_SECONDS = 60
-FUZZ_TARGETS = calls buffers meshes
+FUZZ_TARGETS = calls buffers meshes files
 .PHONY: fuzz
 fuzz: dependencies
 	for target in $(FUZZ_TARGETS); do \
 		mkdir -p build/fuzz/$$target && \
 		cargo +nightly fuzz run --fuzz-dir tests/fuzz $$target build/fuzz/$$target tests/fuzz/corpus/$$target -- \
-			-max_total_time=$(FUZZ_SECONDS) -max_len=600 -timeout=120 -rss_limit_mb=4096 || exit 1; \
+			-max_total_time=$(FUZZ_SECONDS) -max_len=$$([ $$target = files ] && echo 4096 || echo 600) -timeout=120 -rss_limit_mb=4096 || exit 1; \
 	done
 
 .PHONY: pairs
