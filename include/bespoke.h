@@ -14,6 +14,8 @@
 //   else bespoke_session_last_message(session, message, sizeof message, NULL);
 //   bespoke_session_destroy(session);
 //
+// Sessions that have a body or a garment in common may share it: bespoke_avatar_create, bespoke_garment_create.
+//
 // Optional before it runs: the coordinate systems of both sides, the source avatar, skin weights, fit weights, pins,
 // rigid groups, layers, options. The stages are prepare (the avatar is shrunk onto the source skeleton, inside the
 // garment), inflate (it grows to its full size, and the garment gives way), fit (the garment is drawn to the avatar)
@@ -45,7 +47,7 @@
 //   that runs many sessions at once gives each of them one. Where the system starts fewer threads, a session works with
 //   those, to the same bits; without any, prepare returns NO_THREAD, and may be called again. The calling thread waits
 //   meanwhile, and needs 64 KiB of stack.
-// Process.  Sessions share nothing but code: several plugins may use the library in one process, or bring a copy each.
+// Process.  Sessions share nothing but code, and what they are told to share: several plugins may use the library in one process, or bring a copy each.
 //   Signals, locale, environment, standard streams and allocator of the host are not touched; the floating-point mode
 //   of the calling thread (rounding, flushing of subnormal numbers, traps) is the default during a call and is restored
 //   after it. Loading the library starts no thread, and none is left when all sessions are destroyed; but one that was
@@ -53,8 +55,8 @@
 //   that stay, and ends the process where it cannot. Once loaded, the library stays until the process ends: dlclose is
 //   safe after all sessions are destroyed, and the library can be opened again.
 // Fork.  Not supported: a process that was forked cannot use the sessions of its parent (INVALID_STATE, and they stay
-//   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read and controls
-//   are harmless there.
+//   undestroyed) and must make none where the parent made some, unless it calls exec. Progress can be read, and
+//   controls and the destroy functions of avatars and garments are harmless there.
 
 
 #ifndef BESPOKE_H
@@ -508,8 +510,14 @@ typedef uint32_t BespokeJointReason;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// A body to dress, for many sessions. Opaque.
+typedef struct BespokeAvatar BespokeAvatar;
+
 /// Cancellation and progress of one session; a handle of its own that may outlive the session. Opaque.
 typedef struct BespokeControl BespokeControl;
+
+/// A garment to fit, for many sessions. Opaque.
+typedef struct BespokeGarment BespokeGarment;
 
 /// The fitting of one garment to one avatar. Opaque.
 typedef struct BespokeSession BespokeSession;
@@ -1343,6 +1351,54 @@ BespokeStatus bespoke_session_read_follower_skin_influences(const struct Bespoke
                                                             float *weights,
                                                             size_t vertices,
                                                             size_t *joint_count);
+
+/// Makes an avatar that many sessions use: of all that was set of the target in `session`, which are mesh, skeleton or rig, skin
+/// weights, parts, layers, morphs and coordinate system. What such sessions need of it alone, above all the distance field, is
+/// computed by the first of them and taken by the others, at once in any threads.
+///
+/// A session with it gives the same bits as one in which all was set anew. With the option memory_limit each session counts what
+/// it shares as if it were its own. `session` itself shares it only once bespoke_session_use_avatar says so.
+///
+/// `*avatar`: where the handle goes; null where it fails. Ownership: the caller destroys it with bespoke_avatar_destroy; nothing is copied.
+/// State: any, with the target avatar set. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_avatar_create(const struct BespokeSession *session,
+                                    struct BespokeAvatar **avatar);
+
+/// Dresses this avatar: it takes the place of all that was set of a target. What is set of the target afterwards holds for this
+/// session alone, and another target avatar ends the sharing. A session keeps what it uses, also after bespoke_session_reset.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time; the avatar may be used by
+/// other sessions meanwhile.
+BespokeStatus bespoke_session_use_avatar(struct BespokeSession *session,
+                                         const struct BespokeAvatar *avatar);
+
+/// Frees an avatar. Sessions that use it go on, and what they share is freed with the last of them. A null avatar is fine.
+///
+/// Threads: any; no other call with this avatar may run or begin.
+void bespoke_avatar_destroy(struct BespokeAvatar *avatar);
+
+/// Makes a garment that many sessions use, as bespoke_avatar_create does an avatar: of all that was set of the garment in
+/// `session`, which are mesh, source skeleton or rig, source avatar and the skin weights of both, fit weights, pins, rigid groups, curves,
+/// morphs, followers and the source coordinate system. It is checked and welded once, and the body that it was made for is looked at
+/// once; most of the work depends on the avatar, too, so less is saved than with a shared avatar.
+///
+/// `*garment`: where the handle goes; null where it fails. Ownership: the caller destroys it with bespoke_garment_destroy; nothing
+/// is copied. State: any, with the garment set. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_garment_create(const struct BespokeSession *session,
+                                     struct BespokeGarment **garment);
+
+/// Fits this garment: it takes the place of all that was set of a garment and its source. What is set of them afterwards holds for
+/// this session alone, and another garment ends the sharing. A session keeps what it uses, also after bespoke_session_reset.
+///
+/// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time; the garment may be used by
+/// other sessions meanwhile.
+BespokeStatus bespoke_session_use_garment(struct BespokeSession *session,
+                                          const struct BespokeGarment *garment);
+
+/// Frees a garment. Sessions that use it go on, and what they share is freed with the last of them. A null garment is fine.
+///
+/// Threads: any; no other call with this garment may run or begin.
+void bespoke_garment_destroy(struct BespokeGarment *garment);
 
 /// Replaces all options by these.
 ///

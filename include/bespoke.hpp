@@ -1167,6 +1167,58 @@ private:
     std::unique_ptr<BespokeControl, Destroy> handle_;
 };
 
+/// A body to dress that many sessions use, from Session::create_avatar: sessions keep what they use, so it may be destroyed at any time. It can be moved, not copied.
+class Avatar {
+public:
+    /// Empty.
+    Avatar() = default;
+
+    /// Takes over a handle from bespoke_avatar_create; null is empty.
+    explicit Avatar(BespokeAvatar *handle) noexcept : handle_(handle) {}
+
+    /// Whether there is one in it.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// The handle for the C API, which stays this object's; null where it is empty.
+    const BespokeAvatar *get() const noexcept { return handle_.get(); }
+
+    /// Hands the handle over to the caller, to be given to bespoke_avatar_destroy, and is empty.
+    [[nodiscard]] BespokeAvatar *release() noexcept { return handle_.release(); }
+
+private:
+    struct Destroy {
+        void operator()(BespokeAvatar *handle) const noexcept { bespoke_avatar_destroy(handle); }
+    };
+
+    std::unique_ptr<BespokeAvatar, Destroy> handle_;
+};
+
+/// A garment to fit that many sessions use, from Session::create_garment: sessions keep what they use, so it may be destroyed at any time. It can be moved, not copied.
+class Garment {
+public:
+    /// Empty.
+    Garment() = default;
+
+    /// Takes over a handle from bespoke_garment_create; null is empty.
+    explicit Garment(BespokeGarment *handle) noexcept : handle_(handle) {}
+
+    /// Whether there is one in it.
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+
+    /// The handle for the C API, which stays this object's; null where it is empty.
+    const BespokeGarment *get() const noexcept { return handle_.get(); }
+
+    /// Hands the handle over to the caller, to be given to bespoke_garment_destroy, and is empty.
+    [[nodiscard]] BespokeGarment *release() noexcept { return handle_.release(); }
+
+private:
+    struct Destroy {
+        void operator()(BespokeGarment *handle) const noexcept { bespoke_garment_destroy(handle); }
+    };
+
+    std::unique_ptr<BespokeGarment, Destroy> handle_;
+};
+
 namespace detail {
 
 /// The state that sources and tokens of one request to stop share: the request, and the sessions that run with it.
@@ -1724,6 +1776,33 @@ public:
         if (!made) return made.error();
         return Control(control);
     }
+
+    // ---- What is shared
+
+    /// The target as it was set so far, for other sessions: bespoke_avatar_create. Errors: INVALID_STATE without a target avatar.
+    Result<Avatar> create_avatar() const {
+        if (!handle_) return detail::empty_handle("session");
+        BespokeAvatar *avatar = nullptr;
+        const BespokeStatus status = bespoke_avatar_create(handle_.get(), &avatar);
+        if (status != BESPOKE_STATUS_OK) return failure(handle_.get(), status);
+        return Avatar(avatar);
+    }
+
+    /// The garment and all that was set of it so far, for other sessions: bespoke_garment_create. Errors: INVALID_STATE without a
+    /// garment.
+    Result<Garment> create_garment() const {
+        if (!handle_) return detail::empty_handle("session");
+        BespokeGarment *garment = nullptr;
+        const BespokeStatus status = bespoke_garment_create(handle_.get(), &garment);
+        if (status != BESPOKE_STATUS_OK) return failure(handle_.get(), status);
+        return Garment(garment);
+    }
+
+    /// Dresses a shared avatar, in place of all that was set of a target. Errors: INVALID_ARGUMENT (empty).
+    Result<void> use_avatar(const Avatar &avatar) { return call(bespoke_session_use_avatar, avatar.get()); }
+
+    /// Fits a shared garment, in place of all that was set of a garment and its source. Errors: INVALID_ARGUMENT (empty).
+    Result<void> use_garment(const Garment &garment) { return call(bespoke_session_use_garment, garment.get()); }
 
     // ---- Results
 

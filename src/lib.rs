@@ -21,6 +21,7 @@ pub mod follow;
 pub mod geometry;
 pub mod input;
 pub mod maths;
+pub mod memo;
 pub mod memory;
 pub mod options;
 mod panics;

@@ -29,6 +29,8 @@ pub mod morphs;
 
 pub mod followers;
 
+pub mod shared;
+
 pub mod options;
 
 pub mod running;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::fault::Fault;
+use super::shared::Shared;
 use crate::control::Cancel;
 use crate::panics::PanicLog;
 
@@ -15,4 +16,6 @@ pub(super) struct Context {
     pub(super) panics: Arc<PanicLog>,
     /// Where it is to panic, in tests.
     pub(super) fault: Option<Fault>,
+    /// What is known from other sessions.
+    pub(super) shared: Shared,
 }

@@ -11,7 +11,7 @@ use super::other_pose::OwnPose;
 use super::reposing::Reposing;
 use super::run::{Run, Step};
 use crate::error::Result;
-use crate::sdf::{Field, FieldOptions};
+use crate::sdf::FieldOptions;
 use crate::solver::newton::{Model, Newton, State};
 use crate::stage::attempts::Attempts;
 use crate::stage::inflate::Inflation;
@@ -29,7 +29,7 @@ impl Run {
         }
         if !problem.carried.is_empty() {
             let options = FieldOptions { voxel: self.options.voxel_size, threads: self.report.threads as u32 };
-            problem.settle_carried(&Field::build(&problem.fitted, options, &stop)?);
+            problem.settle_carried(&*self.context.shared.field(&problem.fitted, options, &stop)?);
         }
         stop.check()?;
         let iterations = self.iterations();

@@ -23,7 +23,7 @@ pub(super) struct FieldTask {
 }
 
 /// The field, and the seconds that it took.
-type Built = Result<(Field, f64)>;
+type Built = Result<(Arc<Field>, f64)>;
 
 enum Work {
     UnderWay(JoinHandle<Built>),
@@ -34,11 +34,12 @@ impl FieldTask {
     /// Begins to build the field with so many threads, where that is more than one.
     pub(super) fn start(avatar: Arc<TriangleMesh>, voxel: f64, threads: usize, context: &Context) -> Self {
         let (stop, panics, fault) = (context.stop.clone(), context.panics.clone(), context.fault);
+        let shared = context.shared.clone();
         let cancel = stop.clone();
         let build = move || {
             Fault::Field.at(fault);
             let clock = Instant::now();
-            let field = Field::build(&avatar, FieldOptions { voxel, threads: threads as u32 }, &cancel)?;
+            let field = shared.field(&avatar, FieldOptions { voxel, threads: threads as u32 }, &cancel)?;
             Ok((field, clock.elapsed().as_secs_f64()))
         };
         let later = Box::new(build.clone());

@@ -6,6 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::rig_inputs::{Rigs, Skeletons};
+use super::shared::Shared;
 use super::way::Way;
 use super::{Session, Stage};
 use crate::control::Cancel;
@@ -27,7 +28,7 @@ use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as ProblemInputs, Problem};
 use crate::stage::start::foreign_parts;
-use crate::stage::start::joints::{self, Figure, Misplaced};
+use crate::stage::start::joints::{self, Misplaced};
 
 /// A garment vertex that is held in a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +65,7 @@ pub(super) struct Inputs {
     pub(super) source_coordinate_system: CoordinateSystem,
     pub(super) target_coordinate_system: CoordinateSystem,
     pub(super) options: Options,
+    pub(super) shared: Shared,
 }
 
 /// What does not depend on how the target stands, in the internal coordinate system.
@@ -138,6 +140,7 @@ impl Session {
         self.setting("the garment")?;
         mesh.check("garment")?;
         self.inputs.garment = Some((Arc::new(mesh), precision));
+        self.inputs.shared.forget_garment();
         Ok(())
     }
 
@@ -166,6 +169,7 @@ impl Session {
         self.setting("the target avatar")?;
         mesh.check("target avatar")?;
         self.inputs.avatar = Some(Arc::new(mesh));
+        self.inputs.shared.forget_avatar();
         Ok(())
     }
 
@@ -365,12 +369,12 @@ impl Inputs {
         self.check_wishes()?;
         self.check_garment_morphs(garment.positions.len())?;
         self.check_target_morphs(avatar.positions.len())?;
-        let (weld, found) = Weld::closing_seams(garment, self.options.weld_distance);
+        let (weld, found) = self.shared.weld(garment, self.options.weld_distance, cancel)?;
         diagnostics.extend(found);
         cancel.check()?;
         let design = Design {
             garment: mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
-            weld: Arc::new(weld),
+            weld,
             skeleton: skeleton_to_internal(&self.source_coordinate_system, &source),
             source_avatar: self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m)),
             skin,
@@ -456,7 +460,7 @@ impl Inputs {
         let mut target = skeleton_to_internal(&target_system, target);
         let mut source = skeleton.clone();
         let bodies = [Some(&posed_body.avatar()), source_avatar.as_ref()];
-        let misplaced = misplaced_joints([&target, &source], bodies, garment);
+        let misplaced = self.misplaced_joints([&target, &source], bodies, garment, cancel)?;
         cancel.check()?;
         let mends = !self.options.strict;
         diagnostics.extend(misplaced.iter().map(|joint| match joint.skeleton {
@@ -482,12 +486,26 @@ impl Inputs {
                 offset: target_system.metres_per_unit * self.options.offset,
                 weld: weld.clone(),
                 coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),
+                known_intersections: self.shared.intersections(),
             },
             &self.options,
             cancel,
             diagnostics,
         )?;
         Ok(Setting { problem, body, system: target_system, turn })
+    }
+
+    /// The joints of the target and of the source skeleton that do not lie where the bodies want them.
+    fn misplaced_joints(
+        &self,
+        [target, source]: [&Skeleton; 2],
+        [avatar, worn_by]: [Option<&TriangleMesh>; 2],
+        garment: &TriangleMesh,
+        cancel: &Cancel,
+    ) -> Result<Vec<Misplaced>> {
+        let target = self.shared.figure(Subject::TargetSkeleton, target, avatar, cancel)?;
+        let source = self.shared.figure(Subject::SourceSkeleton, source, worn_by, cancel)?;
+        Ok(target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(target, source, garment)))
     }
 
     /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what
@@ -519,17 +537,6 @@ impl Inputs {
         }
         Ok(roles)
     }
-}
-
-/// The joints of the target and of the source skeleton that do not lie where the bodies want them.
-fn misplaced_joints(
-    [target, source]: [&Skeleton; 2],
-    [avatar, worn_by]: [Option<&TriangleMesh>; 2],
-    garment: &TriangleMesh,
-) -> Vec<Misplaced> {
-    let target = Figure::new(Subject::TargetSkeleton, target, avatar);
-    let source = Figure::new(Subject::SourceSkeleton, source, worn_by);
-    target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(target, source, garment))
 }
 
 pub(super) fn mesh_to_internal(system: &CoordinateSystem, mesh: &TriangleMesh) -> TriangleMesh {

@@ -1,6 +1,5 @@
 //! REPOSE in a run: the problem in the source's pose is left for that in the target's own, piece by piece.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
@@ -10,7 +9,7 @@ use super::run::{Run, Step};
 use crate::contact::Configuration;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
-use crate::sdf::{Field, FieldOptions};
+use crate::sdf::FieldOptions;
 use crate::solver::newton::{Model, Newton, State};
 use crate::stage::repose::Repose;
 use crate::verify::intersections_with_cancel;
@@ -102,8 +101,8 @@ impl Run {
         self.objective = objective;
         let options = FieldOptions { voxel: self.options.voxel_size, threads: self.report.threads as u32 };
         let clock = Instant::now();
-        let field = Field::build(&self.problem.fitted, options, stop)?;
-        self.distance = Some((Arc::new(field), clock.elapsed().as_secs_f64()));
+        let field = self.context.shared.field(&self.problem.fitted, options, stop)?;
+        self.distance = Some((field, clock.elapsed().as_secs_f64()));
         Ok(())
     }
 

@@ -120,7 +120,7 @@ impl Run {
             } else {
                 problem.settle_carried(&built);
             }
-            distance = Some((Arc::new(built), seconds));
+            distance = Some((built, seconds));
         }
         let own_memory = own.as_ref().map_or(0, |(own, _)| own.problem.memory());
         let state = State { x: problem.initial_state(false).0.to_vec(), t: 0.0 };
@@ -338,8 +338,7 @@ impl Run {
         let options = &self.options;
         let clock = Instant::now();
         if self.distance.is_none() {
-            let (field, seconds) = self.field.wait()?;
-            self.distance = Some((Arc::new(field), seconds));
+            self.distance = Some(self.field.wait()?);
         }
         let Some((field, seconds)) = self.distance.clone() else { return Ok(()) };
         self.report.field_seconds = seconds;

@@ -22,6 +22,7 @@ fn generated() -> String {
         "avatar_parts",
         "morphs",
         "followers",
+        "shared",
         "options",
         "running",
         "control",

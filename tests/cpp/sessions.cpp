@@ -10,6 +10,8 @@ using namespace bespoke;
 
 static_assert(!std::is_copy_constructible_v<Session> && !std::is_copy_assignable_v<Session>);
 static_assert(!std::is_copy_constructible_v<Control> && !std::is_copy_assignable_v<Control>);
+static_assert(!std::is_copy_constructible_v<Avatar> && !std::is_copy_constructible_v<Garment>);
+static_assert(std::is_nothrow_move_constructible_v<Avatar> && std::is_nothrow_move_constructible_v<Garment>);
 static_assert(std::is_nothrow_move_constructible_v<Session> && std::is_nothrow_move_assignable_v<Session>);
 static_assert(std::is_nothrow_move_constructible_v<Control> && std::is_nothrow_move_assignable_v<Control>);
 static_assert(!std::is_convertible_v<BespokeSession *, Session> && !std::is_convertible_v<Session, bool>);
@@ -62,6 +64,10 @@ void empty(Session &session) {
     refused(session.cancel());
     refused(session.read_progress());
     refused(session.create_control());
+    refused(session.create_avatar());
+    refused(session.create_garment());
+    refused(session.use_avatar(Avatar()));
+    refused(session.use_garment(Garment()));
     std::vector<float> room(12);
     refused(session.read_garment_vertices(room));
     refused(session.read_garment_vertices());
@@ -308,6 +314,37 @@ void several_threads() {
     CHECK(same_bits(session.read_garment_vertices().value(), expected));
 }
 
+/// Two sessions over one body and one garment, whose owners are gone before these run.
+void shared() {
+    const Scene scene;
+    const auto expected = by_c(scene);
+    Session from = session_with(scene);
+    Avatar avatar = from.create_avatar().value();
+    Garment garment = from.create_garment().value();
+    CHECK(avatar && avatar.get() != nullptr && garment && garment.get() != nullptr);
+    ACCEPTED(from.destroy());
+    std::array<Session, 2> sessions;
+    for (Session &session : sessions) {
+        session = Session::create().value();
+        REFUSED(session.create_avatar(), Status::invalid_state, "set_target_avatar");
+        REFUSED(session.create_garment(), Status::invalid_state, "set_garment");
+        REFUSED(session.use_avatar(Avatar()), Status::invalid_argument, "null");
+        REFUSED(session.use_garment(Garment()), Status::invalid_argument, "null");
+        ACCEPTED(session.set_options(coarse_options()));
+        ACCEPTED(session.use_avatar(avatar));
+        ACCEPTED(session.use_garment(garment));
+    }
+    Avatar taken = std::move(avatar);
+    CHECK(!avatar && avatar.get() == nullptr);
+    bespoke_avatar_destroy(taken.release());
+    bespoke_garment_destroy(garment.release());
+    std::thread other([&] { ACCEPTED(sessions[0].run()); });
+    ACCEPTED(sessions[1].run());
+    other.join();
+    for (Session &session : sessions) CHECK(same_bits(session.read_garment_vertices().value(), expected));
+    REFUSED(sessions[0].use_avatar(Avatar(nullptr)), Status::invalid_argument, "null");
+}
+
 /// While a C function is inside of a session: others are busy, and a destructor takes nothing away.
 void busy() {
     Scene scene;
@@ -339,5 +376,6 @@ void sessions() {
     what_is_read();
     diagnostics();
     several_threads();
+    shared();
     busy();
 }

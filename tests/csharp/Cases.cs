@@ -28,6 +28,7 @@ internal static class Cases
         { "control_outlives_session", folder => Lifetime.ControlOutlives() },
         { "finalisers", folder => Lifetime.Finalisers() },
         { "threads", folder => Lifetime.Threads() },
+        { "shared", folder => Lifetime.Shared() },
         { "other_interface", folder => Errors.OtherInterface() },
         { "no_library", folder => Errors.NoLibrary() },
     };

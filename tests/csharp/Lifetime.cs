@@ -143,4 +143,43 @@ internal static class Lifetime
             Check.SameBits(other, found[0], "in another thread");
         }
     }
+
+    // Many sessions over one body and one garment, whose owners are gone before these run.
+    public static void Shared()
+    {
+        Inputs inputs = Inputs.Tube();
+        float[] expected;
+        SharedAvatar avatar;
+        SharedGarment garment;
+        using (Session from = inputs.Session())
+        {
+            avatar = from.ShareAvatar();
+            garment = from.ShareGarment();
+            from.Run();
+            expected = from.ReadGarmentVertices();
+            Check.Throws<BespokeException>(() => from.UseAvatar(avatar));
+        }
+        Session[] sessions = Enumerable.Range(0, 6).Select(k => new Session()).ToArray();
+        Check.Throws<BespokeException>(() => sessions[0].ShareAvatar());
+        Check.Throws<BespokeException>(() => sessions[0].ShareGarment());
+        Check.Throws<ArgumentNullException>(() => sessions[0].UseAvatar(null));
+        Check.Throws<ArgumentNullException>(() => sessions[0].UseGarment(null));
+        foreach (Session session in sessions)
+        {
+            session.SetOptions(new Options { Threads = 1 });
+            session.UseAvatar(avatar);
+            session.UseGarment(garment);
+        }
+        avatar.Dispose();
+        avatar.Dispose();
+        garment.Dispose();
+        Check.Throws<ObjectDisposedException>(() => sessions[0].UseAvatar(avatar));
+        Check.Throws<ObjectDisposedException>(() => sessions[0].UseGarment(garment));
+        Parallel.ForEach(sessions, session =>
+        {
+            session.Run();
+            Check.SameBits(session.ReadGarmentVertices(), expected, "of a shared avatar and garment");
+            session.Dispose();
+        });
+    }
 }

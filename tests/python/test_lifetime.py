@@ -35,6 +35,39 @@ def threads_of_this_process() -> int:
     return len(os.listdir("/proc/self/task"))
 
 
+class Shared(scenes.Case):
+    def test_many_sessions_over_one_avatar_and_one_garment(self) -> None:
+        with scenes.tubes().session() as source:
+            avatar, garment = bespoke.Avatar(source), bespoke.Garment(source)
+            source.run()
+            expected = source.read_garment_vertices()
+            with self.assertRaises(bespoke.BespokeError):
+                source.use_avatar(avatar)
+        sessions = [bespoke.Session(threads=1) for _ in range(6)]
+        for make in (bespoke.Avatar, bespoke.Garment):
+            with self.assertRaisesRegex(bespoke.BespokeError, "to share"):
+                make(sessions[0])
+        for session in sessions:
+            session.use_avatar(avatar)
+            session.use_garment(garment)
+        avatar.close()
+        avatar.close()
+        del garment
+        gc.collect()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            sessions[0].use_avatar(avatar)
+        threads = [threading.Thread(target=session.run) for session in sessions]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for session in sessions:
+            result = session.read_garment_vertices()
+            self.assertEqual(result.dtype, expected.dtype)
+            self.same_bits(result, expected)
+            session.close()
+
+
 class Lifetime(scenes.Case):
     def test_close(self) -> None:
         session = scenes.tubes().session()

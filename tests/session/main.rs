@@ -23,6 +23,7 @@ mod plausibility;
 mod profile;
 mod refit;
 mod rigs;
+mod shared;
 mod shell_rims;
 mod shifted;
 mod small;

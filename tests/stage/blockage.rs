@@ -96,6 +96,7 @@ impl Case {
             curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
+            known_intersections: None,
         };
         let options = Options::default();
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new()).unwrap();

@@ -66,4 +66,60 @@ namespace Bespoke
             return true;
         }
     }
+
+    internal sealed unsafe class AvatarHandle : SafeHandle
+    {
+        private AvatarHandle() : base(IntPtr.Zero, true)
+        {
+        }
+
+        public override bool IsInvalid
+        {
+            get { return handle == IntPtr.Zero; }
+        }
+
+        /// <summary>Of what was set in a session, which says itself why that failed.</summary>
+        internal static AvatarHandle Create(SessionHandle session, out Status status)
+        {
+            AvatarHandle owner = new AvatarHandle();
+            IntPtr made = IntPtr.Zero;
+            status = Native.bespoke_avatar_create(session, &made);
+            owner.SetHandle(made);
+            return owner;
+        }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.bespoke_avatar_destroy(handle);
+            return true;
+        }
+    }
+
+    internal sealed unsafe class GarmentHandle : SafeHandle
+    {
+        private GarmentHandle() : base(IntPtr.Zero, true)
+        {
+        }
+
+        public override bool IsInvalid
+        {
+            get { return handle == IntPtr.Zero; }
+        }
+
+        /// <summary>Of what was set in a session, which says itself why that failed.</summary>
+        internal static GarmentHandle Create(SessionHandle session, out Status status)
+        {
+            GarmentHandle owner = new GarmentHandle();
+            IntPtr made = IntPtr.Zero;
+            status = Native.bespoke_garment_create(session, &made);
+            owner.SetHandle(made);
+            return owner;
+        }
+
+        protected override bool ReleaseHandle()
+        {
+            Native.bespoke_garment_destroy(handle);
+            return true;
+        }
+    }
 }

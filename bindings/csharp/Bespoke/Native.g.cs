@@ -192,6 +192,24 @@ namespace Bespoke
             SessionHandle session, uint follower, UIntPtr influences, uint* joints, float* weights, UIntPtr vertices, UIntPtr* jointCount);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_avatar_create(SessionHandle session, IntPtr* avatar);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_use_avatar(SessionHandle session, AvatarHandle avatar);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern void bespoke_avatar_destroy(IntPtr avatar);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_garment_create(SessionHandle session, IntPtr* garment);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_use_garment(SessionHandle session, GarmentHandle garment);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern void bespoke_garment_destroy(IntPtr garment);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_set_options(SessionHandle session, NativeOptions* options);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]

@@ -126,7 +126,17 @@ pub const BESPOKE_JOINT_REASON_SAME_NAME: u32 = 5;
 pub const BESPOKE_JOINT_REASON_ANCESTOR: u32 = 6;
 
 #[repr(C)]
+pub struct BespokeAvatar {
+    _opaque: [u8; 0],
+}
+
+#[repr(C)]
 pub struct BespokeControl {
+    _opaque: [u8; 0],
+}
+
+#[repr(C)]
+pub struct BespokeGarment {
     _opaque: [u8; 0],
 }
 
@@ -734,6 +744,12 @@ unsafe extern "C" {
         vertices: usize,
         joint_count: *mut usize,
     ) -> u32;
+    pub fn bespoke_avatar_create(session: *const BespokeSession, avatar: *mut *mut BespokeAvatar) -> u32;
+    pub fn bespoke_session_use_avatar(session: *mut BespokeSession, avatar: *const BespokeAvatar) -> u32;
+    pub fn bespoke_avatar_destroy(avatar: *mut BespokeAvatar);
+    pub fn bespoke_garment_create(session: *const BespokeSession, garment: *mut *mut BespokeGarment) -> u32;
+    pub fn bespoke_session_use_garment(session: *mut BespokeSession, garment: *const BespokeGarment) -> u32;
+    pub fn bespoke_garment_destroy(garment: *mut BespokeGarment);
     pub fn bespoke_session_set_options(session: *mut BespokeSession, options: *const BespokeOptions) -> u32;
     pub fn bespoke_options_read_defaults(options: *mut BespokeOptions) -> u32;
     pub fn bespoke_session_prepare(session: *mut BespokeSession) -> u32;

@@ -27,6 +27,7 @@ use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
+use crate::memo::{Memo, MeshBits};
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
@@ -68,7 +69,12 @@ pub struct Inputs<'a> {
     pub offset: f64,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's unit.
     pub coordinate_error: f64,
+    /// What other sessions have found of the same garment.
+    pub known_intersections: Option<&'a KnownIntersections>,
 }
+
+/// Pairs of triangles of garments as designed that intersect.
+pub type KnownIntersections = Memo<MeshBits, Vec<[u32; 2]>>;
 
 /// The problem in the normalised space.
 #[derive(Clone)]
@@ -164,7 +170,7 @@ impl Problem {
         if distances != ContactDistances::of(options) {
             diagnostics.push(Diagnostic::CoarseCoordinates { min_separation: distances.min_separation });
         }
-        let designed_intersections = intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs;
+        let designed_intersections = intersections_of(garment, inputs.known_intersections, cancel)?;
         cancel.check()?;
         let callers = &weld.triangle_of;
         let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)
@@ -359,6 +365,19 @@ impl Normalised {
         });
         garment.triangles = triangles;
         (Arc::new(weld.without(&removed)), motions)
+    }
+}
+
+/// The pairs of triangles of `garment` that intersect.
+fn intersections_of(
+    garment: &TriangleMesh,
+    known: Option<&KnownIntersections>,
+    cancel: &Cancel,
+) -> Result<Vec<[u32; 2]>> {
+    let find = || Ok(intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs);
+    match known {
+        Some(known) => Ok(known.get(MeshBits(Arc::new(garment.clone())), cancel, find)?.to_vec()),
+        None => find(),
     }
 }
 

@@ -25,6 +25,7 @@ from ._library import path as library_path
 from ._library import version as library_version
 from ._options import OptionArguments, Options
 from ._session import Session, read_default_options
+from ._shared import Avatar, Garment
 from ._values import (
     Diagnostic,
     Element,
@@ -39,6 +40,7 @@ from ._values import (
 
 __all__ = [
     "AddedJoint",
+    "Avatar",
     "Axis",
     "BespokeError",
     "CancelledError",
@@ -50,6 +52,7 @@ __all__ = [
     "Element",
     "ElementKind",
     "Energy",
+    "Garment",
     "ImplausibleResultError",
     "Intersections",
     "InvalidInputError",

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import OptionArguments
+    from ._shared import Avatar, Garment
 
 # Time between two reports: a person sees it move, and nobody is kept busy by it.
 _REPORT_MILLISECONDS = 50
@@ -111,6 +112,24 @@ class Session:
         dropped. It waits for work that a cancelled call has left. Stage: any.
         """
         self._handle.call("bespoke_session_reset")
+
+    # What is shared. It needs the stage SETUP.
+
+    def use_avatar(self, avatar: Avatar) -> None:
+        """Dresses a shared avatar, which takes the place of all that was set of a target.
+
+        What is set of the target afterwards holds for this session alone, and another target avatar ends the sharing.
+        Stage: SETUP.
+        """
+        avatar._give(self)
+
+    def use_garment(self, garment: Garment) -> None:
+        """Fits a shared garment, which takes the place of all that was set of a garment and its source.
+
+        What is set of them afterwards holds for this session alone, and another garment ends the sharing. Stage: SETUP.
+        """
+        garment._give(self)
+        self._vertices, self._triangles, self._dtype = garment._shape
 
     # What is set. All of it needs the stage SETUP.
 

@@ -1,6 +1,8 @@
 //! A body around its skeleton: what is inside of it, and where.
 
+use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,15 +25,19 @@ const COVERED: f64 = 0.95;
 /// The surface of a body.
 pub struct Flesh {
     /// Its mesh, in the space of its skeleton.
-    pub mesh: TriangleMesh,
+    pub mesh: Arc<TriangleMesh>,
     tree: ClosestPoint,
+    /// What was found out about points, by their bits: the same few are asked for again and again, and of a body that is shared
+    /// by every garment.
+    windings: Mutex<HashMap<[u64; 3], f64>>,
 }
 
 impl Flesh {
     /// The body with this surface, which may be open, pass through itself, and face either way.
-    pub fn new(mesh: TriangleMesh) -> Self {
+    pub fn new(mesh: impl Into<Arc<TriangleMesh>>) -> Self {
+        let mesh = mesh.into();
         let tree = ClosestPoint::new(&mesh);
-        Self { mesh, tree }
+        Self { mesh, tree, windings: Mutex::default() }
     }
 
     /// Distance to the surface.
@@ -51,6 +57,18 @@ impl Flesh {
 
     /// How often the surface winds around `p`, in either orientation: 1 inside, 0 outside, between them near holes.
     pub fn winding(&self, p: DVec3) -> f64 {
+        let known = || self.windings.lock().unwrap_or_else(PoisonError::into_inner);
+        let bits = p.to_array().map(f64::to_bits);
+        if let Some(&winding) = known().get(&bits) {
+            return winding;
+        }
+        // The lock is not held meanwhile: two that ask for the same at once find the same.
+        let winding = self.count_winding(p);
+        known().insert(bits, winding);
+        winding
+    }
+
+    fn count_winding(&self, p: DVec3) -> f64 {
         let angle = |t: u32| solid_angle(p, self.mesh.corners(t));
         // In pieces of fixed size, so that the sum does not depend on the number of threads.
         let triangles: Vec<u32> = (0..self.mesh.triangles.len() as u32).collect();

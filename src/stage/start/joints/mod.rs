@@ -9,6 +9,9 @@ mod neck;
 mod outside;
 mod tip;
 
+use std::convert::Infallible;
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::geometry::mesh::TriangleMesh;
@@ -74,7 +77,7 @@ pub struct Figure {
     subject: Subject,
     /// The skeleton, 2 long.
     skeleton: Skeleton,
-    flesh: Option<Flesh>,
+    flesh: Option<Arc<Flesh>>,
     graph: BoneGraph,
     /// From the skeleton's own unit.
     scale: f64,
@@ -83,12 +86,26 @@ pub struct Figure {
 impl Figure {
     /// The figure of `skeleton` with its `body`; none for a skeleton without size.
     pub fn new(subject: Subject, skeleton: &Skeleton, body: Option<&TriangleMesh>) -> Option<Self> {
+        Self::with_flesh(subject, skeleton, body, |mesh| Ok::<_, Infallible>(Arc::new(Flesh::new(mesh))))?.ok()
+    }
+
+    /// The same, and `flesh` makes that of the body's mesh, as large as the skeleton is here, or has it already.
+    ///
+    /// # Errors
+    /// That of `flesh`.
+    pub fn with_flesh<E>(
+        subject: Subject,
+        skeleton: &Skeleton,
+        body: Option<&TriangleMesh>,
+        flesh: impl FnOnce(TriangleMesh) -> Result<Arc<Flesh>, E>,
+    ) -> Option<Result<Self, E>> {
         let scale = SIDE / skeleton.longest_side("").ok()?;
         let graph = BoneGraph::new(skeleton);
         let joints = skeleton.joints.iter().map(|&p| p * scale).collect();
         let skeleton = Skeleton { joints, bones: skeleton.bones.clone() };
         let figure = Self { subject, skeleton, flesh: None, graph, scale };
-        Some(Self { flesh: body.map(|mesh| Flesh::new(figure.scaled(mesh))), ..figure })
+        let flesh = body.map(|mesh| flesh(figure.scaled(mesh))).transpose();
+        Some(flesh.map(|flesh| Self { flesh, ..figure }))
     }
 
     /// A mesh in the skeleton's own coordinates, as large as the skeleton is here.

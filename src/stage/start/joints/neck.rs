@@ -51,7 +51,7 @@ struct Neck {
 /// where that is not known.
 pub(super) fn find(figure: &Figure, other: &Figure, garment: Option<&TriangleMesh>) -> Vec<Misplaced> {
     let Some(flesh) = &figure.flesh else { return Vec::new() };
-    let Some(reference) = other.flesh.as_ref().map(|flesh| &flesh.mesh).or(garment) else { return Vec::new() };
+    let Some(reference) = other.flesh.as_ref().map(|flesh| &*flesh.mesh).or(garment) else { return Vec::new() };
     let low = |neck: Neck| {
         let (place, along) = (figure.place(neck.joint), figure.beyond(&neck)?);
         let other_along = other.beyond(&neck)?;

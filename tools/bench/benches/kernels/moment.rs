@@ -57,6 +57,7 @@ impl Moment {
             curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
+            known_intersections: None,
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;
         let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new())?;

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 /// How to call it.
 pub const USAGE: &str = "usage: cargo bench --bench pipeline -- [options]
 
-  --tables LIST   of pairs, growth, threads, refit; default all, separated by commas
   --only TEXT     pairs, refits and grown garments whose name, such as \"jumpsuit_dense Goblin\", has this in it
+  --tables LIST   of pairs, growth, threads, refit, sharing, batch; default all but batch, which needs the program
+                  bespoke; separated by commas
   --runs N        runs of each case, of which the median counts; default 3, and 1 beyond 10,000 vertices
   --threads N     threads of a session; default 2
   --tight         every pair once more, down to a tolerance of 1e-6, to compare the objectives
@@ -31,7 +32,7 @@ impl Arguments {
     /// Reads them.
     pub fn read(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
         let mut read = Self {
-            tables: ["pairs", "growth", "threads", "refit"].map(String::from).to_vec(),
+            tables: ["pairs", "growth", "threads", "refit", "sharing"].map(String::from).to_vec(),
             only: String::new(),
             runs: 3,
             threads: 2,
@@ -47,7 +48,8 @@ impl Arguments {
                 "--bench" => {}
                 "--tight" => read.tight = true,
                 "--tables" => {
-                    let known = std::mem::take(&mut read.tables);
+                    let mut known = std::mem::take(&mut read.tables);
+                    known.push("batch".into());
                     read.tables = value()?.split(',').map(String::from).collect();
                     if let Some(other) = read.tables.iter().find(|table| !known.contains(table)) {
                         return Err(format!("{other} is no table"));

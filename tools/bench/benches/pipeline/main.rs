@@ -6,14 +6,17 @@
 //! is measured in a process of its own. Prints tables; the figures go to `build/bench.json`.
 
 mod arguments;
+mod batch;
 mod case;
 mod child;
 mod closet_cases;
+mod cpu;
 mod growth;
 mod measurement;
 mod pairs;
 mod refit;
 mod scaling;
+mod sharing;
 mod summary;
 mod table;
 mod unit;
@@ -22,6 +25,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use arguments::{Arguments, USAGE};
+use batch::Batch;
 use bespoke::session::Options;
 use case::Case;
 use child::Setup;
@@ -30,6 +34,7 @@ use pairs::Pair;
 use refit::Refit;
 use scaling::Scaling;
 use serde::Serialize;
+use sharing::Sharing;
 use summary::Goal;
 
 type Failure = Box<dyn std::error::Error>;
@@ -49,6 +54,8 @@ struct Figures {
     growth: Vec<Growth>,
     scaling: Option<Scaling>,
     refits: Vec<Refit>,
+    sharing: Vec<Sharing>,
+    batch: Vec<Batch>,
     failed: Vec<String>,
 }
 
@@ -138,10 +145,28 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
         }
     }
 
+    let mut shared = Vec::new();
+    if arguments.has("sharing") {
+        match Sharing::measure(arguments.runs) {
+            Ok(measured) => shared = measured,
+            Err(error) => failed.push(error.to_string()),
+        }
+    }
+
+    let mut batch = Vec::new();
+    if arguments.has("batch") {
+        match Batch::measure(&folder, &arguments.only) {
+            Ok(measured) => batch = measured,
+            Err(error) => failed.push(error.to_string()),
+        }
+    }
+
     pairs::print(&pairs);
     growth.iter().for_each(Growth::print);
     scaling.iter().for_each(Scaling::print);
     refit::print(&refits);
+    sharing::print(&shared);
+    batch::print(&batch);
     let goals = summary::goals(&pairs, &growth, scaling.as_ref());
     summary::print(&goals);
     for pair in pairs.iter().filter(|pair| pair.measured.intersections != [0; 2]) {
@@ -159,6 +184,8 @@ fn all(arguments: &Arguments) -> Result<Vec<String>, Failure> {
             growth,
             scaling,
             refits,
+            sharing: shared,
+            batch,
             failed: failed.clone(),
         },
     )?;

@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use bespoke::control::Stage;
 use bespoke::report::Report;
-use bespoke::session::{Options, Session};
+use bespoke::session::{Budget, Options, Session};
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::case::{Case, Inputs};
@@ -20,11 +21,18 @@ pub struct Refit {
     wish: &'static str,
     /// Seconds of the whole run and of the refit, medians.
     seconds: [f64; 2],
+    /// Seconds from the wish until there is a preview to look at, after one iteration; the median.
+    preview: f64,
+    /// How far its farthest vertex still has to go, as a share of the longest way of all; none where nothing moves.
+    left: Option<f64>,
     /// Iterations of the fit in both.
     iterations: [u32; 2],
     /// The objective over that of a run from the beginning with the same wish.
     objective: f64,
 }
+
+/// A vertex that moves by less, in the target's unit, stays where it is.
+const STILL: f64 = 1e-6;
 
 /// A wish: its name, and the options that it asks for.
 type Wish = (&'static str, fn(Options) -> Options);
@@ -50,6 +58,7 @@ impl Refit {
         let options = Options { threads, ..Options::default() };
         let mut whole = Vec::new();
         let mut took = vec![Vec::new(); WISHES.len()];
+        let (mut previews, mut left) = (took.clone(), vec![None; WISHES.len()]);
         let mut reports = Vec::new();
         for _ in 0..runs.max(1) {
             let clock = Instant::now();
@@ -58,26 +67,38 @@ impl Refit {
             whole.push(clock.elapsed().as_secs_f64());
             let first = session.report().fit.iterations;
             reports.clear();
-            for ((_, wish), took) in WISHES.iter().zip(&mut took) {
+            for (k, (_, wish)) in WISHES.iter().enumerate() {
+                let before = session.garment_positions()?;
                 let clock = Instant::now();
                 session.refit(wish(options.clone()))?;
-                finish(&mut session)?;
-                took.push(clock.elapsed().as_secs_f64());
+                session.step(Budget { iterations: 1, milliseconds: 0 })?;
+                let preview = session.garment_positions()?;
+                previews[k].push(clock.elapsed().as_secs_f64());
+                if session.stage() != Stage::Done {
+                    finish(&mut session)?;
+                }
+                took[k].push(clock.elapsed().as_secs_f64());
+                let after = session.garment_positions()?;
+                left[k] =
+                    (farthest(&before, &after) > STILL).then(|| farthest(&preview, &after) / farthest(&before, &after));
                 reports.push((first, session.report()));
                 session.refit(options.clone())?;
                 finish(&mut session)?;
             }
         }
         let seconds = median(&mut whole);
-        let measured = WISHES.iter().zip(took).zip(reports).map(|(((name, wish), mut took), (first, report))| {
+        let measured = (0..WISHES.len()).map(|k| {
+            let ((name, wish), (first, report)) = (&WISHES[k], &reports[k]);
             let mut scratch = inputs.session(wish(options.clone()))?;
             finish(&mut scratch)?;
             Ok(Self {
                 case: case.name(),
                 wish: name,
-                seconds: [seconds, median(&mut took)],
-                iterations: [first, report.fit.iterations],
-                objective: objective(&report) / objective(&scratch.report()),
+                seconds: [seconds, median(&mut took[k])],
+                preview: median(&mut previews[k]),
+                left: left[k],
+                iterations: [*first, report.fit.iterations],
+                objective: objective(report) / objective(&scratch.report()),
             })
         });
         measured.collect()
@@ -89,6 +110,11 @@ fn finish(session: &mut Session) -> Result<(), Failure> {
         Stage::Done => Ok(()),
         stage => Err(format!("it ended as {stage:?}").into()),
     }
+}
+
+/// The longest way of a vertex.
+fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
+    a.iter().zip(b).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
 }
 
 fn objective(report: &Report) -> f64 {
@@ -105,15 +131,18 @@ pub fn print(measured: &[Refit]) {
             format!("{whole:.2}"),
             format!("{again:.3}"),
             format!("{:.1} %", 100.0 * again / whole),
+            format!("{:.0}", 1000.0 * m.preview),
+            m.left.map_or("-".into(), |left| format!("{:.0} %", 100.0 * left)),
             m.iterations[0].to_string(),
             m.iterations[1].to_string(),
             format!("{:.4}", m.objective),
         ]
     };
     table::print(
-        "Refit: seconds beside the whole run, iterations of the fit, and the objective over that from the beginning",
+        "Refit: seconds beside the whole run, milliseconds until a preview and what it lacks of the way, iterations of the fit, and the \
+         objective over that from the beginning",
         2,
-        &["case", "wish", "whole", "refit", "share", "iterations", "again", "objective"],
+        &["case", "wish", "whole", "refit", "share", "preview", "lacks", "iterations", "again", "objective"],
         &measured.iter().map(row).collect::<Vec<_>>(),
     );
 }

@@ -11,6 +11,7 @@ use bespoke::capi::options::*;
 use bespoke::capi::results::*;
 use bespoke::capi::running::*;
 use bespoke::capi::session::*;
+use bespoke::capi::shared::*;
 use bespoke::capi::status::{BespokeStatus, bespoke_status_name};
 use bespoke::capi::version::{BESPOKE_ABI_VERSION, bespoke_abi_version};
 use bespoke::capi::view::{BespokeBuffer, BespokeView};
@@ -33,12 +34,20 @@ struct Program {
     /// Null where there is none: calls are made all the same.
     sessions: [*mut BespokeSession; 3],
     controls: [*mut BespokeControl; 3],
+    avatar: *mut BespokeAvatar,
+    garment: *mut BespokeGarment,
     work: usize,
 }
 
 pub fn run(bytes: &[u8]) {
     let mut source = Source::new(bytes);
-    let mut program = Program { sessions: [null_mut(); 3], controls: [null_mut(); 3], work: 0 };
+    let mut program = Program {
+        sessions: [null_mut(); 3],
+        controls: [null_mut(); 3],
+        avatar: null_mut(),
+        garment: null_mut(),
+        work: 0,
+    };
     for _ in 0..MOST_CALLS {
         if source.is_empty() {
             break;
@@ -50,8 +59,13 @@ pub fn run(bytes: &[u8]) {
     if controls_first {
         program.destroy_controls();
     }
+    // So do avatars and garments.
+    if controls_first {
+        program.destroy_shared();
+    }
     (0..3).for_each(|k| program.destroy_session(k));
     program.destroy_controls();
+    program.destroy_shared();
 }
 
 /// A session's address, to hand to another thread.
@@ -111,6 +125,38 @@ impl Program {
         }
     }
 
+    fn destroy_shared(&mut self) {
+        // SAFETY: null or alive, and not used again.
+        unsafe {
+            bespoke_avatar_destroy(self.avatar);
+            bespoke_garment_destroy(self.garment);
+        }
+        (self.avatar, self.garment) = (null_mut(), null_mut());
+    }
+
+    /// Takes a session's avatar or garment to be shared, or lets the session use the one that was taken last.
+    fn share(&mut self, session: *mut BespokeSession, source: &mut Source) {
+        // SAFETY: the session is null or alive, and so are avatar and garment; there is room for a pointer, or null.
+        unsafe {
+            match source.below(4) {
+                0 => {
+                    bespoke_avatar_destroy(self.avatar);
+                    self.avatar = null_mut();
+                    let place = or_null_mut(&raw mut self.avatar, source);
+                    after(session, "avatar_create", bespoke_avatar_create(session, place));
+                }
+                1 => {
+                    bespoke_garment_destroy(self.garment);
+                    self.garment = null_mut();
+                    let place = or_null_mut(&raw mut self.garment, source);
+                    after(session, "garment_create", bespoke_garment_create(session, place));
+                }
+                2 => drop(after(session, "use_avatar", bespoke_session_use_avatar(session, self.avatar))),
+                _ => drop(after(session, "use_garment", bespoke_session_use_garment(session, self.garment))),
+            }
+        }
+    }
+
     /// One call.
     fn call(&mut self, source: &mut Source) {
         let slot = source.below(3);
@@ -150,6 +196,7 @@ impl Program {
                 let name = unsafe { std::ffi::CStr::from_ptr(bespoke_status_name(source.u32())) };
                 assert!(name.to_bytes().starts_with(b"BESPOKE_STATUS_"));
                 assert_eq!(bespoke_abi_version(), BESPOKE_ABI_VERSION);
+                self.share(session, source);
             }
         }
     }

@@ -1,0 +1,162 @@
+//! What sessions that share an avatar or a garment cost, beside those that do not.
+
+use std::collections::HashMap;
+
+use bespoke::control::Stage;
+use bespoke::error::Result;
+use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
+use bespoke::session::{Options, Precision, Session};
+use closet::avatars::{Avatar, avatar};
+use closet::garments::{Garment, garment};
+use closet::{Kind, Sample, sample};
+use serde::Serialize;
+
+use crate::cpu::own_seconds;
+use crate::{median, table};
+
+type Failure = Box<dyn std::error::Error>;
+
+/// A row or a column of the closet.
+#[derive(Clone, Debug, Serialize)]
+pub struct Sharing {
+    what: String,
+    pairs: usize,
+    /// User CPU seconds of all its pairs one after the other with one thread, each by itself and sharing: medians.
+    seconds: [f64; 2],
+}
+
+/// One sample as a caller has it.
+struct Model {
+    mesh: TriangleMesh,
+    skeleton: Skeleton,
+    skin: Option<SkinWeights>,
+    no_fit: Vec<u32>,
+}
+
+impl Model {
+    fn new(sample: &Sample) -> Self {
+        let mut positions = sample.mesh.positions.clone();
+        positions.iter_mut().for_each(|p| *p = Precision::F32.round(*p));
+        let rows = (0..positions.len()).map(|v| {
+            let of = |joint: usize| (joint as u32, sample.skin[joint][v]);
+            (0..sample.skin.len()).map(of).filter(|(_, weight)| *weight > 0.0).collect()
+        });
+        let skin = (!sample.skin.is_empty()).then(|| SkinWeights::from_rows(sample.skin.len(), rows.collect()));
+        Self {
+            skin,
+            mesh: TriangleMesh { positions, triangles: sample.mesh.triangles.clone() },
+            skeleton: Skeleton {
+                joints: sample.skeleton.joints.iter().map(|&p| Precision::F32.round(p)).collect(),
+                bones: sample.skeleton.bones.clone(),
+            },
+            no_fit: sample.no_fit.clone(),
+        }
+    }
+
+    fn set_as_garment(&self, session: &mut Session, source: &Self) -> Result<()> {
+        session.set_garment(self.mesh.clone(), Precision::F32)?;
+        session.set_source_skeleton(self.skeleton.clone())?;
+        session.set_source_avatar(source.mesh.clone())?;
+        let mut weights = vec![1.0; self.mesh.positions.len()];
+        self.no_fit.iter().for_each(|&v| weights[v as usize] = 0.0);
+        session.set_vertex_fit_weights(weights)
+    }
+
+    fn set_as_avatar(&self, session: &mut Session) -> Result<()> {
+        session.set_target_avatar(self.mesh.clone())?;
+        session.set_target_skeleton(self.skeleton.clone())?;
+        self.skin.clone().map_or(Ok(()), |skin| session.set_target_skin(skin))
+    }
+}
+
+impl Sharing {
+    /// Measures one avatar with all garments, one garment on all avatars, and both, `runs` times in turn.
+    pub fn measure(runs: usize) -> std::result::Result<Vec<Self>, Failure> {
+        let source = Model::new(&sample(Kind::Mannequin));
+        let garments: Vec<Model> = Garment::ALL.iter().map(|&it| Model::new(&garment(it))).collect();
+        let avatars: Vec<Model> = Avatar::ALL.iter().map(|&it| Model::new(&avatar(it))).collect();
+        let named = |name: &str| Avatar::ALL.iter().position(|avatar| avatar.name() == name).unwrap_or(0);
+        let (heavy, tall) = (named("heavy"), named("tall"));
+        let garment_name = |k: usize| Garment::ALL[k].name();
+        let on = |avatar: usize| (0..garments.len()).map(|garment| (garment, avatar)).collect::<Vec<_>>();
+        let of = |garment: usize| (0..avatars.len()).map(|avatar| (garment, avatar)).collect::<Vec<_>>();
+        let mut measured = Vec::new();
+        for (what, pairs) in [
+            (format!("{} x all garments", Avatar::ALL[heavy].name()), on(heavy)),
+            (format!("{} x all garments", Avatar::ALL[tall].name()), on(tall)),
+            (format!("{} x all avatars", garment_name(0)), of(0)),
+        ] {
+            let (mut single, mut shared) = (Vec::new(), Vec::new());
+            for _ in 0..runs.max(1) {
+                let closet = Closet { source: &source, garments: &garments, avatars: &avatars };
+                let (seconds, expected) = closet.dress(&pairs, false)?;
+                single.push(seconds);
+                let (seconds, found) = closet.dress(&pairs, true)?;
+                shared.push(seconds);
+                if expected != found {
+                    return Err(format!("{what}: the results differ").into());
+                }
+            }
+            measured.push(Self { what, pairs: pairs.len(), seconds: [median(&mut single), median(&mut shared)] });
+        }
+        Ok(measured)
+    }
+}
+
+struct Closet<'a> {
+    source: &'a Model,
+    garments: &'a [Model],
+    avatars: &'a [Model],
+}
+
+impl Closet<'_> {
+    /// User seconds, and the bits of the results or why there is none.
+    fn dress(
+        &self,
+        pairs: &[(usize, usize)],
+        shares: bool,
+    ) -> std::result::Result<(f64, Vec<std::result::Result<Vec<u64>, String>>), Failure> {
+        let (mut shared_garments, mut shared_avatars) = (HashMap::new(), HashMap::new());
+        let mut results = Vec::new();
+        let begun = own_seconds()?;
+        for &(garment, avatar) in pairs {
+            let mut session = Session::new();
+            session.set_options(Options { threads: 1, ..Options::default() })?;
+            self.garments[garment].set_as_garment(&mut session, self.source)?;
+            self.avatars[avatar].set_as_avatar(&mut session)?;
+            if shares {
+                let known = shared_garments.entry(garment).or_insert(session.share_garment()?);
+                session.use_garment(known)?;
+                let known = shared_avatars.entry(avatar).or_insert(session.share_avatar()?);
+                session.use_avatar(known)?;
+            }
+            results.push(match session.run() {
+                Ok(Stage::Done) => Ok(bits(&session)?),
+                Ok(stage) => Err(format!("{stage:?}")),
+                Err(error) => Err(error.message),
+            });
+        }
+        Ok((own_seconds()? - begun, results))
+    }
+}
+
+fn bits(session: &Session) -> Result<Vec<u64>> {
+    Ok(session.garment_positions()?.iter().flat_map(|p| p.to_array().map(f64::to_bits)).collect())
+}
+
+/// Prints them.
+pub fn print(measured: &[Sharing]) {
+    let row = |m: &Sharing| {
+        let [single, shared] = m.seconds;
+        let cells = [m.pairs.to_string(), format!("{single:.2}"), format!("{shared:.2}")];
+        [vec![m.what.clone()], cells.to_vec(), vec![format!("{:.3}", shared / single)]].concat()
+    };
+    table::print(
+        "Sharing: user CPU seconds of single sessions and of those that share, one thread",
+        1,
+        &["closet", "pairs", "single", "shared", "ratio"],
+        &measured.iter().map(row).collect::<Vec<_>>(),
+    );
+}
