@@ -26,6 +26,9 @@ pub enum Command {
     Dress(Dress),
     /// Dresses every outfit of a manifest on every avatar; goes on where it was stopped.
     Batch(Batch),
+    /// Dresses the pairs that `bespoke batch` tells on standard input, one after the other.
+    #[command(hide = true)]
+    BatchWorker,
     /// Says what is in a file: rig, parts, poses, and what will need attention.
     Inspect(Inspect),
     /// Counts intersections of garments and body in a file.

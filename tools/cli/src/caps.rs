@@ -42,7 +42,8 @@ pub fn of_garment(figure: &Figure, garment: &Garment) -> Vec<bool> {
     let mut is_cap = vec![false; parts.iter().map(|part| part.triangles.len()).sum()];
     let said: Vec<Option<Vec<u32>>> = parts.iter().map(|part| noted(figure, part)).collect();
     if said.iter().all(Option::is_none) {
-        let found = on_own_body(figure, garment, |job| job.caps()).unwrap_or_default();
+        // A body that the library refuses, or that is not there, tells of none.
+        let found = on_own_body(figure, garment, |job| job.caps()).ok().flatten().unwrap_or_default();
         found.into_iter().for_each(|t| is_cap[t as usize] = true);
         return is_cap;
     }

@@ -5,13 +5,14 @@ use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
 use bespoke::rig::reading::Reading;
 
-use crate::args::{Dress, Keep};
+use crate::args::Dress;
 use crate::attempts::put_on;
 use crate::bodies::{self, joined};
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure, Part};
 use crate::fit::{Fitted, Job, Refused, Skinned};
 use crate::joint_pairs;
+use crate::known_avatar::KnownAvatar;
 use crate::outfit::{self, Garment};
 use crate::output;
 use crate::parts::Role;
@@ -24,14 +25,20 @@ use crate::say::{say, say_findings};
 /// # Errors
 /// Where there is no result; nothing is written then, but the report.
 pub fn run(args: &Dress) -> Result<u8> {
+    run_on(args, &mut None)
+}
+
+/// The same, with the character of the call before, where this one is about the same.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_on(args: &Dress, known: &mut Option<KnownAvatar>) -> Result<u8> {
     let patterns = |text: &Option<String>| text.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage);
     let outfit_choice = Choice { garments: patterns(&args.nodes)?, body: None };
     let source_choice = Choice { garments: None, body: patterns(&args.source_nodes)? };
-    let avatar_choice = Choice { garments: None, body: patterns(&args.avatar_nodes)? };
     output::form(&args.output)?;
 
-    let avatar_figure = Figure::open(&args.avatar, Role::Avatar, &avatar_choice)?;
-    avatar_figure.need_rig("it cannot be dressed; give a character with a skeleton and skin weights")?;
+    let avatar = KnownAvatar::of(args, known)?;
     let outfit = match &args.source {
         Some(_) => Figure::open(&args.outfit, Role::Outfit, &outfit_choice)?,
         None => {
@@ -42,10 +49,10 @@ pub fn run(args: &Dress) -> Result<u8> {
     let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
     let garments = outfit::in_order(&outfit, outfit::need_garments(&outfit)?, made_for.bodies.first());
     let pairs = match &args.map {
-        Some(file) => joint_pairs::read(file, made_for.rig(), &avatar_figure.rig)?,
+        Some(file) => joint_pairs::read(file, made_for.rig(), &avatar.figure.rig)?,
         None => Vec::new(),
     };
-    let dressing = Dressing { args, outfit: &outfit, avatar: &avatar_figure, made_for: &made_for, pairs: &pairs };
+    let dressing = Dressing { args, outfit: &outfit, avatar, made_for: &made_for, pairs: &pairs };
     dressing.run(&garments)
 }
 
@@ -98,7 +105,7 @@ impl<'a> MadeFor<'a> {
 struct Dressing<'a> {
     args: &'a Dress,
     outfit: &'a Figure,
-    avatar: &'a Figure,
+    avatar: &'a KnownAvatar,
     made_for: &'a MadeFor<'a>,
     pairs: &'a [CallersPair],
 }
@@ -121,8 +128,8 @@ impl Dressing<'_> {
             designed_clearance: args.looseness,
             ..Options::default()
         };
-        let avatar = bodies::avatar(self.avatar, args.keep == Keep::Both);
-        let notes = self.outfit.notes.iter().chain(&self.avatar.notes).chain(&avatar.notes);
+        let KnownAvatar { figure, body: avatar, shared, .. } = self.avatar;
+        let notes = self.outfit.notes.iter().chain(&figure.notes).chain(&avatar.notes);
         notes.for_each(|note| say(args.quiet, note));
         let sources = self.made_for.bodies();
         let (mut dressed, mut refused) = (Vec::<Dressed>::new(), Vec::new());
@@ -142,7 +149,8 @@ impl Dressing<'_> {
                 source_rig: self.made_for.rig(),
                 avatar: &avatar.body,
                 roles: &avatar.roles,
-                target_rig: &self.avatar.rig,
+                target_rig: &figure.rig,
+                shared,
                 layers: &layers,
                 pairs: self.pairs,
                 influences: args.influences as usize,
@@ -182,7 +190,7 @@ impl Dressing<'_> {
                 if refused.len() == 1 { "it" } else { "these" }
             )));
         }
-        output::write(args, self.outfit, self.avatar, &dressed)?;
+        output::write(args, self.outfit, figure, &dressed)?;
         let flaws: Vec<_> = dressed.iter().filter_map(|d| Some((d.garment, d.fitted.flaw.as_ref()?))).collect();
         flaws.iter().for_each(|(garment, flaw)| say(false, &format!("{}: {flaw}", garment.name)));
         Ok(if flaws.is_empty() { 0 } else { 3 })
@@ -194,7 +202,7 @@ impl Dressing<'_> {
         refused: &[(&Garment, Box<Refused>)],
         notes: &[String],
     ) -> Result<DressReport> {
-        let (source, target) = (self.made_for.rig(), &self.avatar.rig);
+        let (source, target) = (self.made_for.rig(), &self.avatar.figure.rig);
         let readings = [Reading::new(source, None), Reading::new(target, None)];
         let map = JointMap::new(source, target, readings, self.pairs).map_err(|e| Failure::no_result(e.message))?;
         let done = dressed.iter().map(|d| GarmentLine::dressed(&d.garment.name, &d.fitted));
@@ -204,7 +212,7 @@ impl Dressing<'_> {
             avatar: self.args.avatar.display().to_string(),
             output: refused.is_empty().then(|| self.args.output.display().to_string()),
             garments: done.chain(not).collect(),
-            notes: self.outfit.notes.iter().chain(&self.avatar.notes).chain(notes).cloned().collect(),
+            notes: self.outfit.notes.iter().chain(&self.avatar.figure.notes).chain(notes).cloned().collect(),
             joint_map: report::joint_map(&map, source, target),
         })
     }

@@ -10,7 +10,7 @@ use bespoke::options::Options;
 use bespoke::report::Report;
 use bespoke::rig::joint_map::CallersPair;
 use bespoke::rig::weights::own_joints::AddedJoint;
-use bespoke::session::{Morph, PartRole, Precision, RenderMesh, Session};
+use bespoke::session::{Morph, PartRole, Precision, RenderMesh, Session, SharedAvatar};
 use glam::{DVec3, DVec4};
 
 use crate::failure::{Failure, Result};
@@ -26,7 +26,7 @@ pub struct Skinned {
 }
 
 /// What a garment is dressed with.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Job<'a> {
     /// As the user knows it.
     pub name: &'a str,
@@ -48,6 +48,8 @@ pub struct Job<'a> {
     pub roles: &'a [PartRole],
     /// Its joints.
     pub target_rig: &'a Rig,
+    /// Body and joints together, for all sessions.
+    pub shared: &'a SharedAvatar,
     /// Garments that it wears already, inside this one.
     pub layers: &'a [TriangleMesh],
     /// Joints that the user says correspond.
@@ -192,9 +194,7 @@ impl Job<'_> {
             session.set_source_avatar(source.mesh.clone())?;
             session.set_source_skin(source.skin.clone())?;
         }
-        session.set_target_rig(self.target_rig.clone())?;
-        session.set_target_avatar(self.avatar.mesh.clone())?;
-        session.set_target_skin(self.avatar.skin.clone())?;
+        session.use_avatar(self.shared)?;
         session.set_avatar_parts(self.roles.to_vec())?;
         for layer in self.layers {
             session.add_layer(layer.clone())?;
@@ -212,6 +212,19 @@ fn caps(session: &Session) -> Vec<u32> {
     caps.sort_unstable();
     caps.dedup();
     caps
+}
+
+/// A body that sessions share, with the joints that move it and the roles of its triangles.
+///
+/// # Errors
+/// Where the library refuses one of them.
+pub fn shared(rig: &Rig, body: &Skinned, roles: &[PartRole]) -> bespoke::error::Result<SharedAvatar> {
+    let mut session = Session::new();
+    session.set_target_rig(rig.clone())?;
+    session.set_target_avatar(body.mesh.clone())?;
+    session.set_target_skin(body.skin.clone())?;
+    session.set_avatar_parts(roles.to_vec())?;
+    session.share_avatar()
 }
 
 fn findings(session: &Session) -> Vec<Finding> {

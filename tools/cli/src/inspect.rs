@@ -1,5 +1,6 @@
 //! `bespoke inspect`: what is in a file, and what will need attention.
 
+use bespoke::input::diagnostic::Severity;
 use bespoke::rig::joint_map::JointMap;
 use bespoke::rig::reading::Reading;
 use serde::Serialize;
@@ -136,7 +137,10 @@ fn part_line(figure: &Figure, part: &Part) -> PartLine {
 
 /// What the library says of a garment on its own body, before it is dressed.
 fn findings(figure: &Figure, garment: &Garment) -> Vec<Finding> {
-    on_own_body(figure, garment, |job| job.look()).unwrap_or_default()
+    match on_own_body(figure, garment, |job| job.look()) {
+        Ok(found) => found.unwrap_or_default(),
+        Err(error) => vec![Finding { severity: Severity::Error, kind: None, sentence: error.message }],
+    }
 }
 
 fn in_words(inspected: &Inspected) -> String {

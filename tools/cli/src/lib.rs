@@ -14,6 +14,7 @@ pub mod fit;
 pub mod inspect;
 pub mod joint_pairs;
 pub mod moments;
+mod known_avatar;
 pub mod outfit;
 mod output;
 mod own_body;
@@ -39,6 +40,10 @@ pub fn run(line: &CommandLine) -> Result<u8> {
         Command::Batch(args) => {
             progress::listen_to_interrupts()?;
             batch::run(args)
+        }
+        Command::BatchWorker => {
+            progress::listen_to_interrupts()?;
+            batch::worker::serve(&mut std::io::stdin().lock(), &mut std::io::stdout())
         }
         Command::Inspect(args) => inspect::run(args),
         Command::Check(args) => check::run(args),

@@ -1,22 +1,27 @@
 //! A garment on the body of its own file.
 
+use bespoke::error::Result;
 use bespoke::options::Options;
 use bespoke::session::{PartRole, RenderMesh};
 
 use crate::bodies::{self, joined};
 use crate::figure::Figure;
-use crate::fit::Job;
+use crate::fit::{Job, shared};
 use crate::outfit::Garment;
 
 /// Asks `see` about a garment as it would be dressed on the body that it is on; none where the file has no rig or no body.
-pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job) -> T) -> Option<T> {
+///
+/// # Errors
+/// Where the library refuses the body.
+pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job) -> T) -> Result<Option<T>> {
     if figure.rig.joints.is_empty() {
-        return None;
+        return Ok(None);
     }
     let parts = garment.parts.iter().map(|&part| &figure.parts[part]);
     let (cloth, _) = joined(parts, figure.rig.joints.len());
-    let body = bodies::sources(figure).into_iter().next()?;
+    let Some(body) = bodies::sources(figure).into_iter().next() else { return Ok(None) };
     let roles = vec![PartRole::Automatic; body.mesh.triangles.len()];
+    let shared = shared(&figure.rig, &body, &roles)?;
     let job = Job {
         name: &garment.name,
         garment: &cloth,
@@ -28,11 +33,12 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
         avatar: &body,
         roles: &roles,
         target_rig: &figure.rig,
+        shared: &shared,
         layers: &[],
         pairs: &[],
         influences: 4,
         options: &Options::default(),
         quiet: true,
     };
-    Some(see(&job))
+    Ok(Some(see(&job)))
 }

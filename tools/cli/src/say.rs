@@ -1,5 +1,7 @@
 //! What is said on standard error.
 
+use std::sync::{Mutex, PoisonError};
+
 use bespoke::input::diagnostic::{DiagnosticKind, Severity};
 
 use crate::fit::Finding;
@@ -7,11 +9,27 @@ use crate::fit::Finding;
 /// So many findings of one kind are said of a garment; the report has all.
 const OF_A_KIND: usize = 3;
 
+/// What is said, where it is to be kept and not said at once.
+static KEPT: Mutex<Option<String>> = Mutex::new(None);
+
 /// Says one thing.
 pub fn say(quiet: bool, what: &str) {
-    if !quiet {
-        eprintln!("{what}");
+    if quiet {
+        return;
     }
+    match &mut *KEPT.lock().unwrap_or_else(PoisonError::into_inner) {
+        Some(kept) => *kept = format!("{kept}{what}\n"),
+        None => eprintln!("{what}"),
+    }
+}
+
+/// What `work` says, and what comes of it. Of one thread at a time.
+pub fn heard<T>(work: impl FnOnce() -> T) -> (T, String) {
+    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    *kept() = Some(String::new());
+    let outcome = work();
+    let said = kept().take();
+    (outcome, said.unwrap_or_default())
 }
 
 /// Says what the library found in a garment: warnings and errors, and notes too where there is no result as designed.

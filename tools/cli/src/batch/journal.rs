@@ -1,15 +1,16 @@
 //! The report of a batch: a line for each pair that has ended, from which the batch goes on after it was stopped.
 
 use std::collections::HashMap;
-use std::fs::{File, OpenOptions};
-use std::io::Write as _;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
+use std::time::{Duration, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
 use super::manifest::Pair;
 use crate::failure::{Failure, Result};
+use crate::progress::is_stopped;
 
 /// What became of a pair.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -36,21 +37,22 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Reads what is there, and opens the file for more. A line that was not written to its end counts for nothing.
+    /// Reads what is there, and opens the file for more. A line that was not written to its end counts for nothing. While another batch
+    /// has the file open, says so by `waiting` and waits: so no pair is dressed twice, also where a farm starts a task again whose
+    /// process has outlived it.
     ///
     /// # Errors
-    /// Where the file cannot be read or written.
-    pub fn open(path: &Path) -> Result<Self> {
+    /// Where the file cannot be read or written, and where the wait was stopped.
+    pub fn open(path: &Path, waiting: impl FnOnce()) -> Result<Self> {
         let fail =
             |e: std::io::Error| Failure::no_result(format!("{}: the report cannot be used: {e}", path.display()));
-        let text = match std::fs::read(path) {
-            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => String::new(),
-            Err(e) => return Err(fail(e)),
-        };
+        let mut file = OpenOptions::new().create(true).read(true).append(true).open(path).map_err(fail)?;
+        lock(&file, waiting).map_err(|e| e.map_or_else(Failure::interrupted, fail))?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(fail)?;
+        let text = String::from_utf8_lossy(&bytes).into_owned();
         let lines = text.lines().filter_map(|line| serde_json::from_str(line).ok());
         let lines = lines.map(|line: Line| (line.pair.clone(), line)).collect();
-        let mut file = OpenOptions::new().create(true).append(true).open(path).map_err(fail)?;
         if !text.is_empty() && !text.ends_with('\n') {
             file.write_all(b"\n").map_err(fail)?;
         }
@@ -74,6 +76,26 @@ impl Journal {
         };
         let text = serde_json::to_string(line).map_err(|e| Failure::no_result(format!("the report: {e}")))?;
         self.file.write_all(format!("{text}\n").as_bytes()).and_then(|()| self.file.sync_data()).map_err(fail)
+    }
+}
+
+/// Waits until nobody else has the lock. It is gone with the process, however that ends. None where the wait was stopped.
+fn lock(file: &File, waiting: impl FnOnce()) -> std::result::Result<(), Option<std::io::Error>> {
+    let mut waiting = Some(waiting);
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(()),
+            // A file system without locks: there is no more than to trust the caller.
+            Err(TryLockError::Error(e)) if e.kind() == ErrorKind::Unsupported => return Ok(()),
+            Err(TryLockError::Error(e)) => return Err(Some(e)),
+            Err(TryLockError::WouldBlock) if is_stopped() => return Err(None),
+            Err(TryLockError::WouldBlock) => {
+                if let Some(waiting) = waiting.take() {
+                    waiting();
+                }
+                std::thread::sleep(Duration::from_millis(200));
+            }
+        }
     }
 }
 

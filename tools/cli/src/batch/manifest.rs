@@ -74,6 +74,8 @@ pub struct Manifest {
 pub struct Pair {
     /// "suit on hero".
     pub name: String,
+    /// The avatar's file and nodes: pairs in which they are the same share it.
+    pub avatar: String,
     /// Files whose change makes the result an old one.
     pub inputs: Vec<PathBuf>,
     /// Where the result goes.
@@ -164,6 +166,7 @@ impl Manifest {
         }
         Pair {
             name: format!("{} on {}", outfit.name, avatar.name),
+            avatar: format!("{}\0{}", avatar.file.display(), avatar.nodes.as_deref().unwrap_or_default()),
             inputs: files.into_iter().flatten().map(|file| path(file)).collect(),
             output,
             arguments,

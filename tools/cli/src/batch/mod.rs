@@ -1,14 +1,17 @@
 //! `bespoke batch`: every outfit of a manifest on every avatar.
 //!
-//! Each pair is a process of its own, so that one that is killed takes no other with it, and gives the very result of
-//! `bespoke dress`. Pairs run side by side, with one thread each: that wastes less than threads within a pair.
+//! Processes run side by side, each with one thread, which wastes less than threads within a pair. Each dresses the outfits of one
+//! avatar after the other, which is read and prepared once; the results are those of `bespoke dress`. A pair that takes its process
+//! with it is dressed once more, in one of its own, and the others of its avatar in another.
 
 pub mod journal;
 pub mod manifest;
+pub mod queue;
+pub mod worker;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::Mutex;
 use std::sync::mpsc::channel;
 use std::time::Instant;
 
@@ -18,6 +21,8 @@ use crate::progress::is_stopped;
 use crate::say::say;
 use journal::{Journal, Line, made_of};
 use manifest::{Manifest, Pair};
+use queue::Queue;
+use worker::Worker;
 
 /// Of what a pair said, so many bytes are kept.
 const MOST_SAID: usize = 4000;
@@ -30,10 +35,10 @@ pub fn run(args: &Batch) -> Result<u8> {
     let manifest = Manifest::read(&args.manifest)?;
     let (part, parts) = args.slice;
     let pairs = manifest.pairs()?;
-    let own = pairs.iter().enumerate().filter(|(k, _)| k % parts as usize == part as usize - 1).map(|(_, pair)| pair);
-    let own: Vec<&Pair> = own.collect();
+    let own = own(&pairs, part as usize, parts as usize);
     let report = args.report.clone().unwrap_or_else(|| beside(&args.manifest, args.slice));
-    let mut journal = Journal::open(&report)?;
+    let mut journal =
+        Journal::open(&report, || say(args.quiet, "another batch is at this report; waiting for it to end"))?;
     let mut count = Count::default();
     let mut left = Vec::new();
     for &pair in &own {
@@ -50,16 +55,17 @@ pub fn run(args: &Batch) -> Result<u8> {
         .map_err(|e| Failure::no_result(format!("this program does not know where it lies: {e}")))?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = if args.jobs == 0 { cores } else { args.jobs as usize };
-    let next = Mutex::new(left.iter());
+    let queue = Queue::new(&left);
     let (ended, results) = channel();
     std::thread::scope(|scope| {
         for _ in 0..jobs.min(left.len()) {
-            let (ended, next, program) = (ended.clone(), &next, &program);
+            let (ended, queue, program) = (ended.clone(), &queue, &program);
             scope.spawn(move || {
+                let (mut worker, mut last) = (None, None);
                 while !is_stopped() {
-                    let pair = next.lock().ok().and_then(|mut next| next.next().copied());
-                    let Some(pair) = pair else { return };
-                    if ended.send(dress(program, pair)).is_err() {
+                    let Some(pair) = queue.next(last) else { return };
+                    last = Some(pair);
+                    if ended.send(dress(program, &mut worker, pair)).is_err() {
                         return;
                     }
                 }
@@ -102,6 +108,19 @@ pub fn run(args: &Batch) -> Result<u8> {
     })
 }
 
+/// The pairs of one of so many parts, counted from 1: as many as in the others, or one less, and avatar by avatar, so that few avatars
+/// are prepared twice.
+fn own(pairs: &[Pair], part: usize, parts: usize) -> Vec<&Pair> {
+    let mut by_avatar: Vec<&Pair> = pairs.iter().collect();
+    let mut first = HashMap::new();
+    for (k, pair) in pairs.iter().enumerate() {
+        first.entry(&pair.avatar).or_insert(k);
+    }
+    by_avatar.sort_by_key(|pair| first[&pair.avatar]);
+    let end = |part: usize| part * pairs.len() / parts;
+    by_avatar[end(part - 1)..end(part)].to_vec()
+}
+
 #[derive(Default)]
 struct Count {
     good: usize,
@@ -126,7 +145,7 @@ fn beside(manifest: &Path, (part, parts): (u32, u32)) -> PathBuf {
 }
 
 /// Dresses a pair. None where it was stopped, so that it is done another time.
-fn dress(program: &Path, pair: &Pair) -> Result<Option<Line>> {
+fn dress(program: &Path, worker: &mut Option<Worker>, pair: &Pair) -> Result<Option<Line>> {
     let clock = Instant::now();
     if let Some(folder) = pair.output.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder)
@@ -134,34 +153,49 @@ fn dress(program: &Path, pair: &Pair) -> Result<Option<Line>> {
     }
     // Before it begins: a file that changes meanwhile makes the result an old one.
     let made_of = made_of(pair).unwrap_or_default();
-    let ended = Command::new(program)
-        .arg("dress")
-        .args(&pair.arguments)
-        .args(["--threads=1", "--quiet"])
-        .stdin(Stdio::null())
-        .output()
-        .map_err(|e| Failure::no_result(format!("{} cannot be started: {e}", program.display())))?;
-    let exit = match ended.status.code() {
-        Some(130) => return Ok(None),
-        Some(exit) => exit,
-        // Killed, by a user or for its memory.
+    let mut arguments = pair.arguments.clone();
+    arguments.extend(["--threads=1".to_string(), "--quiet".to_string()]);
+    let running = match worker {
+        Some(running) => running,
+        None => worker.insert(Worker::start(program)?),
+    };
+    let answer = running.ask(&arguments);
+    let (exit, said) = match answer {
+        Some(answer) => (i32::from(answer.exit), answer.said),
         None if is_stopped() => return Ok(None),
         None => {
-            return Ok(Some(line(
-                pair,
-                1,
-                clock,
-                format!("it was ended by the system: {}", ended.status),
-                String::new(),
-            )));
+            // It may have been another pair that has used up the memory, or another program.
+            *worker = None;
+            match alone(program, &arguments)? {
+                Ok(ended) => ended,
+                Err(_) if is_stopped() => return Ok(None),
+                Err(said) => return Ok(Some(line(pair, 1, clock, said, String::new()))),
+            }
         }
     };
-    let said = String::from_utf8_lossy(&ended.stderr);
+    if exit == 130 {
+        return Ok(None);
+    }
     let mut from = said.len().saturating_sub(MOST_SAID);
     while !said.is_char_boundary(from) {
         from += 1;
     }
     Ok(Some(line(pair, exit, clock, said[from..].trim().to_string(), made_of)))
+}
+
+/// Dresses a pair in a process of its own: exit code and what was said, or what became of a process that was killed.
+fn alone(program: &Path, arguments: &[String]) -> Result<std::result::Result<(i32, String), String>> {
+    let ended = Command::new(program)
+        .arg("dress")
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|e| Failure::no_result(format!("{} cannot be started: {e}", program.display())))?;
+    Ok(match ended.status.code() {
+        Some(exit) => Ok((exit, String::from_utf8_lossy(&ended.stderr).into_owned())),
+        // Killed, by a user or for its memory.
+        None => Err(format!("it was ended by the system: {}", ended.status)),
+    })
 }
 
 fn line(pair: &Pair, exit: i32, clock: Instant, said: String, made_of: String) -> Line {

@@ -2,14 +2,17 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use bespoke_cli::batch::journal::Line;
-use bespoke_cli::batch::manifest::Manifest;
+use bespoke_cli::batch::manifest::{Manifest, Pair};
+use bespoke_cli::batch::queue::Queue;
 
 use super::files::folder;
 use super::{AVATAR, OUTFIT, bespoke, ends};
 
-fn lines(report: &Path) -> Vec<Line> {
+pub fn lines(report: &Path) -> Vec<Line> {
     fs::read_to_string(report).unwrap().lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
@@ -127,4 +130,125 @@ fn a_manifest_that_says_nothing_known_is_refused() {
         assert!(heard.contains(said), "{text}: {heard}");
     }
     assert!(!folder.join("all.report.jsonl").exists());
+}
+
+/// A closet of two small outfits and two avatars, and the bytes that single calls give.
+pub fn four_pairs(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    for name in ["vest", "waistcoat"] {
+        fs::write(folder.join(format!("{name}.glb")), &*OUTFIT).unwrap();
+    }
+    for name in ["slim", "thin"] {
+        fs::write(folder.join(format!("{name}.glb")), &*AVATAR).unwrap();
+    }
+    manifest(
+        folder,
+        r#"{
+            "outfits": ["vest.glb", { "file": "waistcoat.glb", "nodes": "*Vest" }],
+            "avatars": ["slim.glb", "thin.glb"],
+            "output": "results/{outfit}-on-{avatar}.glb"
+        }"#,
+    );
+    ends(&bespoke(folder, &["dress", "vest.glb", "slim.glb", "-o", "alone.glb", "-q"]), 0);
+    let bytes = fs::read(folder.join("alone.glb")).unwrap();
+    let pairs = ["vest", "waistcoat"].into_iter().flat_map(|o| ["slim", "thin"].map(|a| format!("{o}-on-{a}.glb")));
+    pairs.map(|name| (name, bytes.clone())).collect()
+}
+
+#[track_caller]
+pub fn all_there(folder: &Path, expected: &[(String, Vec<u8>)]) {
+    for (name, bytes) in expected {
+        assert!(fs::read(folder.join("results").join(name)).is_ok_and(|found| found == *bytes), "{name} differs");
+    }
+}
+
+/// The processes that `process` has started.
+#[cfg(target_os = "linux")]
+fn children(process: u32) -> Vec<u32> {
+    let list = fs::read_to_string(format!("/proc/{process}/task/{process}/children")).unwrap_or_default();
+    list.split_whitespace().map(|id| id.parse().unwrap()).collect()
+}
+
+#[cfg(target_os = "linux")]
+fn kill(process: u32) {
+    assert!(Command::new("kill").args(["-9", &process.to_string()]).status().unwrap().success());
+}
+
+/// A process that dresses is killed: its pair is dressed again, and no other is lost. Then all of them are, with the batch: the next
+/// one goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_is_killed_is_done_again_and_nothing_twice() {
+    let folder = folder("killed");
+    let expected = four_pairs(&folder);
+    let batch = || {
+        Command::new(env!("CARGO_BIN_EXE_bespoke"))
+            .current_dir(&folder)
+            .args(["batch", "all.json", "--jobs=1", "-q"])
+            .spawn()
+            .unwrap()
+    };
+    let until = |what: &dyn Fn() -> bool| {
+        let clock = Instant::now();
+        while !what() {
+            assert!(clock.elapsed() < Duration::from_secs(300), "nothing happens");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    };
+    let report = folder.join("all.report.jsonl");
+    let done = || fs::read_to_string(&report).map_or(0, |text| text.lines().count());
+    let mut first = batch();
+    until(&|| !children(first.id()).is_empty());
+    let worker = children(first.id())[0];
+    kill(worker);
+    until(&|| done() == 2);
+    let last = children(first.id());
+    kill(first.id());
+    first.wait().unwrap();
+    // The one that was at work ends by itself: nobody asks it any more.
+    let has_ended =
+        |id: &u32| fs::read_to_string(format!("/proc/{id}/stat")).map_or(true, |stat| stat.contains(") Z "));
+    until(&|| last.iter().all(has_ended));
+    let before = done();
+    assert!((2..4).contains(&before), "{before} lines");
+    assert!(batch().wait().unwrap().success());
+    all_there(&folder, &expected);
+    let mut pairs: Vec<String> = lines(&report).into_iter().map(|line| line.pair).collect();
+    pairs.sort();
+    assert_eq!(pairs, ["vest on slim", "vest on thin", "waistcoat on slim", "waistcoat on thin"]);
+}
+
+/// Two batches at one report take turns: the second finds all done.
+#[test]
+fn two_at_once_do_nothing_twice() {
+    let folder = folder("at_once");
+    let expected = four_pairs(&folder);
+    let batch = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_bespoke"));
+        command.current_dir(&folder).args(["batch", "all.json"]).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let both = [batch(), batch()].map(|batch| batch.wait_with_output().unwrap());
+    both.iter().for_each(|output| ends(output, 0));
+    let said = both.map(|output| String::from_utf8_lossy(&output.stderr).into_owned()).concat();
+    assert!(said.contains("4 of 4 pairs are done already"), "{said}");
+    assert_eq!(lines(&folder.join("all.report.jsonl")).len(), 4);
+    all_there(&folder, &expected);
+}
+
+#[test]
+fn who_is_at_an_avatar_stays_there() {
+    let folder = folder("queue");
+    manifest(
+        &folder,
+        r#"{"outfits": ["a.glb", "b.glb", "c.glb"], "avatars": ["x.glb", "y.glb", "z.glb"], "output": "{avatar}/{outfit}.glb"}"#,
+    );
+    let pairs = Manifest::read(&folder.join("all.json")).unwrap().pairs().unwrap();
+    let queue = Queue::new(&pairs.iter().collect::<Vec<_>>());
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    while let Some(pair) = queue.next(first.last().copied()) {
+        first.push(pair);
+        second.extend(queue.next(second.last().copied()));
+    }
+    let names = |pairs: &[&Pair]| pairs.iter().map(|pair| pair.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&first), ["a on x", "b on x", "c on x", "a on z", "c on z"]);
+    assert_eq!(names(&second), ["a on y", "b on y", "c on y", "b on z"]);
 }

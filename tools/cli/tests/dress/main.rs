@@ -2,6 +2,7 @@
 
 mod animated;
 mod batch;
+mod farm;
 mod files;
 mod judges;
 

@@ -1,0 +1,79 @@
+//! The character to dress, read and prepared once for all outfits that are put on it one after the other.
+
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use bespoke::session::SharedAvatar;
+
+use crate::args::{Dress, Keep};
+use crate::bodies;
+use crate::failure::{Failure, Result};
+use crate::figure::{Choice, Figure};
+use crate::fit::shared;
+use crate::parts::Role;
+use crate::parts::pattern::Patterns;
+
+/// A character to dress.
+pub struct KnownAvatar {
+    read_from: Source,
+    /// Its file.
+    pub figure: Figure,
+    /// What of it is dressed.
+    pub body: bodies::Avatar,
+    /// The same, for all sessions.
+    pub shared: SharedAvatar,
+}
+
+/// All that it depends on: another size or age of the file, and it is read again.
+#[derive(PartialEq, Eq)]
+struct Source {
+    file: PathBuf,
+    length: u64,
+    age: u128,
+    nodes: Option<String>,
+    is_clothed: bool,
+}
+
+impl Source {
+    fn of(args: &Dress) -> Self {
+        let known = std::fs::metadata(&args.avatar).ok();
+        let age = known.as_ref().and_then(|known| known.modified().ok()?.duration_since(UNIX_EPOCH).ok());
+        Self {
+            file: args.avatar.clone(),
+            length: known.map_or(0, |known| known.len()),
+            age: age.unwrap_or_default().as_nanos(),
+            nodes: args.avatar_nodes.clone(),
+            is_clothed: args.keep == Keep::Both,
+        }
+    }
+}
+
+impl KnownAvatar {
+    /// The character that `args` are about: the one in `known`, or read anew.
+    ///
+    /// # Errors
+    /// Where it cannot be read or dressed.
+    pub fn of<'a>(args: &Dress, known: &'a mut Option<Self>) -> Result<&'a Self> {
+        let source = Source::of(args);
+        // Taken out, so that nothing is left of it where another one cannot be read.
+        if let Some(same) = known.take().filter(|known| known.read_from == source) {
+            return Ok(known.insert(same));
+        }
+        let garments = None;
+        let body = args.avatar_nodes.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage)?;
+        let figure = Figure::open(&args.avatar, Role::Avatar, &Choice { garments, body })?;
+        figure.need_rig("it cannot be dressed; give a character with a skeleton and skin weights")?;
+        let body = bodies::avatar(&figure, args.keep == Keep::Both);
+        let shared = share(&args.avatar, &figure, &body)?;
+        Ok(known.insert(Self { read_from: source, figure, body, shared }))
+    }
+}
+
+/// The body of a character, for all sessions.
+///
+/// # Errors
+/// Where the library refuses it.
+pub fn share(file: &Path, figure: &Figure, avatar: &bodies::Avatar) -> Result<SharedAvatar> {
+    shared(&figure.rig, &avatar.body, &avatar.roles)
+        .map_err(|error| Failure::no_result(format!("{}: {error}", file.display())))
+}
