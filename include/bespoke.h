@@ -1289,6 +1289,16 @@ BespokeStatus bespoke_session_add_target_morph(struct BespokeSession *session,
 /// State: SETUP. Errors: INVALID_ARGUMENT, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_clear_target_morphs(struct BespokeSession *session);
 
+/// How much of a target morph the avatar is to have from the next bespoke_session_refit on: the body changes its shape, takes the
+/// garment along, with no triangle through another on the way, and the garment is fitted to it. Morphs add up, and layers go along
+/// with the body beneath them. At first, and after bespoke_session_reset, all weights are 0: the avatar as it was set.
+///
+/// `morph`: its number. `weight`: any finite number; 0.5 is half of the morph. State: DONE, or FIT after bespoke_session_refit. Errors:
+/// INVALID_ARGUMENT (no such morph, not finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+BespokeStatus bespoke_session_set_target_morph_weight(struct BespokeSession *session,
+                                                      uint32_t morph,
+                                                      double weight);
+
 /// Finds what the garment answers to each morph of the target avatar with: from the result on, the body goes to the morph at
 /// weight 1 and takes the garment along, with no triangle through another on the way, and the garment is fitted there, which
 /// takes about as long as the fit. The result stays as it is. Layers go along with the body beneath them. A morph without an
@@ -1435,7 +1445,7 @@ BespokeStatus bespoke_session_step(struct BespokeSession *session,
                                    uint32_t max_milliseconds,
                                    uint32_t *stage);
 
-/// Fits a result again: with other options, and with the fit weights and pins that were set since. bespoke_session_step or
+/// Fits a result again: with other options, and with the fit weights, pins and target morph weights that were set since. bespoke_session_step or
 /// bespoke_session_run then go on from the result, to another one with the same guarantee, in a small part of the time where
 /// little has changed. It is the minimum near to the result that was there; for that from the beginning, call
 /// bespoke_session_reset and run.
@@ -1446,7 +1456,8 @@ BespokeStatus bespoke_session_step(struct BespokeSession *session,
 /// FIT; it may be called again before that has ended. What was read of the result (normals, weights, morphs, followers) has
 /// to be read again. State: DONE, or FIT after it. Errors: INVALID_ARGUMENT (null, struct_size, an option out of its range or
 /// one that has to stay, a pin of a vertex that the garment does not have), INVALID_WEIGHTS (a wrong size), INVALID_STATE
-/// (also: the result is in the pose of the design), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
+/// (also: the result is in the pose of the design), INFLATION_STALLED (the garment does not let the avatar take the shape that its morph
+/// weights ask for), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
 /// INTERNAL. Threads: any, one at a time.
 BespokeStatus bespoke_session_refit(struct BespokeSession *session,
                                     const struct BespokeOptions *options);

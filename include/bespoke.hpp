@@ -1837,6 +1837,11 @@ public:
         return read_all<Number, NumberBuffer>(bespoke_session_read_distortion);
     }
 
+    /// How much of a target morph the avatar is to have from the next refit on; after the end.
+    Result<void> set_target_morph_weight(std::uint32_t morph, double weight) {
+        return call(bespoke_session_set_target_morph_weight, morph, weight);
+    }
+
     /// Finds what the garment answers to each morph of the target avatar with; after the end. Takes about as long as a fit each.
     Result<void> solve_target_morphs() { return call(bespoke_session_solve_target_morphs); }
 

@@ -109,6 +109,22 @@ pub unsafe extern "C" fn bespoke_session_clear_target_morphs(session: *mut Bespo
     unsafe { call(session, |session| session.clear_target_morphs()) }
 }
 
+/// How much of a target morph the avatar is to have from the next bespoke_session_refit on: the body changes its shape, takes the
+/// garment along, with no triangle through another on the way, and the garment is fitted to it. Morphs add up, and layers go along
+/// with the body beneath them. At first, and after bespoke_session_reset, all weights are 0: the avatar as it was set.
+///
+/// `morph`: its number. `weight`: any finite number; 0.5 is half of the morph. State: DONE, or FIT after bespoke_session_refit. Errors:
+/// INVALID_ARGUMENT (no such morph, not finite), INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bespoke_session_set_target_morph_weight(
+    session: *mut BespokeSession,
+    morph: u32,
+    weight: f64,
+) -> BespokeStatus {
+    // SAFETY: passed on from the caller.
+    unsafe { call(session, |session| session.set_target_morph_weight(morph as usize, weight)) }
+}
+
 /// Finds what the garment answers to each morph of the target avatar with: from the result on, the body goes to the morph at
 /// weight 1 and takes the garment along, with no triangle through another on the way, and the garment is fitted there, which
 /// takes about as long as the fit. The result stays as it is. Layers go along with the body beneath them. A morph without an

@@ -91,7 +91,7 @@ pub unsafe extern "C" fn bespoke_session_step(
     }
 }
 
-/// Fits a result again: with other options, and with the fit weights and pins that were set since. bespoke_session_step or
+/// Fits a result again: with other options, and with the fit weights, pins and target morph weights that were set since. bespoke_session_step or
 /// bespoke_session_run then go on from the result, to another one with the same guarantee, in a small part of the time where
 /// little has changed. It is the minimum near to the result that was there; for that from the beginning, call
 /// bespoke_session_reset and run.
@@ -102,7 +102,8 @@ pub unsafe extern "C" fn bespoke_session_step(
 /// FIT; it may be called again before that has ended. What was read of the result (normals, weights, morphs, followers) has
 /// to be read again. State: DONE, or FIT after it. Errors: INVALID_ARGUMENT (null, struct_size, an option out of its range or
 /// one that has to stay, a pin of a vertex that the garment does not have), INVALID_WEIGHTS (a wrong size), INVALID_STATE
-/// (also: the result is in the pose of the design), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
+/// (also: the result is in the pose of the design), INFLATION_STALLED (the garment does not let the avatar take the shape that its morph
+/// weights ask for), after all of which the result stays; MEMORY_LIMIT, CANCELLED, BUSY,
 /// INTERNAL. Threads: any, one at a time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bespoke_session_refit(

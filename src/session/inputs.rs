@@ -59,6 +59,8 @@ pub(super) struct Inputs {
     pub(super) garment_morphs: Vec<Arc<Morph>>,
     pub(super) target_morphs: Vec<Arc<Morph>>,
     pub(super) key_poses: Vec<Arc<KeyPose>>,
+    /// How much of each the avatar is to have in a refit; none where nothing was said.
+    pub(super) morph_weights: Vec<f64>,
     pub(super) followers: Vec<(Arc<TriangleMesh>, Precision)>,
     /// Garments that are worn together, as they were modelled; only their order is asked for.
     pub(super) outfit: Vec<Arc<TriangleMesh>>,

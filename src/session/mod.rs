@@ -502,6 +502,7 @@ impl Session {
         self.report = Report::default();
         self.forget_result();
         self.diagnostics.clear();
+        self.inputs.morph_weights.clear();
         self.control.clear_cancel();
         self.answered.store(0, Ordering::Relaxed);
         self.enter(Stage::Setup);

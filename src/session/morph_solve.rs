@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
+use super::shared::Shared;
 use super::snapshot::Snapshot;
 use super::verification::Verdict;
 use crate::contact::{Avatar, Configuration, Surface};
@@ -48,8 +49,23 @@ pub(super) struct MorphSolve {
     /// Bytes that the session holds.
     pub(super) held: u64,
     pub(super) cancel: Cancel,
+    /// What is known from other sessions.
+    pub(super) shared: Shared,
     /// What is to be published.
     pub(super) progress: Arc<Mutex<Progress>>,
+}
+
+/// The avatar in another shape, with the garment on it.
+pub(super) struct Arrived {
+    /// In the normalised space.
+    pub(super) avatar: TriangleMesh,
+    /// What of it the garment is fitted to.
+    pub(super) fitted: Arc<TriangleMesh>,
+    /// Its distance.
+    pub(super) field: Arc<Field>,
+    pub(super) state: State,
+    /// With the contacts in which the garment is.
+    pub(super) objective: Objective,
 }
 
 /// What came of it.
@@ -72,23 +88,10 @@ impl MorphSolve {
             return Ok(Outcome::Solved { offsets: vec![DVec3::ZERO; problem.weld.to_welded.len()], between: None });
         }
         let body = Arc::new(self.body(offsets, 1.0));
-        let normalised = self.normalised(&body);
-        self.check(&normalised)?;
-        let mut state = State { x: self.snapshot.x.clone(), t: 0.0 };
-        let (mut objective, arrived) = self.go(&normalised, &mut state)?;
-        if !arrived {
-            return Ok(Outcome::Stalled { weight: state.t });
-        }
-        self.cancel.check()?;
-        let fitted = match body.with_mesh(normalised.clone()).fitted() {
-            None => normalised.clone(),
-            Some(mut fitted) => {
-                collapse_unused(&mut fitted);
-                fitted
-            }
+        let Arrived { avatar: normalised, field, mut state, mut objective, .. } = match self.carry(&body)? {
+            Ok(arrived) => arrived,
+            Err(weight) => return Ok(Outcome::Stalled { weight }),
         };
-        let options = FieldOptions { voxel: self.options.voxel_size, threads: self.threads as u32 };
-        let field = Arc::new(Field::build(&fitted, options, &self.cancel)?);
         let mut fit = problem.fit_objective_on(&normalised, field, &state.x, &self.options, &self.cancel)?;
         fit.release_carried();
         fit.contact.inherit_state(&objective.contact);
@@ -110,17 +113,35 @@ impl MorphSolve {
         Ok(Outcome::Stalled { weight: 1.0 })
     }
 
+    /// Takes the avatar to `body` and the garment with it: one piece, since every vertex moves straight. The share of the way up to
+    /// which the garment lets it where it does not go to the end.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub(super) fn carry(&self, body: &Body) -> Result<std::result::Result<Arrived, f64>> {
+        let avatar = self.normalised(body);
+        self.check(&avatar)?;
+        let mut state = State { x: self.snapshot.x.clone(), t: 0.0 };
+        let (objective, arrived) = self.go(&avatar, &mut state)?;
+        if !arrived {
+            return Ok(Err(state.t));
+        }
+        self.cancel.check()?;
+        let fitted = Arc::new(match body.with_mesh(avatar.clone()).fitted() {
+            None => avatar.clone(),
+            Some(mut fitted) => {
+                collapse_unused(&mut fitted);
+                fitted
+            }
+        });
+        let options = FieldOptions { voxel: self.options.voxel_size, threads: self.threads as u32 };
+        let field = self.shared.field(&fitted, options, &self.cancel)?;
+        Ok(Ok(Arrived { avatar, fitted, field, state, objective }))
+    }
+
     /// The body with this much of the morph, in its caller's coordinates. Layers go along with the body beneath.
     fn body(&self, offsets: &[DVec3], weight: f64) -> Body {
-        let body = &self.snapshot.body;
-        let mut mesh = TriangleMesh::clone(&body.mesh);
-        let beneath = places_beneath(&body.avatar(), body.layer_positions());
-        let (own, layers) = mesh.positions.split_at_mut(offsets.len());
-        own.iter_mut().zip(offsets).for_each(|(p, &offset)| *p += weight * offset);
-        for (p, place) in layers.iter_mut().zip(&beneath) {
-            *p += weight * at(offsets, place);
-        }
-        body.with_mesh(mesh)
+        shaped(&self.snapshot.body, offsets, weight)
     }
 
     /// Refuses what is far too large, and what there is no memory for.
@@ -256,6 +277,18 @@ impl MorphSolve {
         };
         Verdict::new(&garment, &problem.weld, body, self.snapshot.initial_intersections(), &self.cancel)
     }
+}
+
+/// `body` with so much of `offsets` of its vertices, in its caller's coordinates. Layers go along with the body beneath.
+pub(super) fn shaped(body: &Body, offsets: &[DVec3], weight: f64) -> Body {
+    let mut mesh = TriangleMesh::clone(&body.mesh);
+    let beneath = places_beneath(&body.avatar(), body.layer_positions());
+    let (own, layers) = mesh.positions.split_at_mut(offsets.len());
+    own.iter_mut().zip(offsets).for_each(|(p, &offset)| *p += weight * offset);
+    for (p, place) in layers.iter_mut().zip(&beneath) {
+        *p += weight * at(offsets, place);
+    }
+    body.with_mesh(mesh)
 }
 
 /// The mean of `values` at a place of a triangle; 0 at no place.

@@ -3,24 +3,62 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use glam::DVec3;
+
 use super::Session;
 use super::inputs::Inputs;
+use super::morph_solve::{Arrived, MorphSolve, shaped};
 use super::run::{Run, Step};
+use super::snapshot::Snapshot;
 use crate::control::Stage;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::precision::Precision;
 use crate::options::Options;
 use crate::report::StageReport;
+use crate::solver::newton::State;
 use crate::stage::fit::FitStage;
+use crate::stage::setup::problem::Problem;
 
 impl Session {
-    /// Fits the result again with other `options`, and with the pins and fit weights that were set since. [`Self::step`] and
+    /// How much of a target morph the avatar is to have where the result is fitted again: 0, as it was set, at first and after `reset`.
+    /// Morphs add up.
+    ///
+    /// # Errors
+    /// `InvalidState` where there is no result to go on from, `InvalidArgument` where there is no such morph, or for a weight that is
+    /// not finite.
+    pub fn set_target_morph_weight(&mut self, index: usize, weight: f64) -> Result<()> {
+        if !self.may_adjust() {
+            return Err(Error::new(
+                ErrorKind::InvalidState,
+                "the weight of a target morph was set where there is no result to go on from; run the session to its end first",
+            ));
+        }
+        let count = self.inputs.target_morphs.len();
+        if index >= count {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!("target morph {index}: there are {count}; they are added before prepare and count from 0"),
+            ));
+        }
+        if !weight.is_finite() {
+            return Err(Error::new(
+                ErrorKind::InvalidArgument,
+                format!("target morph {index}: the weight is {weight}; it must be finite"),
+            ));
+        }
+        self.inputs.morph_weights.resize(count, 0.0);
+        self.inputs.morph_weights[index] = weight;
+        Ok(())
+    }
+
+    /// Fits the result again with other `options`, and with the pins, fit weights and morph weights that were set since. [`Self::step`] and
     /// [`Self::run`] then go on from it, to another result with the same guarantee. What it is: the minimum near to the result,
     /// the same bits for the same wishes in the same order; for the minimum from the beginning, `reset` and `run`.
     ///
     /// Options that are used before the fit have to stay as they were; carried pieces keep their places.
     ///
     /// # Errors
-    /// `InvalidState` before a result is there, and where that is not in the avatar's own pose; `InvalidArgument` for an option
+    /// `InflationStalled` where the garment does not let the avatar take the shape that its morph weights ask for, `InvalidState` before a result is there, and where that is not in the avatar's own pose; `InvalidArgument` for an option
     /// that is out of its range or has to stay, and for a pin of a vertex that the garment does not have; `InvalidWeights`. The result then stays. `Cancelled`, `MemoryLimit`.
     pub fn refit(&mut self, options: Options) -> Result<()> {
         self.refusal_to_refit(&options)?;
@@ -41,6 +79,10 @@ impl Session {
             outcome
         });
         if let Err(error) = outcome {
+            // The garment does not let the avatar take the shape that is asked for.
+            if matches!(error.kind, ErrorKind::InflationStalled | ErrorKind::InvalidArgument) {
+                return Err(error);
+            }
             self.enter(if error.kind == ErrorKind::Cancelled { Stage::Cancelled } else { Stage::Failed });
             return Err(self.answer(error));
         }
@@ -85,11 +127,74 @@ impl Session {
 }
 
 impl Run {
+    /// Takes the avatar to the shape that `inputs` ask for, and the garment along, which never passes through it. False where it has
+    /// that shape.
+    ///
+    /// # Errors
+    /// `InflationStalled` where the garment does not let it, and `InvalidArgument` for a shape that is far larger than the avatar; nothing
+    /// has changed then. Others of the solver.
+    fn take_shape(&mut self, inputs: &Inputs) -> Result<bool> {
+        let mut shape = inputs.morph_weights.clone();
+        if shape.iter().all(|&weight| weight == 0.0) {
+            shape.clear();
+        }
+        if shape == self.shape {
+            return Ok(false);
+        }
+        let clock = Instant::now();
+        let own = self.own_shape.clone().unwrap_or_else(|| self.body.clone());
+        let mut offsets = vec![DVec3::ZERO; own.avatar_size()[0]];
+        for (morph, &weight) in inputs.target_morphs.iter().zip(&shape) {
+            offsets.iter_mut().zip(&morph.offsets).for_each(|(sum, &offset)| *sum += weight * offset);
+        }
+        // Back to the own shape is to the bit.
+        let body = if shape.is_empty() { own.clone() } else { Arc::new(shaped(&own, &offsets, 1.0)) };
+        let contact = &self.objective.contact;
+        let solve = MorphSolve {
+            snapshot: Snapshot::of(self),
+            options: self.options.clone(),
+            distances: contact.distances(),
+            exempt: contact.exempt_pairs().triangle_pairs().to_vec(),
+            precision: inputs.garment.as_ref().map_or(Precision::F32, |garment| garment.1),
+            threads: self.report.threads,
+            held: self.report.memory,
+            cancel: self.context.stop.clone(),
+            shared: self.context.shared.clone(),
+            progress: Arc::default(),
+        };
+        let arrived = match solve.carry(&body) {
+            Ok(Ok(arrived)) => arrived,
+            Ok(Err(share)) => {
+                return Err(Error::new(
+                    ErrorKind::InflationStalled,
+                    format!(
+                        "the garment lets the avatar come to {:.0} % of the way to the shape that its morph weights ask for, and no \
+                         farther; the result stays as it was. Ask for less, or call reset and dress that shape from the beginning",
+                        100.0 * share
+                    ),
+                ));
+            }
+            Err(error) if error.kind == ErrorKind::InvalidArgument => {
+                return Err(Error { message: format!("target morph weights: {}", error.message), ..error });
+            }
+            Err(error) => return Err(error),
+        };
+        let Arrived { avatar, fitted, field, state, objective } = arrived;
+        self.problem = Arc::new(Problem { avatar: Arc::new(avatar), fitted, ..Problem::clone(&self.problem) });
+        self.own_shape = Some(own);
+        (self.body, self.shape) = (body, shape);
+        self.state = State { x: state.x, t: 1.0 };
+        self.objective = objective;
+        self.distance = Some((field, clock.elapsed().as_secs_f64()));
+        Ok(true)
+    }
+
     /// Sets up the fit with what `inputs` ask for now, from the present state.
     fn refit(&mut self, inputs: &Inputs) -> Result<()> {
         let clock = Instant::now();
+        self.context.stop.check()?;
+        let is_reshaped = self.take_shape(inputs)?;
         let stop = &self.context.stop;
-        stop.check()?;
         let mut problem = (*self.problem).clone();
         let system = self.target_coordinate_system;
         let weld = problem.weld.clone();
@@ -105,10 +210,15 @@ impl Run {
             ..inputs.options.clone()
         };
         let mut objective = problem.fit_objective(field, &self.fit_began_at, &self.options, stop)?;
+        if !self.shape.is_empty() {
+            // Their places are those on the avatar's own shape.
+            objective.release_carried();
+        }
         objective.contact.inherit_distances(&self.objective.contact);
         self.problem = Arc::new(problem);
         self.take_up(objective)?;
-        self.step = Step::Fit(FitStage::resume(&mut self.objective, &self.state, &self.options));
+        let begin = if is_reshaped { FitStage::begin } else { FitStage::resume };
+        self.step = Step::Fit(begin(&mut self.objective, &self.state, &self.options));
         self.report.fit = StageReport::default();
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         (self.report.converged, self.report.stuck) = (false, false);

@@ -75,6 +75,10 @@ pub(super) struct Run {
     expected: u64,
     /// The distance field and the seconds that it took, once it is there.
     pub(super) distance: Option<(Arc<Field>, f64)>,
+    /// The weights of the avatar's morphs in the shape that it has; none in its own.
+    pub(super) shape: Vec<f64>,
+    /// The body in its own shape, once it has had another.
+    pub(super) own_shape: Option<Arc<Body>>,
     /// What the result falls short of, or what holds the garment where there is none.
     pub(super) shortfalls: Vec<Diagnostic>,
     pub(super) context: Context,
@@ -160,6 +164,8 @@ impl Run {
             must_widen: false,
             report,
             begun,
+            shape: Vec::new(),
+            own_shape: None,
             shortfalls: Vec::new(),
             context,
         };

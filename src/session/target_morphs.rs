@@ -155,6 +155,7 @@ impl Session {
             threads: pool.size(),
             held: self.report.memory,
             cancel: stop.clone(),
+            shared: run.context.shared.clone(),
             progress: progress.clone(),
         };
         // This thread alone publishes; the job says what.

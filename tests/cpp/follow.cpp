@@ -50,6 +50,18 @@ void morphs_and_followers() {
     CHECK(sum / double(answer.size()) > 0.04);
     const Element element{Subject(BESPOKE_SUBJECT_FOLLOWER + 3u), ElementKind::triangle, 5};
     CHECK(element.follower() == 3u && !element.layer());
+
+    // The body takes half of the shape, and the garment goes along.
+    REFUSED(session.set_target_morph_weight(1, 0.5), Status::invalid_argument, "target morph 1");
+    ACCEPTED(session.set_target_morph_weight(0, 0.5));
+    ACCEPTED(session.refit(coarse_options()));
+    ACCEPTED(session.run());
+    const auto body = session.read_avatar_vertices().value(), own = scene.body.points;
+    for (std::size_t k = 0; k < own.size(); k++) CHECK(std::abs(length(body[k]) - 1.1 * length(own[k])) < 1e-5);
+    const auto wider = session.read_garment_vertices().value();
+    double more = 0;
+    for (std::size_t k = 0; k < wider.size(); k++) more += length(wider[k]) - length(garment[k]);
+    CHECK(more / double(wider.size()) > 0.02 && session.read_report()->is_verified == 1);
 }
 
 } // namespace

@@ -82,6 +82,7 @@ void empty(Session &session) {
     refused(session.add_target_morph("wide", points));
     refused(session.clear_target_morphs());
     refused(session.solve_target_morphs());
+    refused(session.set_target_morph_weight(0, 1.0));
     refused(session.read_target_morph(0));
     refused(session.add_follower(points, triangles));
     refused(session.clear_followers());

@@ -286,6 +286,8 @@ internal static class Dressing
             Check.Refused(Status.InvalidState, () => session.ReadTargetMorph(0), "solve_target_morphs");
             session.SolveTargetMorphs();
             Check.Same(session.ReadTargetMorph(0).Length, vertices.Length, "numbers of a morph");
+            Check.Refused(Status.InvalidArgument, () => session.SetTargetMorphWeight(9, 1), "target morph 9");
+            session.SetTargetMorphWeight(0, 0);
             Check.Refused(
                 Status.InvalidState, () => session.ReadFollowerSkinInfluences(0, 4, out _, out _), "skin weights");
             float[] normals = session.ReadGarmentNormals(null);

@@ -88,6 +88,9 @@ class Inputs(scenes.Case):
             answer = session.read_target_morph(0, dtype=np.float64)
             self.assertEqual((answer.shape, answer.dtype), (fitted.shape, np.float64))
             self.assertTrue(np.any(answer != 0.0))
+            session.set_target_morph_weight(0, 0.0)
+            with self.assertRaisesRegex(bespoke.InvalidInputError, "target morph 9"):
+                session.set_target_morph_weight(9, 1.0)
             np.testing.assert_array_equal(session.read_garment_vertices(), fitted)
             normals, none = session.read_garment_normals()
             self.assertEqual((normals.shape, none.shape), (fitted.shape, (0, 4)))

@@ -22,6 +22,7 @@ mod morphs;
 mod plausibility;
 mod profile;
 mod refit;
+mod reshape;
 mod rigs;
 mod shared;
 mod shell_rims;

@@ -11,30 +11,30 @@ use glam::DVec3;
 
 use crate::small::{arm, session, sleeve, tube};
 
-fn body(radius: f64) -> TriangleMesh {
+pub fn body(radius: f64) -> TriangleMesh {
     tube(-1.1, 1.15, |_, _| radius, 14, 18, true)
 }
 
 /// The sleeve on an arm of this radius.
-fn on(radius: f64) -> Session {
+pub fn on(radius: f64) -> Session {
     let mut session = session(1.0, DVec3::ZERO);
     session.set_target_avatar(body(radius)).unwrap();
     session
 }
 
-fn thicker(from: f64, to: f64) -> Morph {
+pub fn thicker(from: f64, to: f64) -> Morph {
     let (from, to) = (body(from), body(to));
     let offsets = from.positions.iter().zip(&to.positions).map(|(a, b)| b - a).collect();
     Morph { name: "thicker".into(), offsets }
 }
 
-fn moved(points: &[DVec3], offsets: &[DVec3]) -> TriangleMesh {
+pub fn moved(points: &[DVec3], offsets: &[DVec3]) -> TriangleMesh {
     let positions = points.iter().zip(offsets).map(|(p, d)| Precision::F32.round(*p + *d)).collect();
     TriangleMesh { positions, triangles: sleeve().triangles }
 }
 
 /// The mean distance from the axis of the lower arm, where that is straight.
-fn radius(points: &[DVec3]) -> f64 {
+pub fn radius(points: &[DVec3]) -> f64 {
     let part: Vec<f64> = points.iter().filter(|p| p.z < -0.05).map(|p| p.truncate().length()).collect();
     part.iter().sum::<f64>() / part.len() as f64
 }
@@ -103,9 +103,8 @@ fn two_arms() -> (TriangleMesh, usize) {
     (all, second)
 }
 
-/// The other arm comes to where the sleeve is.
-#[test]
-fn where_the_garment_does_not_give_way_a_diagnostic_says_so() {
+/// A session with them, and a morph in which the second comes nearer by so much.
+pub fn two_arms_apart() -> (Session, impl Fn(f64) -> Morph) {
     let (body, second) = two_arms();
     let mut skeleton = arm(1.0, DVec3::ZERO);
     skeleton.joints.extend([DVec3::new(2.0, 0.0, -1.0), DVec3::new(2.1, 0.0, 1.0)]);
@@ -115,10 +114,17 @@ fn where_the_garment_does_not_give_way_a_diagnostic_says_so() {
     session.set_target_skeleton(skeleton).unwrap();
     let count = body.positions.len();
     session.set_target_avatar(body).unwrap();
-    let morph = |shift: f64| {
+    let morph = move |shift: f64| {
         let offsets = (0..count).map(|v| if v < second { DVec3::ZERO } else { shift * DVec3::X }).collect();
         Morph { name: "nearer".into(), offsets }
     };
+    (session, morph)
+}
+
+/// The other arm comes to where the sleeve is.
+#[test]
+fn where_the_garment_does_not_give_way_a_diagnostic_says_so() {
+    let (mut session, morph) = two_arms_apart();
     session.add_target_morph(morph(-2.0)).unwrap();
     session.add_target_morph(morph(-0.4)).unwrap();
     session.run().unwrap();

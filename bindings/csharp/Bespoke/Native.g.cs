@@ -170,6 +170,10 @@ namespace Bespoke
         internal static extern Status bespoke_session_clear_target_morphs(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
+        internal static extern Status bespoke_session_set_target_morph_weight(
+            SessionHandle session, uint morph, double weight);
+
+        [DllImport(Library, CallingConvention = C, ExactSpelling = true)]
         internal static extern Status bespoke_session_solve_target_morphs(SessionHandle session);
 
         [DllImport(Library, CallingConvention = C, ExactSpelling = true)]

@@ -137,6 +137,21 @@ namespace Bespoke
         }
 
         /// <summary>
+        /// How much of a target morph the avatar is to have from the next <see cref="Refit"/> on: the body changes its
+        /// shape, takes the garment along, with no triangle through another on the way, and the garment is fitted to it.
+        /// Morphs add up. At first, and after <see cref="Reset"/>, all weights are 0. State: Done, or Fit after
+        /// <see cref="Refit"/>.
+        /// </summary>
+        /// <param name="morph">Its number.</param>
+        /// <param name="weight">Any finite number; 0.5 is half of the morph.</param>
+        /// <exception cref="BespokeException">InvalidArgument (no such morph, not finite), InvalidState, Busy,
+        /// Internal.</exception>
+        public void SetTargetMorphWeight(int morph, double weight)
+        {
+            Check(Native.bespoke_session_set_target_morph_weight(handle, checked((uint)morph), weight));
+        }
+
+        /// <summary>
         /// Finds what the garment answers to each morph of the target avatar with: from the result on, the body goes to
         /// the morph at weight 1 and takes the garment along, with no triangle through another on the way, and the garment
         /// is fitted there, which takes about as long as the fit. The result stays as it is. A morph without an answer is

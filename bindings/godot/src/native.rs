@@ -716,6 +716,7 @@ unsafe extern "C" {
         offsets: *const BespokeView,
     ) -> u32;
     pub fn bespoke_session_clear_target_morphs(session: *mut BespokeSession) -> u32;
+    pub fn bespoke_session_set_target_morph_weight(session: *mut BespokeSession, morph: u32, weight: f64) -> u32;
     pub fn bespoke_session_solve_target_morphs(session: *mut BespokeSession) -> u32;
     pub fn bespoke_session_read_target_morph(
         session: *const BespokeSession,

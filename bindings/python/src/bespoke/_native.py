@@ -586,6 +586,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         ],
     ),
     "bespoke_session_clear_target_morphs": (ctypes.c_uint32, [ctypes.c_void_p]),
+    "bespoke_session_set_target_morph_weight": (ctypes.c_uint32, [ctypes.c_void_p, ctypes.c_uint32, ctypes.c_double]),
     "bespoke_session_solve_target_morphs": (ctypes.c_uint32, [ctypes.c_void_p]),
     "bespoke_session_read_target_morph": (
         ctypes.c_uint32,

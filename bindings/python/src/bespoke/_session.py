@@ -518,6 +518,15 @@ class Session:
         """Removes all morphs of the target avatar. Stage: SETUP."""
         self._handle.call("bespoke_session_clear_target_morphs")
 
+    def set_target_morph_weight(self, morph: int, weight: float) -> None:
+        """How much of a target morph the avatar is to have from the next `refit` on: the body changes its shape, takes the garment
+        along, with no triangle through another on the way, and the garment is fitted to it.
+
+        `morph`: its number. `weight`: any finite number; 0.5 is half of the morph. Morphs add up; at first, and after `reset`,
+        all weights are 0. Stage: DONE, or FIT after `refit`. Errors: INVALID_ARGUMENT (no such morph, not finite).
+        """
+        self._handle.call("bespoke_session_set_target_morph_weight", morph, weight)
+
     def set_avatar_parts(self, roles: npt.ArrayLike | None) -> None:
         """Optional: what each triangle of the avatar is to the garment. Without it the library leaves out pieces that are no
         part of the body, with a diagnostic, and takes all else for body.

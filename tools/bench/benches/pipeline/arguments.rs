@@ -5,9 +5,9 @@ use std::path::PathBuf;
 /// How to call it.
 pub const USAGE: &str = "usage: cargo bench --bench pipeline -- [options]
 
-  --only TEXT     pairs, refits and grown garments whose name, such as \"jumpsuit_dense Goblin\", has this in it
   --tables LIST   of pairs, growth, threads, refit, sharing, batch; default all but batch, which needs the program
                   bespoke; separated by commas
+  --only TEXT     pairs, refits and grown garments whose name, such as \"jumpsuit_dense Goblin\", has this in it
   --runs N        runs of each case, of which the median counts; default 3, and 1 beyond 10,000 vertices
   --threads N     threads of a session; default 2
   --tight         every pair once more, down to a tolerance of 1e-6, to compare the objectives

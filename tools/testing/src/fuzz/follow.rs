@@ -22,7 +22,10 @@ pub fn call(session: *mut BespokeSession, source: &mut Source) {
         3 => add_follower(session, source),
         4 => clear(session, source),
         // SAFETY: the session is null or alive.
-        5 => drop(unsafe { after(session, "solve_target_morphs", bespoke_session_solve_target_morphs(session)) }),
+        5 => unsafe {
+            after(session, "solve_target_morphs", bespoke_session_solve_target_morphs(session));
+            after(session, "set_morph_weight", bespoke_session_set_target_morph_weight(session, 0, 0.5));
+        },
         6 | 7 => outfit::call(session, source),
         _ => read_points(session, source),
     }
