@@ -21,6 +21,7 @@
 # make test-blender-window  the same in the window of Blender 5.2, which is fetched from Debian's unstable suite (build/blender/window)
 # make unity  the Unity package and its tarball (build/unity; bindings/unity/README.md)
 # make godot  the add-on for Godot 4, with the library of `make dist` (build/godot-addon; bindings/godot/README.md)
+# make test-ray  the script for Ray clusters (docs/batches.md) on a local one, which is fetched from PyPI (build/ray)
 # make test-godot  its tests alone, in the engine, which is fetched from Debian's unstable suite (build/godot)
 # make unreal  the Unreal plugin (build/unreal; bindings/unreal/README.md)
 # make fuzz   the fuzz targets, FUZZ_SECONDS each (needs a nightly toolchain and cargo install cargo-fuzz)
@@ -204,6 +205,12 @@ godot-environment: dependencies | build
 .PHONY: test-godot
 test-godot: godot-environment
 	cargo test --release --test godot
+
+# Too large for every run of the tests: 400 MB.
+.PHONY: test-ray
+test-ray: dependencies
+	[ -x build/ray/bin/ray ] || { python3 -m venv build/ray && build/ray/bin/pip --quiet install ray numpy; }
+	BESPOKE_RAY='$(CURDIR)/build/ray/bin/python' cargo test --release -p bespoke-cli --test dress -- --nocapture ray
 
 .PHONY: dependencies
 dependencies:

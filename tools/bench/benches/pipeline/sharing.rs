@@ -10,6 +10,7 @@ use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Options, Precision, Session};
 use closet::avatars::{Avatar, avatar};
 use closet::garments::{Garment, garment};
+use closet::skeleton::BONES;
 use closet::{Kind, Sample, sample};
 use serde::Serialize;
 
@@ -17,6 +18,9 @@ use crate::cpu::own_seconds;
 use crate::{median, table};
 
 type Failure = Box<dyn std::error::Error>;
+
+/// The bits of a result, or why there is none.
+type Outcome = std::result::Result<Vec<u64>, String>;
 
 /// A row or a column of the closet.
 #[derive(Clone, Debug, Serialize)]
@@ -41,15 +45,15 @@ impl Model {
         positions.iter_mut().for_each(|p| *p = Precision::F32.round(*p));
         let rows = (0..positions.len()).map(|v| {
             let of = |joint: usize| (joint as u32, sample.skin[joint][v]);
-            (0..sample.skin.len()).map(of).filter(|(_, weight)| *weight > 0.0).collect()
+            (0..sample.skin.len()).map(of).filter(|(_, weight)| *weight > 0.0).collect::<Vec<_>>()
         });
-        let skin = (!sample.skin.is_empty()).then(|| SkinWeights::from_rows(sample.skin.len(), rows.collect()));
+        let skin = (!sample.skin.is_empty()).then(|| SkinWeights::from_rows(sample.skin.len(), rows));
         Self {
             skin,
             mesh: TriangleMesh { positions, triangles: sample.mesh.triangles.clone() },
             skeleton: Skeleton {
                 joints: sample.skeleton.joints.iter().map(|&p| Precision::F32.round(p)).collect(),
-                bones: sample.skeleton.bones.clone(),
+                bones: BONES.to_vec(),
             },
             no_fit: sample.no_fit.clone(),
         }
@@ -113,11 +117,7 @@ struct Closet<'a> {
 
 impl Closet<'_> {
     /// User seconds, and the bits of the results or why there is none.
-    fn dress(
-        &self,
-        pairs: &[(usize, usize)],
-        shares: bool,
-    ) -> std::result::Result<(f64, Vec<std::result::Result<Vec<u64>, String>>), Failure> {
+    fn dress(&self, pairs: &[(usize, usize)], shares: bool) -> std::result::Result<(f64, Vec<Outcome>), Failure> {
         let (mut shared_garments, mut shared_avatars) = (HashMap::new(), HashMap::new());
         let mut results = Vec::new();
         let begun = own_seconds()?;

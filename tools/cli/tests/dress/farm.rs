@@ -60,3 +60,65 @@ fn openjd_runs_the_template() {
         (2, ["vest on thin", "waistcoat on thin", "vest on thin"].map(String::from).to_vec())
     );
 }
+
+/// The Python package with this program in it.
+#[cfg(target_os = "linux")]
+fn package(folder: &Path) -> PathBuf {
+    let package = folder.join("package");
+    fs::create_dir_all(package.join("bespoke/bin")).unwrap();
+    for entry in fs::read_dir(root().join("bindings/python/src/bespoke")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|end| end == "py") {
+            fs::copy(&path, package.join("bespoke").join(path.file_name().unwrap())).unwrap();
+        }
+    }
+    fs::copy(env!("CARGO_BIN_EXE_bespoke"), package.join("bespoke/bin/bespoke")).unwrap();
+    let library = testing::library::folder().join("libbespoke.so");
+    fs::copy(library, package.join("bespoke/libbespoke.so")).unwrap();
+    package
+}
+
+/// The process that has started `bespoke batch` with this manifest: a worker of Ray.
+#[cfg(target_os = "linux")]
+fn worker(manifest: &str) -> Option<u32> {
+    let processes = fs::read_dir("/proc").unwrap().filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    processes.filter(|id| id.parse::<u32>().is_ok()).find_map(|id| {
+        let words = fs::read_to_string(format!("/proc/{id}/cmdline")).ok()?;
+        let is_batch = words.contains(manifest) && words.contains("\0--slice\0");
+        let status = fs::read_to_string(format!("/proc/{id}/status")).ok().filter(|_| is_batch)?;
+        status.lines().find_map(|line| line.strip_prefix("PPid:"))?.trim().parse().ok()
+    })
+}
+
+/// Also where a worker is killed: its slice is done by another, and no pair twice.
+#[cfg(target_os = "linux")]
+#[test]
+fn ray_runs_the_script() {
+    let Some(python) = std::env::var_os("BESPOKE_RAY") else {
+        println!("SKIPPED: the script for Ray, which takes a minute (make test-ray)");
+        return;
+    };
+    let folder = folder("ray");
+    let expected = four_pairs(&folder);
+    let manifest = folder.join("all.json").display().to_string();
+    let mut script = Command::new(python)
+        .arg(root().join("farm/batch_ray.py"))
+        .arg(&manifest)
+        .env("PYTHONPATH", package(&folder))
+        .spawn()
+        .unwrap();
+    let killed = loop {
+        assert!(script.try_wait().unwrap().is_none(), "it has ended before anything was killed");
+        match worker(&manifest) {
+            Some(worker) => break worker,
+            None => std::thread::sleep(std::time::Duration::from_millis(5)),
+        }
+    };
+    assert!(Command::new("kill").args(["-9", &killed.to_string()]).status().unwrap().success());
+    assert!(script.wait().unwrap().success());
+    all_there(&folder, &expected);
+    let reports = [1, 2].map(|slice| lines(&folder.join(format!("all.report.{slice}of2.jsonl"))));
+    let mut pairs: Vec<String> = reports.concat().into_iter().map(|line| line.pair).collect();
+    pairs.sort();
+    assert_eq!(pairs, ["vest on slim", "vest on thin", "waistcoat on slim", "waistcoat on thin"]);
+}
