@@ -33,6 +33,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE] = "joints_unsure",
     [BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED] = "solved_posed",
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
+    [BESPOKE_DIAGNOSTIC_KIND_BONES_UNCLEAR] = "bones_unclear",
     [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",
     [BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED] = "settings_adjusted",
     [BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER] = "kept_together",

@@ -342,6 +342,9 @@ enum BespokeDiagnosticKind
   /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
   /// for them, unless the option strict is set. The first vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT = 19,
+  /// The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to bones far from
+  /// each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be caught there.
+  BESPOKE_DIAGNOSTIC_KIND_BONES_UNCLEAR = 38,
   /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
   /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
   /// The distance is the longest side of its bounding box.

@@ -88,6 +88,9 @@ pub enum BespokeDiagnosticKind {
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near; the nearest bone decides
     /// for them, unless the option strict is set. The first vertices are named.
     WeightsContradict = 19,
+    /// The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to bones far from
+    /// each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be caught there.
+    BonesUnclear = 38,
     /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
     /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
     /// The distance is the longest side of its bounding box.
@@ -255,6 +258,7 @@ impl BespokeDiagnostic {
             DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
             DiagnosticKind::SolvedPosed => BespokeDiagnosticKind::SolvedPosed,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
+            DiagnosticKind::BonesUnclear => BespokeDiagnosticKind::BonesUnclear,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,
             DiagnosticKind::SettingsAdjusted => BespokeDiagnosticKind::SettingsAdjusted,
             DiagnosticKind::KeptTogether => BespokeDiagnosticKind::KeptTogether,

@@ -48,6 +48,8 @@ pub enum DiagnosticKind {
     SolvedPosed,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
+    /// A surface of the avatar without skin weights that far parts of the skeleton claim.
+    BonesUnclear,
     /// A connected piece of the avatar's mesh that is no part of the body.
     ForeignPart,
     /// The inflation stalled with the caller's settings of the contact, and was done with others.
@@ -460,6 +462,15 @@ pub enum Diagnostic {
     JointsUnsure {
         /// The places, such as "left shoulder".
         places: Vec<&'static str>,
+    },
+    /// Vertices of the avatar beside each other, without skin weights, belong to parts of the skeleton far from each other.
+    BonesUnclear {
+        /// How many edges lead from one part to the other.
+        edges: usize,
+        /// The ends of one of them.
+        vertices: [u32; 2],
+        /// The joints of the parts to which these belong.
+        joints: [[u32; 2]; 2],
     },
     /// Skin weights bind vertices of the avatar to joints far away, while another bone is near.
     WeightsContradict {

@@ -35,6 +35,7 @@ impl Diagnostic {
             Self::MorphNotSolved { .. } => DiagnosticKind::MorphNotSolved,
             Self::MorphIntersects { .. } => DiagnosticKind::MorphIntersects,
             Self::WeightsContradict { .. } => DiagnosticKind::WeightsContradict,
+            Self::BonesUnclear { .. } => DiagnosticKind::BonesUnclear,
             Self::ForeignPart { .. } => DiagnosticKind::ForeignPart,
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
             Self::Untangled { .. } => DiagnosticKind::Untangled,
@@ -81,6 +82,7 @@ impl Diagnostic {
             | Self::MorphNotSolved { .. }
             | Self::MorphIntersects { .. }
             | Self::WeightsContradict { .. }
+            | Self::BonesUnclear { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
             | Self::PieceResized { is_gross: false, .. }
@@ -143,6 +145,7 @@ impl Diagnostic {
             Self::WeightsContradict { ref first, .. } => {
                 first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
             }
+            Self::BonesUnclear { vertices, .. } => vertices.map(|v| Element::vertex(Subject::TargetAvatar, v)).into(),
             Self::ForeignPart { triangles: [first, last], .. } => {
                 let triangles = if first == last { vec![first] } else { vec![first, last] };
                 triangles.into_iter().map(|t| Element::triangle(Subject::TargetAvatar, t)).collect()

@@ -296,6 +296,16 @@ impl Display for Diagnostic {
                  which joints correspond, as pairs",
                 listed(places)
             ),
+            Self::BonesUnclear { edges, vertices: [v, w], joints } => {
+                let [here, there] = (*joints).map(part);
+                write!(
+                    f,
+                    "target avatar: parts of the body that are far apart on the skeleton are one surface, at {edges} edges such \
+                     as that of vertices {v} and {w}, which begin at {here} and at {there}; without skin weights the nearest bone \
+                     inside the body decides, and the garment may be caught there; set skin weights of the avatar, or part its \
+                     mesh there"
+                )
+            }
             Self::WeightsContradict { count, weighted, first, example, mended } => {
                 let fate = match mended {
                     true => "the nearest bone decides for these",

@@ -140,3 +140,8 @@ pub(super) fn listed(words: &[&str]) -> String {
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
 }
+
+/// The bone between two joints, or the joint that both are.
+pub(super) fn part([a, b]: [u32; 2]) -> String {
+    if a == b { format!("joint {a}") } else { format!("the bone between joints {a} and {b}") }
+}

@@ -326,6 +326,10 @@ impl Run {
             if !self.shortfalls.is_empty() {
                 error.message += "; the diagnostics name what holds the garment";
             }
+            if !self.problem.has_skin {
+                error.message +=
+                    "; the avatar has no skin weights, which would say to which bone each part of it belongs";
+            }
         }
         error
     }

@@ -103,6 +103,14 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::BonesUnclear { edges: 9, vertices: [4, 70], joints: [[4, 5], [10, 10]] },
+            "target avatar: parts of the body that are far apart on the skeleton are one surface, at 9 edges such as that of \
+             vertices 4 and 70, which begin at the bone between joints 4 and 5 and at joint 10; without skin weights the nearest \
+             bone inside the body decides, and the garment may be caught there; set skin weights of the avatar, or part its mesh \
+             there"
+                .into(),
+        ),
+        (
             Diagnostic::JointsUnsure { places: vec!["shoulders", "hips", "knees"] },
             "which joints of the two rigs are shoulders, hips and knees is a guess: the names do not say it; look at the joint \
              map, and say which joints correspond, as pairs"

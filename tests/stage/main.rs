@@ -15,6 +15,7 @@ mod layer_skin;
 mod loop_axis;
 mod normalization;
 mod open_ends;
+mod owners;
 mod pin_targets;
 mod plausibility;
 mod projection;

@@ -3,6 +3,7 @@
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::start::open_ends::find;
+use bespoke::stage::start::owners::Owners;
 use bespoke::stage::start::projection::{project, project_with};
 use closet::{Kind, sample};
 use glam::DVec3;
@@ -18,7 +19,7 @@ fn body(kind: Kind) -> (TriangleMesh, Skeleton) {
 fn skeletons_with_a_bone_in_each_end_have_none() {
     for kind in [Kind::Mannequin, Kind::Heavy, Kind::Creature] {
         let (mesh, skeleton) = body(kind);
-        assert_eq!(find(&mesh, &skeleton, None), [], "{kind:?}");
+        assert_eq!(find(&mesh, &skeleton, &Owners::find(&mesh, &skeleton, None)), [], "{kind:?}");
     }
 }
 
@@ -31,7 +32,8 @@ fn a_head_without_a_bone_starts_beyond_the_neck() {
     skeleton.joints[2] -= DVec3::Z * 0.12;
     let neck = skeleton.joints[2];
     let top = mesh.positions.iter().map(|p| p.z).fold(f64::MIN, f64::max);
-    let open = find(&mesh, &skeleton, None);
+    let owners = Owners::find(&mesh, &skeleton, None);
+    let open = find(&mesh, &skeleton, &owners);
     assert_eq!(open.len(), 1, "{open:?}");
     assert_eq!(skeleton.bones[open[0].bone as usize][open[0].end], 2);
     assert!((open[0].reach - (top - neck.z)).abs() < 0.05, "{} {}", open[0].reach, top - neck.z);
@@ -39,7 +41,7 @@ fn a_head_without_a_bone_starts_beyond_the_neck() {
     let highest = |start: &[DVec3]| start.iter().map(|p| p.z).fold(f64::MIN, f64::max);
     let shut = project(&mesh, &skeleton, &skeleton, None);
     assert!(highest(&shut.start) < neck.z + 1e-9);
-    let beyond = project_with(&mesh, &skeleton, &skeleton, None, &open);
+    let beyond = project_with(&mesh, &skeleton, &skeleton, &owners, &open);
     assert!(highest(&beyond.start) > neck.z + 0.9 * open[0].reach);
     // What is far below the neck starts where it did.
     for (p, (a, b)) in mesh.positions.iter().zip(shut.shrunk.iter().zip(&beyond.shrunk)) {

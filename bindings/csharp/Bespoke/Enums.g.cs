@@ -308,6 +308,13 @@ namespace Bespoke
         WeightsContradict = 19,
 
         /// <summary>
+        /// The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to
+        /// bones far from each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be
+        /// caught there.
+        /// </summary>
+        BonesUnclear = 38,
+
+        /// <summary>
         /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out,
         /// unless the option strict is set or <c>Session.SetAvatarParts</c> gives it a role. Its first and last
         /// triangles are named. The distance is the longest side of its bounding box.

@@ -114,6 +114,8 @@ impl BespokeRetarget {
     #[constant]
     pub const KIND_WEIGHTS_CONTRADICT: i64 = 19;
     #[constant]
+    pub const KIND_BONES_UNCLEAR: i64 = 38;
+    #[constant]
     pub const KIND_FOREIGN_PART: i64 = 20;
     #[constant]
     pub const KIND_CARRIED_PIECE: i64 = 22;

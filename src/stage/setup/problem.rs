@@ -32,7 +32,8 @@ use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
 use crate::stage::start::caps::Caps;
-use crate::stage::start::projection::{ProjectedAvatar, project};
+use crate::stage::start::owners::Owners;
+use crate::stage::start::projection::{ProjectedAvatar, project_with};
 use crate::stage::start::untangle::{Untangled, begin_apart};
 use crate::stage::start::weight_check::believed;
 use crate::stage::start::{enclosure, open_ends, repair};
@@ -121,6 +122,8 @@ pub struct Problem {
     pub designed_intersections: Vec<[u32; 2]>,
     /// The distances that contact keeps.
     pub distances: ContactDistances,
+    /// The avatar has skin weights; else the nearest bones decide.
+    pub has_skin: bool,
 }
 
 impl Problem {
@@ -142,7 +145,10 @@ impl Problem {
         let believed = inputs.skin.map(|skin| believed(skin, &avatar.avatar(), target, options.strict, diagnostics));
         let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
         let skin = skin.as_deref();
-        let straight = project(&avatar.mesh, target, source, skin);
+        let owners = Owners::find(&avatar.mesh, target, skin);
+        diagnostics.extend(owners.unclear(avatar.avatar_positions().len(), target));
+        cancel.check()?;
+        let straight = project_with(&avatar.mesh, target, source, &owners, &[]);
         cancel.check()?;
         let caps = if options.keep_caps {
             Caps::default()
@@ -163,7 +169,7 @@ impl Problem {
         } = normalised;
         let skeletons = [target, source];
         let mut projected =
-            open_ends::begin_beyond(straight, garment, &avatar.mesh, skeletons, skin, options.strict, diagnostics)?;
+            open_ends::begin_beyond(straight, garment, &avatar.mesh, skeletons, &owners, options.strict, diagnostics)?;
         cancel.check()?;
         let distances =
             ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
@@ -256,6 +262,7 @@ impl Problem {
             offset,
             carried,
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
+            has_skin: inputs.skin.is_some(),
             designed_intersections,
             distances,
         })

@@ -10,6 +10,7 @@ pub mod inside;
 pub mod joints;
 pub mod offset_grid;
 pub mod open_ends;
+pub mod owners;
 pub mod path_search;
 mod path_trace;
 pub mod projection;

@@ -6,12 +6,12 @@
 
 use glam::DVec3;
 
+use super::owners::Owners;
 use super::projection::{OpenEnd, ProjectedAvatar, attach, project_with};
 use crate::error::Result;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::{BoneGraph, Skeleton};
-use crate::input::skin::SkinWeights;
 use crate::verify::intersections;
 
 /// A bone goes on where another leaves its end within 60 degrees of its direction.
@@ -35,14 +35,14 @@ pub fn begin_beyond(
     garment: &TriangleMesh,
     avatar: &TriangleMesh,
     [target, source]: [&Skeleton; 2],
-    skin: Option<&SkinWeights>,
+    owners: &Owners,
     strict: bool,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<ProjectedAvatar> {
-    let open = find(avatar, target, skin);
+    let open = find(avatar, target, owners);
     let mut mended = None;
     if !open.is_empty() && !strict {
-        let beyond = project_with(avatar, target, source, skin, &open);
+        let beyond = project_with(avatar, target, source, owners, &open);
         mended = (intersections(garment, Some(&beyond.start_mesh()), 0)?.count == 0).then_some(beyond);
     }
     diagnostics.extend(open.iter().map(|open| {
@@ -57,7 +57,7 @@ pub fn begin_beyond(
 }
 
 /// The open ends of `target`, the skeleton of `avatar`, leaf joints apart, which always are.
-pub fn find(avatar: &TriangleMesh, target: &Skeleton, skin: Option<&SkinWeights>) -> Vec<OpenEnd> {
+pub fn find(avatar: &TriangleMesh, target: &Skeleton, owners: &Owners) -> Vec<OpenEnd> {
     let graph = BoneGraph::new(target);
     let candidates: Vec<OpenEnd> = (0..target.bones.len() as u32)
         .flat_map(|bone| [0, 1].map(|end| OpenEnd { bone, end, reach: 0.0 }))
@@ -69,8 +69,7 @@ pub fn find(avatar: &TriangleMesh, target: &Skeleton, skin: Option<&SkinWeights>
     let used = avatar.used_vertices();
     let mut reached = vec![Vec::new(); candidates.len()];
     for (v, &p) in avatar.positions.iter().enumerate().filter(|(v, _)| used[*v]) {
-        let joint = skin.and_then(|s| s.dominant_joint(v));
-        let (bone, parameter) = attach(&graph, target, p, joint, &candidates);
+        let (bone, parameter) = attach(&graph, target, p, owners.of[v], &candidates);
         for (open, lengths) in candidates.iter().zip(&mut reached).filter(|(open, _)| open.bone == bone) {
             let beyond = if open.end == 1 { parameter - 1.0 } else { -parameter };
             if beyond > 0.0 {

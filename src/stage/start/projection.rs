@@ -16,6 +16,8 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::{BoneGraph, Location, Skeleton};
 use crate::input::skin::SkinWeights;
 
+use super::owners::{Owner, Owners};
+
 /// The target avatar between its shrunk shape (t = 0) and its own (t = 1), subdivided so that the shrunk one is the
 /// skeleton and nothing else.
 #[derive(Clone, Debug, Default)]
@@ -56,27 +58,27 @@ struct Corner {
 }
 
 /// Projects `avatar` (normalised) with its skeleton `target` onto `source`, whose bones `target` shares in order and
-/// direction. Skin weights, where given, decide the joint that a vertex belongs to.
+/// direction. Skin weights, where given, decide the joint that a vertex belongs to, and [`Owners`] elsewhere.
 pub fn project(
     avatar: &TriangleMesh,
     target: &Skeleton,
     source: &Skeleton,
     skin: Option<&SkinWeights>,
 ) -> ProjectedAvatar {
-    project_with(avatar, target, source, skin, &[])
+    project_with(avatar, target, source, &Owners::find(avatar, target, skin), &[])
 }
 
-/// [`project`], with the body going on beyond `open` ends of bones as it does beyond leaf joints.
+/// [`project`], where it is known what vertices belong to, with the body going on beyond `open` ends of bones as it does beyond leaf joints.
 pub fn project_with(
     avatar: &TriangleMesh,
     target: &Skeleton,
     source: &Skeleton,
-    skin: Option<&SkinWeights>,
+    owners: &Owners,
     open: &[OpenEnd],
 ) -> ProjectedAvatar {
     let graph = BoneGraph::new(source);
     let locations = avatar.positions.iter().enumerate().map(|(v, &end)| {
-        let (bone, parameter) = attach(&graph, target, end, skin.and_then(|s| s.dominant_joint(v)), open);
+        let (bone, parameter) = attach(&graph, target, end, owners.of[v], open);
         Location::Bone { bone, parameter: on_source(parameter, bone, target, source) }
     });
     subdivide(avatar, locations.collect(), source, &graph)
@@ -127,17 +129,17 @@ pub fn subdivide(
     out
 }
 
-/// The bone that a point belongs to, and its parameter there: the closest among the bones at `joint`, or among all.
+/// The bone that a point belongs to, and its parameter there: the closest among the bones of `owner`, or among all.
 pub(super) fn attach(
     graph: &BoneGraph,
     skeleton: &Skeleton,
     p: DVec3,
-    joint: Option<u32>,
+    owner: Option<Owner>,
     open: &[OpenEnd],
 ) -> (u32, f64) {
     let mut best = (f64::INFINITY, 0, 0.0);
     for (bone, ends) in skeleton.bones.iter().enumerate() {
-        if joint.is_some_and(|j| !ends.contains(&j)) {
+        if owner.is_some_and(|owner| !owner.has(bone as u32, *ends)) {
             continue;
         }
         let mut parameter = graph.project(skeleton, bone as u32, p);

@@ -277,6 +277,11 @@ class DiagnosticKind(_Number):
     for them, unless the option strict is set. The first vertices are named.
     """
 
+    BONES_UNCLEAR = 38
+    """The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to bones
+    far from each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be caught there.
+    """
+
     FOREIGN_PART = 20
     """A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless
     the option strict is set or `Session.set_avatar_parts` gives it a role. Its first and last triangles are named. The
