@@ -5,7 +5,8 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, listed, part_name, point, quoted, ranges, short, turned, units,
+    at_bone, avatar_triangle, axes, bone_name, input, listed, part, part_name, point, quoted, ranges, short, turned,
+    units,
 };
 
 /// Axes that are exchanged are turned by 90 degrees, or by 120; what stands the other way round by 180.
