@@ -119,7 +119,6 @@ fn files_that_lie_are_refused_with_the_place() {
         "flat",
         "many_instances",
         "odd_corners",
-        "points",
         "strip",
         "text",
         "vrm_one",
