@@ -37,7 +37,7 @@ cases! {
     sample_is_dressed arrays_of_every_shape every_input every_result coordinate_systems rigs
     versions_and_names bad_arguments wrong_states busy
     progress steps cancel_by_token cancel_at_any_moment cancel_without_token failure_of_a_task
-    dispose dispose_while_running control_outlives_session finalisers threads
+    dispose dispose_while_running control_outlives_session finalisers threads shared
 }
 
 /// Those that need another library, or none.
