@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::Session;
-use super::inputs::{Inputs, Pin};
+use super::inputs::Inputs;
+use super::pin::Pin;
 use crate::error::{Error, ErrorKind, Result};
 use crate::input::coordinate_system::CoordinateSystem;
 use crate::input::weld::Weld;

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+use super::pin::Pin;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::shared::Shared;
 use super::way::Way;
@@ -29,15 +30,6 @@ use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as ProblemInputs, Problem};
 use crate::stage::start::foreign_parts;
 use crate::stage::start::joints::{self, Misplaced};
-
-/// A garment vertex that is held in a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
-    /// The vertex.
-    pub vertex: u32,
-    /// Its target, in the target's coordinate system; none: where it was designed, carried along with the nearest bone.
-    pub target: Option<DVec3>,
-}
 
 /// Everything that can be set, in the caller's own coordinate systems.
 #[derive(Clone, Default)]

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::Session;
-use super::inputs::Pin;
+use super::pin::Pin;
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;

@@ -164,8 +164,10 @@ pub fn all_there(folder: &Path, expected: &[(String, Vec<u8>)]) {
 /// The processes that `process` has started.
 #[cfg(target_os = "linux")]
 fn children(process: u32) -> Vec<u32> {
-    let list = fs::read_to_string(format!("/proc/{process}/task/{process}/children")).unwrap_or_default();
-    list.split_whitespace().map(|id| id.parse().unwrap()).collect()
+    // Each of its threads has its own.
+    let threads = fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().filter_map(|entry| entry.ok());
+    let lists = threads.map(|thread| fs::read_to_string(thread.path().join("children")).unwrap_or_default());
+    lists.flat_map(|list| list.split_whitespace().map(|id| id.parse().unwrap()).collect::<Vec<_>>()).collect()
 }
 
 #[cfg(target_os = "linux")]
