@@ -1,8 +1,8 @@
 //! Which triangles of the body the result covers.
 
+use crate::capi::list::List;
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
-use crate::capi::view::invalid;
 use crate::session::CoveredOptions;
 
 /// What is asked about is no layer but the avatar itself.
@@ -32,17 +32,10 @@ pub unsafe extern "C" fn bespoke_session_read_covered_triangles(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` numbers and for one more.
     unsafe {
         call(session, |session| {
-            if triangles.is_null() && capacity > 0 {
-                return invalid(format!("covered triangles: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(triangles, capacity, count, "covered triangles")?;
             let layer = (layer != BESPOKE_NO_LAYER).then_some(layer as usize);
             let covered = session.covered_triangles(layer, &CoveredOptions { margin, openness })?;
-            if !count.is_null() {
-                count.write(covered.len());
-            }
-            for (k, &triangle) in covered.iter().take(capacity).enumerate() {
-                triangles.add(k).write_unaligned(triangle);
-            }
+            list.write(covered.iter().copied());
             Ok(())
         })
     }

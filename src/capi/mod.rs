@@ -50,6 +50,7 @@ pub mod covered;
 pub mod diagnostics;
 
 mod float_mode;
+mod list;
 mod sized;
 mod stay;
 mod text;

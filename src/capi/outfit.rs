@@ -1,9 +1,10 @@
 //! Garments that are worn together: in which order, and whether they pass through each other.
 
 use crate::capi::inputs::mesh;
+use crate::capi::list::List;
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
-use crate::capi::view::{BespokeView, invalid};
+use crate::capi::view::BespokeView;
 use crate::geometry::outfit::WornPair;
 
 /// Optional: a garment of an outfit as it was modelled, so that the order in which the outfit is worn can be read:
@@ -57,16 +58,9 @@ pub unsafe extern "C" fn bespoke_session_read_outfit_order(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` numbers and for one more.
     unsafe {
         call(session, |session| {
-            if order.is_null() && capacity > 0 {
-                return invalid(format!("outfit order: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(order, capacity, count, "outfit order")?;
             let found = session.outfit_order()?;
-            if !count.is_null() {
-                count.write(found.order.len());
-            }
-            for (k, &garment) in found.order.iter().take(capacity).enumerate() {
-                order.add(k).write_unaligned(garment);
-            }
+            list.write(found.order.iter().copied());
             Ok(())
         })
     }
@@ -116,16 +110,9 @@ pub unsafe extern "C" fn bespoke_session_read_worn_pairs(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` pairs and for one number.
     unsafe {
         call(session, |session| {
-            if pairs.is_null() && capacity > 0 {
-                return invalid(format!("worn pairs: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(pairs, capacity, count, "worn pairs")?;
             let found = session.outfit_order()?;
-            if !count.is_null() {
-                count.write(found.pairs.len());
-            }
-            for (k, pair) in found.pairs.iter().take(capacity).enumerate() {
-                pairs.add(k).write_unaligned(pair.into());
-            }
+            list.write(found.pairs.iter().map(BespokeWornPair::from));
             Ok(())
         })
     }
@@ -155,21 +142,14 @@ pub unsafe extern "C" fn bespoke_session_find_intersections(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` pairs and for one number.
     unsafe {
         call(session, |session| {
-            if pairs.is_null() && capacity > 0 {
-                return invalid(format!("intersections: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(pairs.cast::<[u32; 2]>(), capacity, count, "intersections")?;
             let (first, _) = mesh(positions, triangles, "first mesh")?;
             let other = match (other_positions.is_null(), other_triangles.is_null()) {
                 (true, true) => None,
                 _ => Some(mesh(other_positions, other_triangles, "second mesh")?.0),
             };
             let found = session.intersecting_pairs(first, other)?;
-            if !count.is_null() {
-                count.write(found.len());
-            }
-            for (k, &triangle) in found.iter().take(capacity).flatten().enumerate() {
-                pairs.add(k).write_unaligned(triangle);
-            }
+            list.write(found.into_iter());
             Ok(())
         })
     }

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DMat4};
 
+use crate::capi::list::List;
 use crate::capi::rigs::{BESPOKE_NO_JOINT, BESPOKE_TRANSFORM_SIZE};
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
@@ -112,16 +113,9 @@ pub unsafe extern "C" fn bespoke_session_read_added_joints(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` joints and for one number.
     unsafe {
         call(session, |session| {
-            if joints.is_null() && capacity > 0 {
-                return invalid(format!("added joints: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(joints, capacity, count, "added joints")?;
             let added = session.added_joints()?;
-            if !count.is_null() {
-                count.write(added.len());
-            }
-            for (k, joint) in added.iter().take(capacity).enumerate() {
-                joints.add(k).write_unaligned(joint.into());
-            }
+            list.write(added.iter().map(BespokeAddedJoint::from));
             Ok(())
         })
     }
@@ -144,19 +138,12 @@ pub unsafe extern "C" fn bespoke_session_read_pose_transforms(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` transforms and for one number.
     unsafe {
         call(session, |session| {
-            if transforms.is_null() && capacity > 0 {
-                return invalid(format!("pose transforms: the pointer is null, with room for {capacity}"));
-            }
+            let list =
+                List::new(transforms.cast::<[f64; BESPOKE_TRANSFORM_SIZE]>(), capacity, count, "pose transforms")?;
             let joints = session.target_joint_count()?;
-            if !count.is_null() {
-                count.write(joints);
-            }
-            for joint in 0..joints.min(capacity) {
-                let motion = session.pose_transforms().map_or(DAffine3::IDENTITY, |motions| motions[joint]);
-                for (k, number) in DMat4::from(motion).to_cols_array().into_iter().enumerate() {
-                    transforms.add(joint * BESPOKE_TRANSFORM_SIZE + k).write_unaligned(number);
-                }
-            }
+            let motions = session.pose_transforms();
+            let motion = |joint: usize| motions.map_or(DAffine3::IDENTITY, |motions| motions[joint]);
+            list.write((0..joints).map(|joint| DMat4::from(motion(joint)).to_cols_array()));
             Ok(())
         })
     }

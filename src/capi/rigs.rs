@@ -5,6 +5,7 @@ use std::ffi::{CStr, c_char};
 use glam::DMat4;
 
 use crate::capi::inputs::skin_influences;
+use crate::capi::list::List;
 use crate::capi::session::{BespokeSession, call};
 use crate::capi::status::BespokeStatus;
 use crate::capi::text;
@@ -247,16 +248,9 @@ pub unsafe extern "C" fn bespoke_session_read_joint_map(
     // SAFETY: passed on from the caller, who vouches for room for `capacity` joints and for one number.
     unsafe {
         call(session, |session| {
-            if joints.is_null() && capacity > 0 {
-                return invalid(format!("joint map: the pointer is null, with room for {capacity}"));
-            }
+            let list = List::new(joints, capacity, count, "joint map")?;
             let map = session.joint_map()?;
-            if !count.is_null() {
-                count.write(map.joints.len());
-            }
-            for (k, joint) in map.joints.iter().take(capacity).enumerate() {
-                joints.add(k).write(joint.into());
-            }
+            list.write(map.joints.iter().map(BespokeMappedJoint::from));
             Ok(())
         })
     }
