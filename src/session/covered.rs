@@ -4,7 +4,7 @@ use std::sync::{Arc, PoisonError};
 
 use super::Session;
 use super::snapshot::Snapshot;
-use crate::control::{Cancel, Cancelled, Stage};
+use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::covered::{CoveredOptions, Wearer, covered_triangles};
 use crate::geometry::mesh::TriangleMesh;
@@ -29,7 +29,7 @@ impl Session {
                 format!("covered triangles: the openness is {}; it must be from 0 to 1", options.openness),
             ));
         }
-        let (Some(snapshot), Some(pool), Stage::Done) = (&self.snapshot, &self.pool, self.stage) else {
+        let (Some(snapshot), Stage::Done) = (&self.snapshot, self.stage) else {
             return Err(Error::new(
                 ErrorKind::InvalidState,
                 "covered triangles: there is no result yet; run the session to its end first",
@@ -45,16 +45,9 @@ impl Session {
         if let Some(known) = last().as_ref().filter(|known| known.layer == layer && known.options == *options) {
             return Ok(known.triangles.clone());
         }
-        let (snapshot, options, stop) = (snapshot.clone(), *options, Cancel::new());
-        let answered = self.answered();
-        let cancel = stop.clone();
-        let job = move || snapshot.covered_triangles(layer, &options, &cancel);
-        let should_stop = || self.control.requests() > answered;
-        if should_stop() {
-            return Err(self.answer(Cancelled.into()));
-        }
-        let found = pool.run(should_stop, &stop, job).and_then(|found| found);
-        let triangles: Arc<[u32]> = found.map_err(|error| self.answer(error))?.into();
+        let (snapshot, options) = (snapshot.clone(), *options);
+        let find = move |cancel: &Cancel| snapshot.covered_triangles(layer, &options, cancel);
+        let triangles: Arc<[u32]> = self.aside(find)?.into();
         *last() = Some(Covered { layer, options, triangles: triangles.clone() });
         Ok(triangles)
     }

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::Session;
 use super::inputs::Inputs;
 use super::snapshot::Snapshot;
-use crate::control::{Cancel, Cancelled, Stage};
+use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skin::SkinWeights;
@@ -59,7 +59,7 @@ impl Session {
         if let Some(found) = self.skin.get() {
             return Ok(found.clone());
         }
-        let (Some(snapshot), Some(pool), Stage::Done) = (&self.snapshot, &self.pool, self.stage) else {
+        let (Some(snapshot), Stage::Done) = (&self.snapshot, self.stage) else {
             return Err(Error::new(
                 ErrorKind::InvalidState,
                 "garment skin: there is no result yet; run the session to its end first",
@@ -71,16 +71,8 @@ impl Session {
                 "garment skin: the target avatar has no skin weights to take over; set them before prepare",
             ));
         }
-        let (snapshot, inputs, stop) = (snapshot.clone(), self.inputs.clone(), Cancel::new());
-        let answered = self.answered();
-        let cancel = stop.clone();
-        let job = move || snapshot.garment_skin(&inputs, &cancel);
-        let should_stop = || self.control.requests() > answered;
-        if should_stop() {
-            return Err(self.answer(Cancelled.into()));
-        }
-        let found = pool.run(should_stop, &stop, job).and_then(|found| found);
-        let found = Arc::new(found.map_err(|error| self.answer(error))?);
+        let (snapshot, inputs) = (snapshot.clone(), self.inputs.clone());
+        let found = Arc::new(self.aside(move |cancel| snapshot.garment_skin(&inputs, cancel))?);
         Ok(self.skin.get_or_init(|| found).clone())
     }
 }

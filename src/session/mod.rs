@@ -3,6 +3,7 @@
 //! What takes long is done by jobs in the session's own threads, one after the other, which own what they work on. The
 //! snapshot that can be read is kept apart from them: it is replaced after each iteration, and stays when a job is abandoned.
 
+mod aside;
 mod context;
 mod covered;
 mod curves;
