@@ -3,7 +3,8 @@
 # make demo   makes a sample, dresses two bodies in it and says what came out
 # make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
 #             makes the paper's figures
-# make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them
+# make figures  the paper's figures alone: build/gallery/figures; make figures FIGURES='layers stress' some of them;
+#             PAIRS has the folders of real pairs for those that show such beside the closet's
 # make wardrobe  dresses the pairs in WARDROBE, folders as in ../shared/rigs/ready: build/wardrobe/sheet.png, wardrobe.md
 # make moments  six moments of dressed, animated files: build/moments/moments.png; MOMENTS='dressed.glb Walking_A' says which
 # make install  the library, its header, and what CMake and pkg-config need, in PREFIX (/usr/local); make uninstall
@@ -246,9 +247,11 @@ moments: painter
 	cargo run --release -p gallery --bin moments -- $(MOMENTS) --out build/moments
 	$(RENDER) build/moments/moments.json build/moments/moments.png
 
+# PAIRS: folders of real pairs, for figures that have such.
+PAIRS ?= $(wildcard ../shared/rigs/ready/*)
 .PHONY: figures
 figures: painter
-	cargo run --release -p figures -- --out build/gallery/figures $(FIGURES); ended=$$?; \
+	cargo run --release -p figures -- --out build/gallery/figures $(addprefix --pair ,$(PAIRS)) $(FIGURES); ended=$$?; \
 	[ $$ended -le 1 ] || exit $$ended; \
 	for sheet in build/gallery/figures/*.json; do $(RENDER) $$sheet $${sheet%.json}.png || exit 2; done; \
 	exit $$ended

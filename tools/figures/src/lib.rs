@@ -6,6 +6,7 @@ pub mod curve_term;
 pub mod dressed;
 pub mod figure;
 pub mod fit_weight;
+pub mod key_poses;
 pub mod layers;
 pub mod measure;
 pub mod poses;

@@ -1,9 +1,10 @@
 //! The figures of the paper's evaluation, each from the closet, with pictures, numbers and claims that are checked.
 //!
-//!     cargo run --release -p figures -- [--out DIR] [NAME...]
+//!     cargo run --release -p figures -- [--out DIR] [--pair FOLDER]... [NAME...]
 //!
-//! Writes for each figure `NAME.json` with `NAME.bin`, a sheet of pictures for `tools/gallery/web/render.mjs`, and `NAME.md`, its
-//! numbers. Exits with 0 where all claims hold, 1 where one does not, 2 where nothing could be written.
+//! A folder holds a real pair of garment and body ([`gallery::folder`]), for the figures that show such beside the closet's.
+//! Writes for each figure `NAME.json` with `NAME.bin`, a sheet of pictures for `tools/gallery/web/render.mjs`, and `NAME.md`,
+//! its numbers. Exits with 0 where all claims hold, 1 where one does not, 2 where nothing could be written.
 
 use std::fs;
 use std::io;
@@ -13,37 +14,39 @@ use std::time::Instant;
 
 use figures::figure::{Figure, Outcome};
 use figures::{
-    clearance, comparison, curve_term, fit_weight, layers, poses, resolution, shells, skeleton_edits, skin_weights,
-    stress,
+    clearance, comparison, curve_term, fit_weight, key_poses, layers, poses, resolution, shells, skeleton_edits,
+    skin_weights, stress,
 };
 
-/// The name of a figure, and what makes it.
-type Maker = (&'static str, fn() -> Outcome<Figure>);
+/// The name of a figure, and what makes it, with folders of real pairs.
+type Maker = (&'static str, fn(&[PathBuf]) -> Outcome<Figure>);
 
 /// All of them.
-const FIGURES: [Maker; 11] = [
-    ("layers", layers::figure),
-    ("stress", stress::figure),
-    ("fit-weight", fit_weight::figure),
-    ("skeleton-edits", skeleton_edits::figure),
-    ("curve-term", curve_term::figure),
-    ("resolution", resolution::figure),
-    ("clearance", clearance::figure),
-    ("shells", shells::figure),
-    ("skin-weights", skin_weights::figure),
-    ("poses", poses::figure),
-    ("comparison", comparison::figure),
+const FIGURES: [Maker; 12] = [
+    ("layers", |_| layers::figure()),
+    ("stress", |_| stress::figure()),
+    ("fit-weight", |_| fit_weight::figure()),
+    ("skeleton-edits", |_| skeleton_edits::figure()),
+    ("curve-term", |_| curve_term::figure()),
+    ("resolution", |_| resolution::figure()),
+    ("clearance", |_| clearance::figure()),
+    ("shells", |_| shells::figure()),
+    ("skin-weights", |_| skin_weights::figure()),
+    ("key-poses", key_poses::figure),
+    ("poses", |_| poses::figure()),
+    ("comparison", |_| comparison::figure()),
 ];
 
-const USAGE: &str = "usage: figures [--out DIR] [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [poses] [comparison]";
+const USAGE: &str = "usage: figures [--out DIR] [--pair FOLDER]... [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [key-poses] [poses] [comparison]";
 
 fn main() -> ExitCode {
     let mut out = PathBuf::from("build/gallery/figures");
-    let mut names = Vec::new();
+    let (mut names, mut folders) = (Vec::new(), Vec::new());
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match (word.as_str(), words.len()) {
             ("--out", 1..) => out = words.next().unwrap_or_default().into(),
+            ("--pair", 1..) => folders.extend(words.next().map(PathBuf::from)),
             (name, _) if FIGURES.iter().any(|(known, _)| *known == name) => names.push(word),
             _ => {
                 eprintln!("figures: there is no figure or option '{word}'\n{USAGE}");
@@ -55,7 +58,7 @@ fn main() -> ExitCode {
     let mut failed = 0;
     for (name, make) in wanted {
         let clock = Instant::now();
-        let figure = match make() {
+        let figure = match make(&folders) {
             Ok(figure) => figure,
             Err(message) => {
                 eprintln!("{name}: {message}");

@@ -5,6 +5,7 @@
 //! the garment can follow.
 
 use bespoke::control::Cancel;
+use bespoke::error::Error;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
@@ -21,7 +22,7 @@ use closet::skeleton::BONES;
 use closet::{Kind, Sample, sample};
 use gallery::sheet::{Cell, Heading, Role, Sheet, View};
 use gallery::{look, pair};
-use testing::posing::{Counts, POSES, Puppet, counts, nearest_vertex};
+use testing::posing::{Bound, Counts, POSES, Puppet, nearest_vertex};
 
 const PAIRS: [(Garment, Avatar); 10] = [
     (Garment::Jumpsuit, Avatar::Slim),
@@ -42,25 +43,32 @@ const SHOWN: [usize; 4] = [1, 2, 4, 8];
 const METHODS: [&str; 3] = ["nearest vertex", "closest point", "Bespoke"];
 
 /// Influences that most engines take.
-const INFLUENCES: usize = 4;
+pub const INFLUENCES: usize = 4;
 
 /// By how much each joint bends, in degrees.
-const BEND: f64 = 45.0;
+pub const BEND: f64 = 45.0;
 
 /// The share of what the nearest vertex gives that is allowed.
 const ALLOWED: f64 = 1.0 / 3.0;
 
+/// Weights of a garment as tools hand them out: those of the nearest vertex of the body, and of the closest point.
+///
+/// # Errors
+/// Those of the library.
+pub fn by_tools(worn: &TriangleMesh, body: &TriangleMesh, skin: &SkinWeights) -> Result<[SkinWeights; 2], Error> {
+    let closest = sure_weights(worn, body, skin, &TransferOptions::default(), &Cancel::new())?.weights;
+    Ok([nearest_vertex(worn, body, skin), closest].map(|weights| limited(&weights, INFLUENCES)))
+}
+
 /// Weights of the same garment by all methods.
-fn weights(worn: &TriangleMesh, body: &TriangleMesh, skin: &SkinWeights) -> Outcome<[SkinWeights; 3]> {
-    let (options, cancel) = (TransferOptions::default(), Cancel::new());
-    let message = |error: bespoke::error::Error| error.message;
-    let closest = sure_weights(worn, body, skin, &options, &cancel).map_err(message)?.weights;
-    let own = transfer(worn, body, skin, &options, &cancel).map_err(message)?;
-    Ok([nearest_vertex(worn, body, skin), closest, own].map(|weights| limited(&weights, INFLUENCES)))
+fn weights(worn: &TriangleMesh, body: &TriangleMesh, skin: &SkinWeights) -> Result<[SkinWeights; 3], Error> {
+    let own = transfer(worn, body, skin, &TransferOptions::default(), &Cancel::new())?;
+    let [nearest, closest] = by_tools(worn, body, skin)?;
+    Ok([nearest, closest, limited(&own, INFLUENCES)])
 }
 
 /// The skin of a body.
-fn skin_of(body: &Sample) -> Outcome<SkinWeights> {
+pub fn skin_of(body: &Sample) -> Outcome<SkinWeights> {
     let rows: Vec<f64> = body.skin.iter().flatten().copied().collect();
     SkinWeights::from_dense(&rows, body.skin.len(), body.mesh.positions.len(), "skin").map_err(|error| error.message)
 }
@@ -83,6 +91,8 @@ pub fn figure() -> Outcome<Figure> {
         let skeleton = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
         let puppet = Puppet::new(&skeleton, DVec3::NEG_Y, DVec3::Z);
         let moves = POSES.map(|pose| puppet.moves(pose, BEND));
+        let bound = Bound::new(&dressed.mesh, &under, &skin);
+        let posed = moves.each_ref().map(|moves| bound.posed(moves));
         let column = SHOWN.iter().position(|&shown| shown == number);
         let all_bent: &[DAffine3] = &moves[POSES.len() - 1];
         let posed_body = column.map(|_| {
@@ -93,9 +103,10 @@ pub fn figure() -> Outcome<Figure> {
                 .add_mesh(&look::positions(&linear_blend(&under.positions, &skin, all_bent)), &under.triangles);
             look::surface(Role::Body, mesh, look::BODY)
         });
-        for (row, (name, weights)) in METHODS.into_iter().zip(weights(&dressed.mesh, &under, &skin)?).enumerate() {
+        let weights = weights(&dressed.mesh, &under, &skin).map_err(|error| error.message)?;
+        for (row, (name, weights)) in METHODS.into_iter().zip(weights).enumerate() {
             let mut sum = Counts::default();
-            moves.iter().for_each(|moves| sum += counts(&dressed.mesh, &weights, &under, &skin, moves));
+            posed.iter().for_each(|pose| sum += pose.counts(&dressed.mesh.positions, &weights));
             totals[row] += sum;
             let caption = format!("{} + {} ({})", sum.own, sum.body, sum.folds);
             figure.rows.push(vec![kind.name().into(), who.name().into(), name.into(), caption.clone()]);

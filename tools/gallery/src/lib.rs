@@ -1,6 +1,7 @@
 //! The gallery: pairs of a garment and an avatar of the closet, dressed, judged, and shown in a table and on a sheet of
 //! pictures.
 
+pub mod folder;
 pub mod look;
 pub mod models;
 pub mod overview;

@@ -60,6 +60,11 @@ impl Puppet {
         Self { joints: skeleton.joints.clone(), parents, front, up }
     }
 
+    /// The joint that moves each joint.
+    pub fn parents(&self) -> &[Option<u32>] {
+        &self.parents
+    }
+
     /// How each joint moves what it owns when these joints bend by `degrees`.
     pub fn moves(&self, bends: &[Bend], degrees: f64) -> Vec<DAffine3> {
         let mut turns = vec![DQuat::IDENTITY; self.joints.len()];
@@ -112,27 +117,69 @@ pub fn counts(
     skin: &SkinWeights,
     moves: &[DAffine3],
 ) -> Counts {
-    let posed = |mesh: &TriangleMesh, skin: &SkinWeights| TriangleMesh {
-        positions: linear_blend(&mesh.positions, skin, moves),
-        triangles: mesh.triangles.clone(),
-    };
-    let pairs =
-        |a: &TriangleMesh, b: Option<&TriangleMesh>| intersections(a, b, usize::MAX).expect("finite coordinates").pairs;
-    // Those that are there in the bind pose are not the pose's.
-    let fresh = |posed: Vec<[u32; 2]>, bound: Vec<[u32; 2]>| {
-        let bound: HashSet<[u32; 2]> = bound.into_iter().collect();
-        posed.into_iter().filter(move |pair| !bound.contains(pair))
-    };
-    let (cloth, under) = (posed(garment, weights), posed(body, skin));
-    let mut folded = vec![false; body.triangles.len()];
-    fresh(pairs(&under, None), pairs(body, None)).flatten().for_each(|t| folded[t as usize] = true);
-    let with_body = fresh(pairs(&cloth, Some(&under)), pairs(garment, Some(body)));
-    let (folds, others): (Vec<_>, Vec<_>) = with_body.partition(|pair| folded[pair[1] as usize]);
-    Counts {
-        own: fresh(pairs(&cloth, None), pairs(garment, None)).count() as u64,
-        body: others.len() as u64,
-        folds: folds.len() as u64,
+    Bound::new(garment, body, skin).posed(moves).counts(&garment.positions, weights)
+}
+
+/// Garment and body in the bind pose, and what passes through what there, which is not a pose's.
+pub struct Bound<'a> {
+    garment: &'a TriangleMesh,
+    body: &'a TriangleMesh,
+    skin: &'a SkinWeights,
+    own: HashSet<[u32; 2]>,
+    folds: HashSet<[u32; 2]>,
+    with_body: HashSet<[u32; 2]>,
+}
+
+/// The body in a pose.
+pub struct Posed<'a> {
+    bound: &'a Bound<'a>,
+    moves: &'a [DAffine3],
+    /// The body.
+    pub under: TriangleMesh,
+    folded: Vec<bool>,
+}
+
+impl<'a> Bound<'a> {
+    /// A garment on a body that has skin weights.
+    pub fn new(garment: &'a TriangleMesh, body: &'a TriangleMesh, skin: &'a SkinWeights) -> Self {
+        let [own, folds, with_body] =
+            [(garment, None), (body, None), (garment, Some(body))].map(|(a, b)| pairs(a, b).into_iter().collect());
+        Self { garment, body, skin, own, folds, with_body }
     }
+
+    /// The body where these motions of its joints take it.
+    pub fn posed(&'a self, moves: &'a [DAffine3]) -> Posed<'a> {
+        let under = TriangleMesh {
+            positions: linear_blend(&self.body.positions, self.skin, moves),
+            triangles: self.body.triangles.clone(),
+        };
+        let mut folded = vec![false; under.triangles.len()];
+        let fresh = pairs(&under, None).into_iter().filter(|pair| !self.folds.contains(pair));
+        fresh.flatten().for_each(|t| folded[t as usize] = true);
+        Posed { bound: self, moves, under, folded }
+    }
+}
+
+impl Posed<'_> {
+    /// What passes through what where the garment, at `positions` in the bind pose, goes along by `weights`.
+    pub fn counts(&self, positions: &[DVec3], weights: &SkinWeights) -> Counts {
+        let Bound { garment, own, with_body, .. } = self.bound;
+        let cloth = TriangleMesh {
+            positions: linear_blend(positions, weights, self.moves),
+            triangles: garment.triangles.clone(),
+        };
+        let fresh = pairs(&cloth, Some(&self.under)).into_iter().filter(|pair| !with_body.contains(pair));
+        let (folds, others): (Vec<_>, Vec<_>) = fresh.partition(|pair| self.folded[pair[1] as usize]);
+        Counts {
+            own: pairs(&cloth, None).iter().filter(|pair| !own.contains(*pair)).count() as u64,
+            body: others.len() as u64,
+            folds: folds.len() as u64,
+        }
+    }
+}
+
+fn pairs(a: &TriangleMesh, b: Option<&TriangleMesh>) -> Vec<[u32; 2]> {
+    intersections(a, b, usize::MAX).expect("finite coordinates").pairs
 }
 
 /// The weights of the nearest vertex of the body: what tools do that look at nothing else.

@@ -2,39 +2,28 @@
 //!
 //!     cargo run --release -p gallery --bin wardrobe -- FOLDERS [--out DIR]
 //!
-//! A folder has `garment.obj`, `source_skeleton.obj`, `avatar.obj`, its skeleton as `target_skeleton.obj` or `skeleton.obj`,
-//! and may have `source_avatar.obj` and `skin.txt`; y is up, the front towards +z. Writes `wardrobe.md`, a table, and
-//! `sheet.json` with `sheet.bin` for `web/render.mjs`: each pair as designed and as dressed, front and back. Exits with 1
-//! where a pair has no result.
+//! What a folder holds: [`gallery::folder`]. Writes `wardrobe.md`, a table, and `sheet.json` with `sheet.bin` for
+//! `web/render.mjs`: each pair as designed and as dressed, front and back. Exits with 1 where a pair has no result.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use bespoke::error::{Error, ErrorKind, Result};
+use bespoke::error::Result;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
+use gallery::folder::Pair;
 use gallery::look;
 use gallery::sheet::{Cell, Heading, Layer, Role, Sheet, View};
 use glam::DVec3;
-use testing::obj::{read_mesh, read_skeleton, read_skin};
 
 /// The colour of garments.
 const GARMENT: &str = "#2f6d73";
 /// Of what is in a picture, in metres.
 const HEIGHT: f64 = 1.8;
-
-/// A pair as it lies in its folder.
-struct Pair {
-    name: String,
-    garment: TriangleMesh,
-    source_avatar: Option<TriangleMesh>,
-    avatar: TriangleMesh,
-    folder: PathBuf,
-}
 
 /// What became of it.
 struct Outcome {
@@ -62,7 +51,7 @@ fn main() -> ExitCode {
         eprintln!("usage: wardrobe FOLDERS [--out DIR]: none of the folders given holds a pair");
         return ExitCode::from(2);
     }
-    let outcomes: Vec<Outcome> = pairs.iter().map(Pair::dress).collect();
+    let outcomes: Vec<Outcome> = pairs.iter().map(dress).collect();
     let table = table(&pairs, &outcomes);
     println!("{table}");
     let written = fs::create_dir_all(&out)
@@ -75,61 +64,42 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(outcomes.iter().any(|outcome| outcome.result.is_err())))
 }
 
-impl Pair {
-    /// None where the folder holds none.
-    fn read(folder: &Path) -> Option<Self> {
-        let mesh = |name: &str| Some(folder.join(name)).filter(|path| path.is_file()).map(|path| read_mesh(&path));
-        Some(Self {
-            name: folder.file_name()?.to_string_lossy().replace('-', " "),
-            garment: mesh("garment.obj")?,
-            source_avatar: mesh("source_avatar.obj"),
-            avatar: mesh("avatar.obj")?,
-            folder: folder.to_path_buf(),
-        })
+/// With one thread, so that its processor time is that of the work.
+fn dress(pair: &Pair) -> Outcome {
+    let mut session = Session::new();
+    let before = cpu_seconds();
+    let result = inputs(pair, &mut session).and_then(|()| session.run()).and_then(|_| {
+        let read = session.garment_as_read(Precision::F32)?;
+        Ok(read.into_iter().collect())
+    });
+    let cpu_seconds = cpu_seconds() - before;
+    let report = session.report();
+    let verified = report.verification.map_or([0; 2], |v| [v.garment_garment, v.garment_avatar]);
+    let mut diagnostics = BTreeMap::new();
+    for found in session.diagnostics() {
+        *diagnostics.entry(format!("{:?}", found.kind())).or_insert(0) += 1;
     }
+    Outcome {
+        result: result.map_err(|error| error.message),
+        cpu_seconds,
+        iterations: [report.inflate.iterations, report.fit.iterations],
+        intersections: [report.initial_self_intersections as u64, verified[0], verified[1]],
+        diagnostics,
+    }
+}
 
-    /// With one thread, so that its processor time is that of the work.
-    fn dress(&self) -> Outcome {
-        let mut session = Session::new();
-        let before = cpu_seconds();
-        let result = self.inputs(&mut session).and_then(|()| session.run()).and_then(|_| {
-            let read = session.garment_as_read(Precision::F32)?;
-            Ok(read.into_iter().collect())
-        });
-        let cpu_seconds = cpu_seconds() - before;
-        let report = session.report();
-        let verified = report.verification.map_or([0; 2], |v| [v.garment_garment, v.garment_avatar]);
-        let mut diagnostics = BTreeMap::new();
-        for found in session.diagnostics() {
-            *diagnostics.entry(format!("{:?}", found.kind())).or_insert(0) += 1;
-        }
-        Outcome {
-            result: result.map_err(|error| error.message),
-            cpu_seconds,
-            iterations: [report.inflate.iterations, report.fit.iterations],
-            intersections: [report.initial_self_intersections as u64, verified[0], verified[1]],
-            diagnostics,
-        }
+fn inputs(pair: &Pair, session: &mut Session) -> Result<()> {
+    session.set_options(Options { threads: 1, ..Options::default() })?;
+    if let Some(skin) = &pair.skin {
+        session.set_target_skin(skin.clone())?;
     }
-
-    fn inputs(&self, session: &mut Session) -> Result<()> {
-        session.set_options(Options { threads: 1, ..Options::default() })?;
-        let target = ["target_skeleton.obj", "skeleton.obj"].map(|name| self.folder.join(name));
-        let target = target.iter().find(|path| path.is_file());
-        let missing = || Error::new(ErrorKind::InvalidState, format!("{}: no skeleton", self.folder.display()));
-        let skeleton = read_skeleton(target.ok_or_else(missing)?);
-        let [joints, vertices] = [skeleton.joints.len(), self.avatar.positions.len()];
-        if let Some(skin) = read_skin(&self.folder.join("skin.txt"), joints, vertices) {
-            session.set_target_skin(skin)?;
-        }
-        session.set_garment(self.garment.clone(), Precision::F32)?;
-        session.set_source_skeleton(read_skeleton(&self.folder.join("source_skeleton.obj")))?;
-        if let Some(source) = &self.source_avatar {
-            session.set_source_avatar(source.clone())?;
-        }
-        session.set_target_avatar(self.avatar.clone())?;
-        session.set_target_skeleton(skeleton)
+    session.set_garment(pair.garment.clone(), Precision::F32)?;
+    session.set_source_skeleton(pair.source_skeleton.clone())?;
+    if let Some(source) = &pair.source_avatar {
+        session.set_source_avatar(source.clone())?;
     }
+    session.set_target_avatar(pair.avatar.clone())?;
+    session.set_target_skeleton(pair.skeleton.clone())
 }
 
 /// The processor time of this program.
