@@ -248,22 +248,18 @@ fn a_voxel_may_be_larger_than_the_mesh() {
     assert!((field.value(DVec3::new(20.0, 0.0, 0.0)) - 20.0).abs() < 0.1);
 }
 
-/// A part of a garment that begins far away must not hold up all the rest: a far sample is one search.
+/// A part of a garment that begins far away must not hold up all the rest: a far sample is one search, and so, to the bit, the
+/// exact distance; what is interpolated takes 64 of them.
 #[test]
-fn a_far_sample_is_the_exact_distance_and_cheap() {
+fn a_far_sample_is_the_exact_distance() {
     let voxel = 0.01;
     let field = field(&union(sphere(DVec3::ZERO, 0.5, 120, 2.0), &cuboid(DVec3::new(0.8, 0.3, 0.2))), voxel);
     let mut random = Random::new(11);
     let points: Vec<DVec3> = (0..4000).map(|_| 200.0 * random.vector()).filter(|p| p.length() > 3.0).collect();
     let mut out = vec![(0.0, DVec3::ZERO); points.len()];
-    let clock = std::time::Instant::now();
     field.values_gradients(&points, &mut out);
-    let seconds = clock.elapsed().as_secs_f64() / points.len() as f64;
-    println!("{:.2} microseconds for a far sample", 1e6 * seconds);
     for (&p, &(value, gradient)) in points.iter().zip(&out) {
-        assert!((value - field.closest_point().distance(p)).abs() < 1e-12 * value, "{p}: {value}");
+        assert_eq!(value, field.closest_point().distance(p), "{p}");
         assert!((gradient.length() - 1.0).abs() < 1e-12);
     }
-    // On a machine that is doing much else; 64 searches take about a hundred times as long.
-    assert!(seconds < 1e-4, "{seconds}");
 }

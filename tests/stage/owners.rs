@@ -125,3 +125,98 @@ fn a_hand_that_is_one_mesh_with_the_thigh_is_told() {
     assert!(owners.of.iter().enumerate().all(|(v, &o)| o == Some(Owner::Joint(if v < of_leg { 1 } else { 5 }))));
     assert_eq!(owners.contested, [[0; 2]; 0]);
 }
+
+/// How far along the way from `from` to `to` the triangle `t` is met, and whether from behind.
+fn met(from: DVec3, to: DVec3, t: [DVec3; 3]) -> Option<(f64, bool)> {
+    let (way, normal) = (to - from, (t[1] - t[0]).cross(t[2] - t[0]));
+    let along = normal.dot(t[0] - from) / normal.dot(way);
+    let at = from + along * way;
+    let is_inside = (0..3).all(|k| (t[(k + 1) % 3] - t[k]).cross(at - t[k]).dot(normal) >= 0.0);
+    (is_inside && along > 0.0 && along < 1.0).then(|| (along, normal.dot(way) > 0.0))
+}
+
+/// The bone of each vertex of [`body`], facing outwards, by the rule alone: every bone, every triangle, and distances along the
+/// edges that are improved until none changes.
+fn owners_one_by_one(mesh: &TriangleMesh, skeleton: &Skeleton) -> Vec<u32> {
+    let corners: Vec<[DVec3; 3]> = mesh.triangles.iter().map(|t| t.map(|v| mesh.positions[v as usize])).collect();
+    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+    for (t, [a, b, c]) in mesh.triangles.iter().zip(&corners) {
+        t.iter().for_each(|&v| normals[v as usize] += (*b - *a).cross(*c - *a));
+    }
+    let is_leaf = |joint: u32| skeleton.bones.iter().flatten().filter(|&&j| j == joint).count() == 1;
+    let on_bone = |p: DVec3, [j, k]: [u32; 2]| {
+        let [a, b] = [j, k].map(|j| skeleton.joints[j as usize]);
+        let along = (p - a).dot(b - a) / (b - a).length_squared();
+        let along = if is_leaf(j) { along } else { along.max(0.0) };
+        a.lerp(b, if is_leaf(k) { along } else { along.min(1.0) })
+    };
+    let nearest = |p: DVec3| {
+        let mut bones: Vec<(f64, u32, DVec3)> = (0..)
+            .zip(&skeleton.bones)
+            .map(|(bone, &ends)| (p.distance(on_bone(p, ends)), bone, on_bone(p, ends)))
+            .collect();
+        bones.sort_by(|a, b| a.0.total_cmp(&b.0));
+        bones
+    };
+    let is_open = |v: usize, to: DVec3| {
+        let (p, normal) = (mesh.positions[v], normals[v].normalize());
+        let from = p - f64::min(1e-3, 0.02 * p.distance(to)) * normal;
+        let mut hits: Vec<(f64, bool)> = corners.iter().filter_map(|&t| met(from, to, t)).collect();
+        hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        hits.push((1.0, true));
+        let (mut depth, mut at, mut outside) = (1, 0.0, 0.0);
+        for (along, leaves) in hits {
+            outside += if depth <= 0 { along - at } else { 0.0 };
+            (depth, at) = (depth + if leaves { -1 } else { 1 }, along);
+        }
+        p.distance(to) <= 0.02 || outside * from.distance(to) <= 0.02
+    };
+    // The distance along the surface to a vertex with a way, and whose bone that has.
+    let mut reached: Vec<Option<(f64, u32)>> = (0..mesh.positions.len())
+        .map(|v| {
+            let bones = nearest(mesh.positions[v]);
+            let near = bones.iter().filter(|(distance, ..)| *distance <= 2.5 * bones[0].0);
+            near.into_iter().find(|&&(.., to)| is_open(v, to)).map(|&(_, bone, _)| (0.0, bone))
+        })
+        .collect();
+    loop {
+        let before = reached.clone();
+        for &[a, b, c] in &mesh.triangles {
+            for (from, to) in [(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)].map(|(f, t)| (f as usize, t as usize)) {
+                let Some((so_far, bone)) = reached[from] else { continue };
+                let length = so_far + mesh.positions[from].distance(mesh.positions[to]);
+                if reached[to].is_none_or(|(best, _)| length < best) {
+                    reached[to] = Some((length, bone));
+                }
+            }
+        }
+        if reached == before {
+            return reached.into_iter().map(|reached| reached.expect("a vertex with a way").1).collect();
+        }
+    }
+}
+
+#[test]
+fn the_owners_are_those_of_the_rule_alone() {
+    let (mut mesh, skeleton, _) = body();
+    let volume = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
+        a.dot(b.cross(c))
+    };
+    if mesh.triangles.iter().map(volume).sum::<f64>() < 0.0 {
+        mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    }
+    let owners = Owners::find(&mesh, &skeleton, None);
+    let mut the_very_bone = 0;
+    for (v, (owner, bone)) in owners.of.iter().zip(owners_one_by_one(&mesh, &skeleton)).enumerate() {
+        // A bone that meets the right one at a joint will do where it is the nearest.
+        let p = mesh.positions[v];
+        let meets = |&other: &u32| {
+            skeleton.bones[other as usize].iter().any(|joint| skeleton.bones[bone as usize].contains(joint))
+        };
+        let own = (0..skeleton.bones.len() as u32).filter(meets).find(|&b| is_of(*owner, b, &skeleton));
+        assert!(own.is_some(), "vertex {v}, {p}: {owner:?}, by the rule {bone}");
+        the_very_bone += usize::from(is_of(*owner, bone, &skeleton));
+    }
+    assert!(the_very_bone > owners.of.len() * 9 / 10, "{the_very_bone} of {}", owners.of.len());
+}
