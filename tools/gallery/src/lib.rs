@@ -6,5 +6,6 @@ pub mod look;
 pub mod models;
 pub mod overview;
 pub mod pair;
+pub mod regularity;
 pub mod sheet;
 pub mod table;

@@ -11,6 +11,7 @@ use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use serde::Serialize;
 
+use crate::regularity::{asymmetry, opening_growth};
 use closet::mesh::Mesh;
 use closet::skeleton::BONES;
 use closet::{Sample, skeleton};
@@ -38,6 +39,10 @@ pub struct Outcome {
     pub distances: [Option<f64>; 2],
     /// Mean and maximum over the garment's triangles; no unit, 0 for any similarity of the design. None without a result.
     pub distortion: Option<[f64; 2]>,
+    /// How far garment and avatar are from their mirror images, in millimetres; none without a result.
+    pub asymmetry: Option<[f64; 2]>,
+    /// How much the openings grew against the cloth beside them, the least and the most of them; none without a result.
+    pub opening_growth: Option<[f64; 2]>,
     /// Vertices of garment and avatar.
     pub vertices: [usize; 2],
     /// The garment on the avatar, in the avatar's space; empty without a result.
@@ -76,6 +81,8 @@ pub fn dress(
         distances: [None; 2],
         vertices: [&garment.mesh, &body.mesh].map(|mesh| mesh.positions.len()),
         distortion: None,
+        asymmetry: None,
+        opening_growth: None,
         positions: Vec::new(),
         distortions: Vec::new(),
     };
@@ -107,7 +114,12 @@ fn run(
     let distortion = session.distortion()?;
     outcome.distortion = Some(mean_and_largest(&distortion));
     outcome.distortions = distortion.into_iter().map(|d| d as f32).collect();
-    outcome.positions = session.garment_as_read(Precision::F32)?.into_iter().map(|p| p.as_vec3().to_array()).collect();
+    let positions = session.garment_as_read(Precision::F32)?;
+    let designed = mesh(&garment.mesh);
+    let dressed = TriangleMesh { positions, triangles: designed.triangles.clone() };
+    outcome.asymmetry = Some([&dressed, &mesh(&body.mesh)].map(|mesh| 1e3 * asymmetry(mesh)));
+    outcome.opening_growth = opening_growth(&designed, &dressed.positions);
+    outcome.positions = dressed.positions.into_iter().map(|p| p.as_vec3().to_array()).collect();
     Ok(())
 }
 

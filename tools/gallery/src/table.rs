@@ -43,7 +43,8 @@ pub fn markdown(outcomes: &[Outcome], summary: &Summary) -> String {
     }
     text += "\nIntersections are pairs of triangles: of the garment, and of garment and avatar. Gaps are smallest distances, \
              where a skeleton is 2 long; beyond d-hat they are not measured. Distortion has no unit, and is 0 for a design \
-             that is only moved, turned and scaled.\n";
+             that is only moved, turned and scaled. Asymmetry is the mean distance of mirrored vertices from the surface. \
+             Openings: the growth of a boundary loop for that of the triangles that touch it.\n";
     for outcome in outcomes {
         if let Some(error) = &outcome.error {
             let _ = writeln!(text, "\n{} on {}: {error}", outcome.garment, outcome.avatar);
@@ -93,6 +94,14 @@ pub fn figures(outcome: &Outcome) -> Vec<[String; 2]> {
         (
             "distortion (mean, max)",
             outcome.distortion.map_or("-".into(), |[mean, most]| format!("{mean:.1e}, {most:.1e}")),
+        ),
+        (
+            "asymmetry in mm (garment, avatar)",
+            outcome.asymmetry.map_or("-".into(), |[garment, avatar]| format!("{garment:.1}, {avatar:.1}")),
+        ),
+        (
+            "openings against the cloth (least, most)",
+            outcome.opening_growth.map_or("-".into(), |[least, most]| format!("{least:.2}, {most:.2}")),
         ),
         ("ended", ended.to_string()),
     ]

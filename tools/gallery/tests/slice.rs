@@ -13,9 +13,10 @@ use closet::garments::Garment;
 use gallery::models::Closet;
 use gallery::overview;
 use gallery::pair::{Outcome, dress};
+use gallery::regularity::{asymmetry, opening_growth};
 use gallery::sheet::{self, Array, FORMAT, Layer, Sheet, View};
 use gallery::table::{self, Summary};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 static CLOSET: LazyLock<Closet> = LazyLock::new(|| {
     let garments = [Garment::Jumpsuit, Garment::Skirt, Garment::Vest];
@@ -195,4 +196,26 @@ fn equal_arrays_are_stored_once() {
     assert_eq!(files.sheet.meshes[0], files.sheet.meshes[2]);
     assert_eq!(files.floats(files.sheet.meshes[1].positions), high.as_flattened());
     assert_eq!(files.indices(files.sheet.meshes[1].triangles), [0, 1, 2]);
+}
+
+#[test]
+fn the_measures_of_regularity_are_those_of_shapes_that_are_known() {
+    // A tent over a square, open at the bottom, whose top is 0.3 off the plane in which it is mirrored.
+    let base = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+    let tent = |top: f64| {
+        let positions = base.into_iter().chain([DVec3::new(top, 0.0, 1.0)]).collect();
+        TriangleMesh { positions, triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]] }
+    };
+    assert_eq!(asymmetry(&tent(0.0)), 0.0);
+    // Of five vertices one has no mirror image: 0.6 beside the top, and so far from the flat side.
+    let off = 0.6 / f64::hypot(1.0, 1.3) / 5.0;
+    assert!((asymmetry(&tent(0.3)) - off).abs() < 1e-12, "{} {off}", asymmetry(&tent(0.3)));
+
+    let scaled: Vec<DVec3> = tent(0.0).positions.iter().map(|&p| 3.0 * p + DVec3::X).collect();
+    let [least, most] = opening_growth(&tent(0.0), &scaled).unwrap();
+    assert!((least - 1.0).abs() < 1e-12 && least == most);
+    // A top four times as high: areas grow by sqrt(17 / 2), the opening does not.
+    let high: Vec<DVec3> = tent(0.0).positions.iter().map(|&p| p * DVec3::new(1.0, 1.0, 4.0)).collect();
+    let [least, _] = opening_growth(&tent(0.0), &high).unwrap();
+    assert!((least - (2.0f64 / 17.0).powf(0.25)).abs() < 1e-12, "{least}");
 }
