@@ -21,6 +21,9 @@ const TASKS: usize = 128;
 /// One-ring pairs that a task tests.
 const CHUNK: usize = 2048;
 
+/// A list of more pairs than this is given back once it was merged: those of a long step are many times those of the next.
+const KEPT: usize = 1 << 14;
+
 /// What one task of a traversal finds, with its scratch.
 #[derive(Default)]
 struct Task {
@@ -167,17 +170,21 @@ impl BroadPhase {
     }
 
     /// Concatenates what the tasks found, in their order; the first `self_count` are of the garment with itself.
-    fn merge(&self, self_count: usize, out: &mut CandidateSet) {
-        let (self_tasks, avatar_tasks) = self.tasks.split_at(self_count);
+    fn merge(&mut self, self_count: usize, out: &mut CandidateSet) {
+        let count = self.tasks.iter().map(|task| task.point_triangle.len() + task.edge_edge.len()).sum();
+        let (self_tasks, avatar_tasks) = self.tasks.split_at_mut(self_count);
         let exempt = &self.exempt;
-        out.refill(|pair_type, group, pairs| {
-            for task in if group == CollisionGroup::Avatar { avatar_tasks } else { self_tasks } {
+        out.refill(count, |pair_type, group, pairs| {
+            for task in if group == CollisionGroup::Avatar { &mut *avatar_tasks } else { &mut *self_tasks } {
                 let found = match pair_type {
-                    PairType::PointTriangle => &task.point_triangle,
-                    PairType::EdgeEdge => &task.edge_edge,
+                    PairType::PointTriangle => &mut task.point_triangle,
+                    PairType::EdgeEdge => &mut task.edge_edge,
                 };
                 if group == CollisionGroup::Avatar || (group == CollisionGroup::Garment && exempt.is_empty()) {
                     pairs.extend_from_slice(found);
+                    if found.len() > KEPT {
+                        *found = Vec::new();
+                    }
                 } else if !exempt.is_empty() {
                     pairs.extend(found.iter().filter(|&&pair| exempt.group(pair_type, pair) == Some(group)));
                 }

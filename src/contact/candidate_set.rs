@@ -11,6 +11,9 @@ use crate::memory::bytes;
 /// Pairs that a thread filters at once.
 const FILTER_CHUNK: usize = 1024;
 
+/// A list with room for more pairs (some 16 MB) is given back where few of them are kept.
+const MUCH: usize = 1 << 20;
+
 /// More than rounding can add to the gap between two projections.
 pub(super) const ROUNDING: f64 = 1e-12;
 
@@ -117,15 +120,21 @@ impl CandidateSet {
             parts.iter().for_each(|part| kept.extend_from_slice(part));
             ends[k] = kept.len();
         }
+        self.ends = ends;
+        if self.pairs.capacity() > MUCH && self.pairs.capacity() / 4 > kept.len() {
+            self.pairs = kept;
+            return;
+        }
         // Copied, so that the buffer keeps its capacity for the next search.
         self.pairs.clear();
         self.pairs.extend_from_slice(&kept);
-        self.ends = ends;
     }
 
-    /// Replaces all pairs: `add` is called for each range in order, with the list that its pairs are to be appended to.
-    pub(super) fn refill(&mut self, mut add: impl FnMut(PairType, CollisionGroup, &mut Vec<[u32; 4]>)) {
+    /// Replaces all pairs, by `most` at most: `add` is called for each range in order, with the list that its pairs are to be
+    /// appended to.
+    pub(super) fn refill(&mut self, most: usize, mut add: impl FnMut(PairType, CollisionGroup, &mut Vec<[u32; 4]>)) {
         self.pairs.clear();
+        self.pairs.reserve_exact(most);
         for (k, (pair_type, group)) in RANGES.into_iter().enumerate() {
             add(pair_type, group, &mut self.pairs);
             self.ends[k] = self.pairs.len();

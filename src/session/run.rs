@@ -373,6 +373,8 @@ impl Run {
         self.objective = objective;
         self.context.stop.check()?;
         let budget = self.remaining_budget().reserving(self.objective.memory());
+        // Two linear systems at once would be most of the memory.
+        self.newton.release();
         self.newton = Newton::new(self.state.x.len(), &self.objective.terms(), budget, self.context.stop.clone())?;
         self.objective.contact.limit_pairs(self.remaining_budget().reserving(self.newton.memory()));
         Ok(())

@@ -5,6 +5,7 @@
 
 pub mod assembly;
 pub mod cholesky;
+pub mod conjugate_gradients;
 mod element_buffer;
 pub mod line_search;
 pub mod newton;

@@ -22,14 +22,15 @@ use glam::DVec3;
 
 use super::Term;
 use super::assembly::{self, System};
-use super::cholesky::Factor;
+use super::cholesky::{Factor, Precision};
+use super::conjugate_gradients::ConjugateGradients;
 use super::line_search::backtrack;
 use super::pattern::{PairCollector, Pattern};
 use super::profile::Profile;
 use crate::control::{Cancel, Cancelled};
 use crate::energy::Configuration;
 use crate::error::{Error, ErrorKind, Result};
-use crate::memory::{MemoryLimit, bytes};
+use crate::memory::{MemoryLimit, Part, bytes};
 
 /// The unknowns.
 #[derive(Clone, Debug, Default)]
@@ -114,10 +115,16 @@ const MAX_DAMPING: f64 = 0.1;
 /// definite.
 const MAX_DIAGONAL_SHIFT: f64 = 1e4;
 
+/// A factor with so many scalars (some 8000 vertices) is one in 32 bits. Smaller ones take too little of an iteration for
+/// the two solves in place of one.
+const SINGLE_FROM: usize = 4_000_000;
+
 /// A Newton solver. Its sparsity pattern grows as contacts add pairs of vertices.
 pub struct Newton {
     pattern: Pattern,
     factor: Factor,
+    /// For a factor in 32 bits.
+    gradients: ConjugateGradients,
     system: System,
     /// Two columns: p0 and p1.
     response: Vec<f64>,
@@ -148,11 +155,9 @@ impl Newton {
             term.energy.stencils(&mut |vertices| pairs.add_clique(vertices));
         }
         let pattern = Pattern::new(vertex_count, pairs);
-        let mut factor = Factor::new(cancel.clone());
-        factor.analyse(limit.reserving(System::memory_for(&pattern)), &pattern)?;
-        let profile = Profile { analysis: clock.elapsed(), ..Profile::default() };
-        Ok(Self {
-            factor,
+        let mut newton = Self {
+            factor: Factor::new(cancel.clone()).in_single_from(SINGLE_FROM),
+            gradients: ConjugateGradients::default(),
             limit,
             pattern,
             system: System::new(cancel.clone()),
@@ -163,14 +168,40 @@ impl Newton {
             damping: MIN_DAMPING,
             short_steps: 0,
             cancel,
-            counters: Counters { analyses: 1, profile, ..Counters::default() },
-        })
+            counters: Counters::default(),
+        };
+        newton.analyse()?;
+        newton.counters.profile.analysis = clock.elapsed();
+        Ok(newton)
+    }
+
+    /// Symbolic factorisation of the pattern.
+    fn analyse(&mut self) -> Result<()> {
+        self.gradients.clear();
+        let held = System::memory_for(&self.pattern);
+        self.factor.analyse(self.limit.reserving(held), &self.pattern)?;
+        if self.factor.precision() == Precision::Single {
+            self.gradients.set_pattern(&self.pattern);
+            let bytes = self.gradients.memory();
+            let limit = self.limit.reserving(held + self.factor.memory());
+            limit.check(&[Part { name: "solving the garment's linear system", bytes }])?;
+        }
+        self.counters.analyses += 1;
+        Ok(())
+    }
+
+    /// Frees what the linear system takes. Only another solver may follow: there is no step from here.
+    pub fn release(&mut self) {
+        self.factor = Factor::default();
+        self.gradients.clear();
+        self.system = System::new(self.cancel.clone());
     }
 
     /// Bytes held.
     pub fn memory(&self) -> u64 {
         self.pattern.memory()
             + self.factor.memory()
+            + self.gradients.memory()
             + self.system.memory()
             + bytes(&self.response)
             + bytes(&self.dx)
@@ -188,24 +219,30 @@ impl Newton {
         if !missing.is_empty() {
             let clock = Instant::now();
             self.pattern = self.pattern.extended(missing);
-            let held = System::memory_for(&self.pattern);
-            self.factor.analyse(self.limit.reserving(held), &self.pattern)?;
-            self.counters.analyses += 1;
+            self.analyse()?;
             self.counters.profile.analysis += clock.elapsed();
             self.assemble(terms, at)?;
         }
 
-        let clock = Instant::now();
-        self.factorise()?;
-        self.counters.profile.factorisation += clock.elapsed();
-        let clock = Instant::now();
         self.response.clear();
         self.response.extend(self.system.gradient.iter().map(|g| -g));
         if border {
             self.response.extend(self.system.border.iter().map(|b| -b));
         }
-        self.factor.solve(&mut self.response, if border { 2 } else { 1 });
-        self.counters.profile.solve += clock.elapsed();
+        let columns = if border { 2 } else { 1 };
+        if self.factor.precision() == Precision::Single && !self.solve_in_single(columns)? {
+            self.gradients.clear();
+            let held = self.system.memory() + self.pattern.memory();
+            self.factor.widen(self.limit.reserving(held), &self.pattern)?;
+        }
+        if self.factor.precision() == Precision::Double {
+            let clock = Instant::now();
+            self.factorise()?;
+            self.counters.profile.factorisation += clock.elapsed();
+            let clock = Instant::now();
+            self.factor.solve(&mut self.response, columns);
+            self.counters.profile.solve += clock.elapsed();
+        }
         if self.response.iter().any(|v| !v.is_finite()) {
             return Err(Error::new(ErrorKind::Internal, "the linear solve gave a value that is not finite"));
         }
@@ -221,22 +258,49 @@ impl Newton {
         Ok(missing)
     }
 
-    fn factorise(&mut self) -> Result<()> {
+    /// Solves with a factor in 32 bits. False where that is too coarse for the Hessian.
+    fn solve_in_single(&mut self, columns: usize) -> Result<bool> {
+        let clock = Instant::now();
+        let shift = self.damping * self.mean_diagonal();
+        self.shift_diagonal(shift);
+        self.counters.factorisations += 1;
+        let is_factorised = self.factor.factorise(&self.pattern, &self.system.hessian)?;
+        self.counters.profile.factorisation += clock.elapsed();
+        let clock = Instant::now();
+        let Self { pattern, system, factor, gradients, response, cancel, .. } = self;
+        let is_solved =
+            is_factorised && gradients.solve(pattern, &system.hessian, factor, response, columns, cancel)?.is_some();
+        self.counters.profile.solve += clock.elapsed();
+        if !is_solved {
+            self.shift_diagonal(-shift);
+        }
+        Ok(is_solved)
+    }
+
+    fn mean_diagonal(&self) -> f64 {
         let n = self.pattern.vertex_count();
-        let mean = (0..n as u32)
+        (0..n as u32)
             .flat_map(|j| self.pattern.diagonal(j))
             .map(|d| self.system.hessian[d])
             .sum::<f64>()
             .max(f64::MIN_POSITIVE)
-            / (3 * n) as f64;
+            / (3 * n) as f64
+    }
+
+    fn shift_diagonal(&mut self, shift: f64) {
+        for j in 0..self.pattern.vertex_count() as u32 {
+            for d in self.pattern.diagonal(j) {
+                self.system.hessian[d] += shift;
+            }
+        }
+    }
+
+    fn factorise(&mut self) -> Result<()> {
+        let mean = self.mean_diagonal();
         let mut shift = self.damping * mean;
         let mut added = 0.0;
         while shift <= MAX_DIAGONAL_SHIFT * mean {
-            for j in 0..n as u32 {
-                for d in self.pattern.diagonal(j) {
-                    self.system.hessian[d] += shift - added;
-                }
-            }
+            self.shift_diagonal(shift - added);
             added = shift;
             self.counters.factorisations += 1;
             if self.factor.factorise(&self.pattern, &self.system.hessian)? {

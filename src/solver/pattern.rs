@@ -13,9 +13,8 @@ pub struct Pattern {
     column_start: Vec<u32>,
     /// Block rows strictly below the diagonal, ascending in each column.
     rows: Vec<u32>,
-    /// The same as scalar CSC.
+    /// Where the scalar columns begin.
     col_ptr: Vec<u32>,
-    row_idx: Vec<u32>,
 }
 
 /// Collects pairs of vertices before they become a [`Pattern`].
@@ -67,19 +66,15 @@ impl Pattern {
         }
         let rows: Vec<u32> = collected.pairs.iter().map(|&p| p as u32).collect();
         let mut col_ptr = Vec::with_capacity(3 * vertex_count + 1);
-        let mut row_idx = Vec::with_capacity(9 * rows.len() + 6 * vertex_count);
-        col_ptr.push(0);
-        for j in 0..vertex_count {
-            let below = &rows[column_start[j] as usize..column_start[j + 1] as usize];
+        let mut end = 0;
+        col_ptr.push(end);
+        for below in column_start.windows(2).map(|ends| ends[1] - ends[0]) {
             for c in 0..3 {
-                row_idx.extend((c..3).map(|r| 3 * j as u32 + r));
-                for &i in below {
-                    row_idx.extend([3 * i, 3 * i + 1, 3 * i + 2]);
-                }
-                col_ptr.push(row_idx.len() as u32);
+                end += 3 - c + 3 * below;
+                col_ptr.push(end);
             }
         }
-        Self { column_start, rows, col_ptr, row_idx }
+        Self { column_start, rows, col_ptr }
     }
 
     /// The union of this pattern and further pairs.
@@ -94,7 +89,7 @@ impl Pattern {
 
     /// Bytes held.
     pub fn memory(&self) -> u64 {
-        [&self.column_start, &self.rows, &self.col_ptr, &self.row_idx].into_iter().map(bytes).sum()
+        [&self.column_start, &self.rows, &self.col_ptr].into_iter().map(bytes).sum()
     }
 
     /// Number of block columns.
@@ -104,7 +99,7 @@ impl Pattern {
 
     /// Number of stored scalars.
     pub fn value_count(&self) -> usize {
-        self.row_idx.len()
+        self.col_ptr.last().map_or(0, |&end| end as usize)
     }
 
     /// Block rows strictly below the diagonal of block column `j`, ascending. Each of the three scalar columns holds
@@ -118,9 +113,14 @@ impl Pattern {
         &self.col_ptr
     }
 
-    /// Scalar row indices of the lower triangle.
-    pub fn row_idx(&self) -> &[u32] {
-        &self.row_idx
+    /// Scalar row indices of the lower triangle. They follow from the blocks, and are not kept.
+    pub fn row_idx(&self) -> Vec<u32> {
+        let scalar_column = |j: usize, c: u32| {
+            let own = c..3;
+            let below = self.column(j).iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]);
+            own.map(move |r| 3 * j as u32 + r).chain(below)
+        };
+        (0..self.vertex_count()).flat_map(|j| (0..3).flat_map(move |c| scalar_column(j, c))).collect()
     }
 
     /// Offset of the diagonal entry of each of the three scalar columns of block column `j`; the entries below it

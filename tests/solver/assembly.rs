@@ -1,4 +1,6 @@
 //! Pattern, assembly and factorisation compared with dense matrices.
+// Index loops follow the formulas.
+#![allow(clippy::needless_range_loop)]
 
 use std::ops::Range;
 
@@ -156,9 +158,10 @@ fn assembly_agrees_with_dense_sums_and_ignores_the_thread_count() {
     }
     close(system.t_gradient, gt);
     close(system.t_hessian, ht);
+    let rows = pattern.row_idx();
     for (j, range) in pattern.col_ptr().windows(2).enumerate() {
         for p in range[0] as usize..range[1] as usize {
-            let i = pattern.row_idx()[p] as usize;
+            let i = rows[p] as usize;
             assert!(i >= j);
             close(system.hessian[p], h[i][j]);
         }
@@ -199,11 +202,12 @@ fn the_factor_solves_the_system() {
             system.hessian[d] += 0.1;
         }
     }
+    let rows = pattern.row_idx();
     let multiply = |v: &[f64]| {
         let mut out = vec![0.0; 3 * n];
         for j in 0..3 * n {
             for p in pattern.col_ptr()[j] as usize..pattern.col_ptr()[j + 1] as usize {
-                let i = pattern.row_idx()[p] as usize;
+                let i = rows[p] as usize;
                 out[i] += system.hessian[p] * v[j];
                 if i != j {
                     out[j] += system.hessian[p] * v[i];

@@ -5,7 +5,7 @@
 use bespoke::control::{Cancel, Cancelled};
 use bespoke::error::ErrorKind;
 use bespoke::memory::MemoryLimit;
-use bespoke::solver::cholesky::Factor;
+use bespoke::solver::cholesky::{Factor, Precision};
 use bespoke::solver::pattern::{PairCollector, Pattern};
 use faer::prelude::Solve;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
@@ -27,10 +27,11 @@ fn values(pattern: &Pattern, margin: f64, random: &mut Random) -> Vec<f64> {
     let mut sums = vec![0.0_f64; n];
     let mut out: Vec<f64> = (0..pattern.value_count()).map(|_| random.signed()).collect();
     let entries = |j: usize| pattern.col_ptr()[j] as usize + 1..pattern.col_ptr()[j + 1] as usize;
+    let rows = pattern.row_idx();
     for j in 0..n {
         for p in entries(j) {
             sums[j] += out[p].abs();
-            sums[pattern.row_idx()[p] as usize] += out[p].abs();
+            sums[rows[p] as usize] += out[p].abs();
         }
     }
     for (j, sum) in sums.iter().enumerate() {
@@ -43,9 +44,10 @@ fn values(pattern: &Pattern, margin: f64, random: &mut Random) -> Vec<f64> {
 fn dense(pattern: &Pattern, values: &[f64]) -> Vec<Vec<f64>> {
     let n = 3 * pattern.vertex_count();
     let mut out = vec![vec![0.0; n]; n];
+    let rows = pattern.row_idx();
     for j in 0..n {
         for p in pattern.col_ptr()[j] as usize..pattern.col_ptr()[j + 1] as usize {
-            let i = pattern.row_idx()[p] as usize;
+            let i = rows[p] as usize;
             out[i][j] = values[p];
             out[j][i] = values[p];
         }
@@ -91,6 +93,13 @@ fn close(found: &[f64], wanted: &[f64], tolerance: f64) {
 
 fn analysed(pattern: &Pattern) -> Factor {
     let mut factor = Factor::default();
+    factor.analyse(MemoryLimit::NONE, pattern).unwrap();
+    factor
+}
+
+/// The same in 32 bits.
+fn analysed_in_single(pattern: &Pattern) -> Factor {
+    let mut factor = Factor::default().in_single_from(0);
     factor.analyse(MemoryLimit::NONE, pattern).unwrap();
     factor
 }
@@ -169,7 +178,8 @@ fn agrees_with_faer(pattern: &Pattern, random: &mut Random) {
     let mut factor = analysed(pattern);
     assert!(factor.factorise(pattern, &matrix).unwrap());
     factor.solve(&mut found, 2);
-    let symbolic = SymbolicSparseColMatRef::new_checked(n, n, pattern.col_ptr(), None, pattern.row_idx());
+    let rows = pattern.row_idx();
+    let symbolic = SymbolicSparseColMatRef::new_checked(n, n, pattern.col_ptr(), None, &rows);
     let other = SparseColMatRef::new(symbolic, &matrix).sp_cholesky(Side::Lower).unwrap();
     other.solve_in_place(MatMut::from_column_major_slice_mut(&mut wanted, n, 2));
     close(&found, &wanted, 1e-9);
@@ -297,4 +307,103 @@ fn a_request_to_stop_ends_it() {
     cancel.request();
     assert_eq!(factor.factorise(&pattern, &matrix), Err(Cancelled));
     assert_eq!(factor.analyse(MemoryLimit::NONE, &pattern).unwrap_err().kind, ErrorKind::Cancelled);
+}
+
+/// Multiplies rows and columns by powers of ten, up to 10^8 from the smallest to the largest.
+fn scaled_badly(pattern: &Pattern, mut values: Vec<f64>, random: &mut Random) -> Vec<f64> {
+    let scale: Vec<f64> =
+        (0..3 * pattern.vertex_count()).map(|_| 10f64.powi((random.unit() * 9.0) as i32 - 4)).collect();
+    let rows = pattern.row_idx();
+    for j in 0..scale.len() {
+        for p in pattern.col_ptr()[j] as usize..pattern.col_ptr()[j + 1] as usize {
+            values[p] *= scale[j] * scale[rows[p] as usize];
+        }
+    }
+    values
+}
+
+#[test]
+fn a_factor_in_32_bits_is_one_but_for_its_rounding() {
+    let mut random = Random::new(19);
+    for (width, height, chords) in [(1, 1, 0), (3, 2, 0), (30, 20, 12), (70, 60, 40)] {
+        let pattern = sheet(width, height, chords, &mut random);
+        let n = 3 * pattern.vertex_count();
+        let plain = values(&pattern, 0.05, &mut random);
+        let matrix = scaled_badly(&pattern, plain, &mut random);
+        let (mut double, mut single) = (analysed(&pattern), analysed_in_single(&pattern));
+        assert_eq!((double.precision(), single.precision()), (Precision::Double, Precision::Single));
+        assert_eq!(double.value_count(), single.value_count());
+        assert!(double.factorise(&pattern, &matrix).unwrap() && single.factorise(&pattern, &matrix).unwrap());
+        for columns in 1..=3 {
+            let mut wanted: Vec<f64> = (0..columns * n).map(|_| random.signed()).collect();
+            let mut found = wanted.clone();
+            double.solve(&mut wanted, columns);
+            single.solve(&mut found, columns);
+            // In the variables in which the matrix has a unit diagonal.
+            let root = |k: usize| matrix[pattern.col_ptr()[k % n] as usize].sqrt();
+            let in_these = |x: &[f64]| x.iter().enumerate().map(|(k, x)| x * root(k)).collect::<Vec<_>>();
+            close(&in_these(&found), &in_these(&wanted), 1e-4);
+            assert_ne!(found, wanted, "the same bits in 32 and 64");
+        }
+    }
+}
+
+#[test]
+fn a_factor_in_32_bits_has_the_same_bits_for_any_number_of_threads() {
+    let mut random = Random::new(20);
+    let pattern = sheet(90, 70, 60, &mut random);
+    let matrix = values(&pattern, 1e-2, &mut random);
+    let rhs: Vec<f64> = (0..6 * pattern.vertex_count()).map(|_| random.signed()).collect();
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut factor = analysed_in_single(&pattern);
+            assert!(factor.factorise(&pattern, &matrix).unwrap());
+            let mut x = rhs.clone();
+            factor.solve(&mut x, 2);
+            x.into_iter().map(f64::to_bits).collect::<Vec<_>>()
+        })
+    };
+    let first = run(1);
+    for threads in [2, 5, 16] {
+        assert!(first == run(threads), "other bits with {threads} threads");
+    }
+}
+
+#[test]
+fn a_factor_in_32_bits_takes_half_the_memory_and_can_become_one_in_64() {
+    let mut random = Random::new(21);
+    let pattern = sheet(60, 50, 30, &mut random);
+    let matrix = values(&pattern, 0.1, &mut random);
+    let double = analysed(&pattern).memory();
+    let mut factor = analysed_in_single(&pattern);
+    assert!(factor.factorise(&pattern, &matrix).unwrap());
+    assert!((factor.memory() as f64) < 0.7 * double as f64, "{} of {double}", factor.memory());
+    assert_eq!(factor.widen(MemoryLimit::new(double - 1), &pattern).unwrap_err().kind, ErrorKind::MemoryLimit);
+
+    let mut factor = analysed_in_single(&pattern);
+    factor.widen(MemoryLimit::new(double), &pattern).unwrap();
+    assert_eq!((factor.precision(), factor.memory()), (Precision::Double, double));
+    assert!(factor.factorise(&pattern, &matrix).unwrap());
+    let mut fresh = analysed(&pattern);
+    assert!(fresh.factorise(&pattern, &matrix).unwrap());
+    let mut found: Vec<f64> = (0..3 * pattern.vertex_count()).map(|_| random.signed()).collect();
+    let mut wanted = found.clone();
+    factor.solve(&mut found, 1);
+    fresh.solve(&mut wanted, 1);
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_matrix_that_is_not_positive_definite_is_refused_in_32_bits() {
+    let mut random = Random::new(22);
+    let pattern = sheet(20, 20, 5, &mut random);
+    let good = values(&pattern, 0.1, &mut random);
+    let mut factor = analysed_in_single(&pattern);
+    for bad in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
+        let mut matrix = good.clone();
+        matrix[pattern.col_ptr()[600] as usize] = bad;
+        assert!(!factor.factorise(&pattern, &matrix).unwrap(), "{bad}");
+    }
+    assert!(factor.factorise(&pattern, &good).unwrap());
 }

@@ -2,4 +2,5 @@
 
 mod assembly;
 mod cholesky;
+mod conjugate_gradients;
 mod newton;

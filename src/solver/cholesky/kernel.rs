@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use crate::simd::lanes::{Lanes, for_this_processor};
+use crate::simd::lanes::{Lanes, Scalar, for_this_processor};
 
 /// Rows and columns of a register tile; leading dimensions are multiples of it.
 pub(super) const TILE: usize = 8;
@@ -42,29 +42,36 @@ pub(super) const fn contribution_diagonal(rows: usize, column: usize) -> usize {
     contribution_start(rows, block) + k * (padded(rows) - TILE * block) + k
 }
 
-/// A factorised diagonal tile: a lower triangular factor.
-#[derive(Clone, Copy)]
-struct Triangle {
-    /// `lower[n][q]` is the entry in row `q` and column `n`.
-    lower: [[f64; TILE]; TILE],
-    /// Reciprocals of the diagonal.
-    inverse: [f64; TILE],
+/// Rows that are computed together: those of a column group, or of the largest register tile.
+const fn strip_rows<V: Lanes>() -> usize {
+    if V::COUNT * V::STRIPS > COLUMN_GROUP { V::COUNT * V::STRIPS } else { COLUMN_GROUP }
 }
 
-impl Triangle {
-    const ZERO: Self = Self { lower: [[0.0; TILE]; TILE], inverse: [0.0; TILE] };
+/// A factorised diagonal tile: a lower triangular factor.
+#[derive(Clone, Copy)]
+struct Triangle<T> {
+    /// `lower[n][q]` is the entry in row `q` and column `n`.
+    lower: [[T; TILE]; TILE],
+    /// Reciprocals of the diagonal.
+    inverse: [T; TILE],
+}
+
+impl<T: Scalar> Triangle<T> {
+    fn zero() -> Self {
+        Self { lower: [[T::default(); TILE]; TILE], inverse: [T::default(); TILE] }
+    }
 
     /// # Safety
     /// `width` columns of `width` scalars, `ld` apart, can be read at `from`.
     #[inline(always)]
-    unsafe fn read(from: *const f64, ld: usize, width: usize) -> Self {
-        let mut triangle = Self::ZERO;
+    unsafe fn read(from: *const T, ld: usize, width: usize) -> Self {
+        let mut triangle = Self::zero();
         for n in 0..width {
             for q in n..width {
                 // SAFETY: the caller's promise.
                 triangle.lower[n][q] = unsafe { *from.add(n * ld + q) };
             }
-            triangle.inverse[n] = 1.0 / triangle.lower[n][n];
+            triangle.inverse[n] = T::ONE / triangle.lower[n][n];
         }
         triangle
     }
@@ -85,18 +92,18 @@ const SOLVE: u8 = 2;
 #[allow(clippy::too_many_arguments, clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
-    c: *mut f64,
+    c: *mut V::Scalar,
     ldc: usize,
-    a: *const f64,
-    b: *const f64,
+    a: *const V::Scalar,
+    b: *const V::Scalar,
     ld: usize,
     depth: usize,
-    triangle: &Triangle,
+    triangle: &Triangle<V::Scalar>,
 ) {
     // SAFETY: the caller's promise. (Loops, not closures: a closure would be compiled without the instructions that are
     // chosen at run time.)
     unsafe {
-        let mut sums = [[V::splat(0.0); S]; N];
+        let mut sums = [[V::splat(V::Scalar::default()); S]; N];
         if MODE != ZERO {
             for n in 0..N {
                 for s in 0..S {
@@ -106,7 +113,7 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
         }
         for p in 0..depth {
             let (a, b) = (a.add(p * ld), b.add(p * ld));
-            let mut rows = [V::splat(0.0); S];
+            let mut rows = [V::splat(V::Scalar::default()); S];
             for s in 0..S {
                 rows[s] = V::load(a.add(s * V::COUNT));
             }
@@ -146,13 +153,13 @@ unsafe fn tile<V: Lanes, const S: usize, const N: usize, const MODE: u8>(
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
-    c: *mut f64,
+    c: *mut V::Scalar,
     ldc: usize,
-    a: *const f64,
-    b: *const f64,
+    a: *const V::Scalar,
+    b: *const V::Scalar,
     ld: usize,
     depth: usize,
-    triangle: &Triangle,
+    triangle: &Triangle<V::Scalar>,
     rows: usize,
 ) {
     let mut i = 0;
@@ -161,7 +168,11 @@ unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
         unsafe {
             let (c, a) = (c.add(i), a.add(i));
             match ((rows - i) / V::COUNT).min(V::STRIPS) {
-                0 | 1 => {
+                0 => {
+                    tile::<V::Rest, 1, N, MODE>(c, ldc, a, b, ld, depth, triangle);
+                    i += V::Rest::COUNT;
+                }
+                1 => {
                     tile::<V, 1, N, MODE>(c, ldc, a, b, ld, depth, triangle);
                     i += V::COUNT;
                 }
@@ -186,13 +197,13 @@ unsafe fn strips<V: Lanes, const N: usize, const MODE: u8>(
 #[inline(always)]
 unsafe fn columns<V: Lanes, const MODE: u8>(
     width: usize,
-    c: *mut f64,
+    c: *mut V::Scalar,
     ldc: usize,
-    a: *const f64,
-    b: *const f64,
+    a: *const V::Scalar,
+    b: *const V::Scalar,
     ld: usize,
     depth: usize,
-    triangle: &Triangle,
+    triangle: &Triangle<V::Scalar>,
     rows: usize,
 ) {
     // SAFETY: the caller's promise.
@@ -212,19 +223,19 @@ unsafe fn columns<V: Lanes, const MODE: u8>(
 
 /// The panel of one front: a pointer to its columns. Copies point to the same memory.
 #[derive(Clone, Copy)]
-pub(super) struct Panel {
-    start: *mut f64,
+pub(super) struct Panel<T> {
+    start: *mut T,
     ld: usize,
 }
 
 // SAFETY: it is an address; the unsafe functions that read or write there state which rows other threads may not use.
-unsafe impl Send for Panel {}
+unsafe impl<T> Send for Panel<T> {}
 // SAFETY: as above.
-unsafe impl Sync for Panel {}
+unsafe impl<T> Sync for Panel<T> {}
 
-impl Panel {
+impl<T: Scalar> Panel<T> {
     /// The panel in `memory`, whole columns of `ld` scalars.
-    pub(super) fn new(memory: &mut [f64], ld: usize) -> Self {
+    pub(super) fn new(memory: &mut [T], ld: usize) -> Self {
         Self { start: memory.as_mut_ptr(), ld }
     }
 
@@ -237,7 +248,9 @@ impl Panel {
     pub(super) unsafe fn factorise_diagonal(self, begin: usize, end: usize) -> bool {
         let Self { start, ld } = self;
         // SAFETY: the caller's promise.
-        unsafe { for_this_processor!(factorise_diagonal(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool) }
+        unsafe {
+            for_this_processor!(factorise_diagonal<T>(start: *mut T, ld: usize, begin: usize, end: usize) -> bool)
+        }
     }
 
     /// Solves for columns `begin..end`, at most [`BLOCK_WIDTH`], in `rows`, whole tiles of rows below `padded(end)`,
@@ -251,8 +264,8 @@ impl Panel {
         let (top, count) = (rows.start, rows.len());
         // SAFETY: the caller's promise.
         unsafe {
-            for_this_processor!(finish_rows(
-                start: *mut f64,
+            for_this_processor!(finish_rows<T>(
+                start: *mut T,
                 ld: usize,
                 begin: usize,
                 end: usize,
@@ -264,7 +277,7 @@ impl Panel {
 }
 
 #[inline(always)]
-unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: usize) -> bool {
+unsafe fn factorise_diagonal<V: Lanes>(start: *mut V::Scalar, ld: usize, begin: usize, end: usize) -> bool {
     let bottom = padded(end);
     for j in (begin..end).step_by(TILE) {
         let width = TILE.min(end - j);
@@ -272,7 +285,7 @@ unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize,
         unsafe {
             let rows = start.add(j);
             let corner = rows.add(j * ld);
-            columns::<V, KEEP>(width, corner, ld, rows, rows, ld, j, &Triangle::ZERO, TILE);
+            columns::<V, KEEP>(width, corner, ld, rows, rows, ld, j, &Triangle::zero(), TILE);
             if !factorise_tile::<V>(corner, ld, width) {
                 return false;
             }
@@ -287,19 +300,19 @@ unsafe fn factorise_diagonal<V: Lanes>(start: *mut f64, ld: usize, begin: usize,
 /// Scalar Cholesky factorisation of a diagonal tile of `width` columns; the rows below them, up to eight, are solved
 /// for.
 #[inline(always)]
-unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) -> bool {
-    let mut tile = [[0.0; TILE]; TILE];
+unsafe fn factorise_tile<V: Lanes>(corner: *mut V::Scalar, ld: usize, width: usize) -> bool {
+    let mut tile = [[V::Scalar::default(); TILE]; TILE];
     for (n, column) in tile.iter_mut().enumerate().take(width) {
         // SAFETY: the caller's promise.
-        *column = unsafe { corner.add(n * ld).cast::<[f64; TILE]>().read() };
+        *column = unsafe { corner.add(n * ld).cast::<[V::Scalar; TILE]>().read() };
     }
     for n in 0..width {
         let pivot = tile[n][n];
-        if !(pivot > 0.0 && pivot.is_finite()) {
+        if !(pivot > V::Scalar::default() && pivot.is_number()) {
             return false;
         }
-        let root = pivot.sqrt();
-        let inverse = 1.0 / root;
+        let root = pivot.root();
+        let inverse = V::Scalar::ONE / root;
         tile[n][n] = root;
         for entry in &mut tile[n][n + 1..] {
             *entry *= inverse;
@@ -312,22 +325,22 @@ unsafe fn factorise_tile<V: Lanes>(corner: *mut f64, ld: usize, width: usize) ->
     }
     for (n, column) in tile.iter().enumerate().take(width) {
         // SAFETY: the caller's promise.
-        unsafe { corner.add(n * ld).cast::<[f64; TILE]>().write(*column) };
+        unsafe { corner.add(n * ld).cast::<[V::Scalar; TILE]>().write(*column) };
     }
     true
 }
 
 #[inline(always)]
-unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: usize, top: usize, count: usize) {
-    let mut triangles = [Triangle::ZERO; BLOCK_WIDTH / TILE];
+unsafe fn finish_rows<V: Lanes>(start: *mut V::Scalar, ld: usize, begin: usize, end: usize, top: usize, count: usize) {
+    let mut triangles = [Triangle::zero(); BLOCK_WIDTH / TILE];
     for (k, triangle) in triangles.iter_mut().enumerate().take((end - begin).div_ceil(TILE)) {
         let j = begin + k * TILE;
         // SAFETY: the tile is on the diagonal of the panel.
         *triangle = unsafe { Triangle::read(start.add(j * ld + j), ld, TILE.min(end - j)) };
     }
     // A strip of rows stays in the L1 cache while all the columns are applied to it.
-    for i in (top..top + count).step_by(COLUMN_GROUP) {
-        let rows = COLUMN_GROUP.min(top + count - i);
+    for i in (top..top + count).step_by(strip_rows::<V>()) {
+        let rows = strip_rows::<V>().min(top + count - i);
         for (triangle, j) in triangles.iter().zip((begin..end).step_by(TILE)) {
             // SAFETY: these rows and columns are within the panel.
             unsafe {
@@ -340,11 +353,11 @@ unsafe fn finish_rows<V: Lanes>(start: *mut f64, ld: usize, begin: usize, end: u
 
 /// Sets column group `group` of a contribution block to `-L L^T`, where L is the part of a finished panel with `depth`
 /// columns that begins at row `below` and has the `rows` rows of the contribution block.
-pub(super) fn negative_product(
-    contribution: &mut [f64],
+pub(super) fn negative_product<T: Scalar>(
+    contribution: &mut [T],
     rows: usize,
     group: usize,
-    panel: &[f64],
+    panel: &[T],
     ld: usize,
     below: usize,
     depth: usize,
@@ -361,11 +374,11 @@ pub(super) fn negative_product(
     // SAFETY: the asserts: the blocks are as long as the loops there take them to be, and rows `below + first ..` of
     // the panel are as many as those of the blocks.
     unsafe {
-        for_this_processor!(product_group(
-            c: *mut f64,
+        for_this_processor!(product_group<T>(
+            c: *mut T,
             left: usize,
             width: usize,
-            a: *const f64,
+            a: *const T,
             ld: usize,
             depth: usize
         ))
@@ -373,9 +386,16 @@ pub(super) fn negative_product(
 }
 
 #[inline(always)]
-unsafe fn product_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *const f64, ld: usize, depth: usize) {
-    for i in (0..rows).step_by(COLUMN_GROUP) {
-        let bottom = rows.min(i + COLUMN_GROUP);
+unsafe fn product_group<V: Lanes>(
+    c: *mut V::Scalar,
+    rows: usize,
+    width: usize,
+    a: *const V::Scalar,
+    ld: usize,
+    depth: usize,
+) {
+    for i in (0..rows).step_by(strip_rows::<V>()) {
+        let bottom = rows.min(i + strip_rows::<V>());
         let mut block = c;
         for j in (0..width).step_by(TILE) {
             let top = i.max(j);
@@ -383,7 +403,7 @@ unsafe fn product_group<V: Lanes>(c: *mut f64, rows: usize, width: usize, a: *co
             unsafe {
                 if top < bottom {
                     let (c, ldc) = (block.add(top - j), rows - j);
-                    strips::<V, TILE, ZERO>(c, ldc, a.add(top), a.add(j), ld, depth, &Triangle::ZERO, bottom - top);
+                    strips::<V, TILE, ZERO>(c, ldc, a.add(top), a.add(j), ld, depth, &Triangle::zero(), bottom - top);
                 }
                 block = block.add(TILE * (rows - j));
             }

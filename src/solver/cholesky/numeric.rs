@@ -14,6 +14,7 @@ use super::kernel::{
 };
 use super::symbolic::{Node, Symbolic, Task};
 use crate::control::{Cancel, Cancelled};
+use crate::simd::lanes::Scalar;
 use crate::solver::pattern::Pattern;
 
 /// Multiply-adds below which dense work on one front is not split for a second thread.
@@ -22,11 +23,11 @@ const MIN_SPLIT_MULTIPLY_ADDS: usize = 250_000;
 const MIN_SPLIT_COPIES: usize = 16_000;
 
 /// A numeric factorisation in progress.
-pub(super) struct Factorisation<'a> {
+pub(super) struct Factorisation<'a, T> {
     pub symbolic: &'a Symbolic,
     pub pattern: &'a Pattern,
     /// The matrix's values, in the order of `pattern`.
-    pub matrix: &'a [f64],
+    pub matrix: &'a [T],
     pub cancel: &'a Cancel,
     /// Whether a pivot was not positive.
     pub failed: AtomicBool,
@@ -34,28 +35,28 @@ pub(super) struct Factorisation<'a> {
 
 /// The contribution blocks of a node's children, in the node's region of the work space.
 #[derive(Clone, Copy)]
-pub(super) struct ContributionBlocks<'a> {
-    work: &'a [f64],
+pub(super) struct ContributionBlocks<'a, T> {
+    work: &'a [T],
     /// Where `work` begins in the work space.
     start: usize,
 }
 
-impl<'a> ContributionBlocks<'a> {
+impl<'a, T> ContributionBlocks<'a, T> {
     #[inline]
-    fn block(self, child: &Node) -> &'a [f64] {
+    fn block(self, child: &Node) -> &'a [T] {
         &self.work[child.contribution.start - self.start..][..contribution_len(child.rows)]
     }
 
     /// The vector of a child in the forward pass, for right-hand side `column`.
     #[inline]
-    pub(super) fn vector(self, child: &Node, column: usize) -> &'a [f64] {
+    pub(super) fn vector(self, child: &Node, column: usize) -> &'a [T] {
         &self.work[child.contribution.start - self.start + column * child.ld..][..child.ld]
     }
 }
 
-impl Factorisation<'_> {
+impl<T: Scalar> Factorisation<'_, T> {
     /// Runs the last task and all its dependencies. False where the matrix is not positive definite.
-    pub(super) fn run(self, values: &mut [f64], work: &mut [f64]) -> Result<bool, Cancelled> {
+    pub(super) fn run(self, values: &mut [T], work: &mut [T]) -> Result<bool, Cancelled> {
         let Some(last) = self.symbolic.tasks.len().checked_sub(1) else { return Ok(false) };
         self.run_task(last, values, work);
         self.cancel.check()?;
@@ -68,7 +69,7 @@ impl Factorisation<'_> {
 
     /// Runs a task after its dependencies. `values` and `work` are the parts of factor and work space that belong to
     /// them.
-    fn run_task(&self, t: usize, values: &mut [f64], work: &mut [f64]) {
+    fn run_task(&self, t: usize, values: &mut [T], work: &mut [T]) {
         let task = &self.symbolic.tasks[t];
         let first_value = self.symbolic.panels(task).start;
         if !task.dependencies.is_empty() {
@@ -95,7 +96,7 @@ impl Factorisation<'_> {
         }
     }
 
-    fn factorise_front(&self, s: usize, panel: &mut [f64], region: &mut [f64]) -> bool {
+    fn factorise_front(&self, s: usize, panel: &mut [T], region: &mut [T]) -> bool {
         let node = &self.symbolic.nodes[s];
         let (children, contribution) = split_region(node, region);
         self.assemble(s, children, 0..node.columns, panel);
@@ -109,7 +110,7 @@ impl Factorisation<'_> {
     }
 
     /// Assembles columns `columns` of the panel, stored in `to`, from the children's contribution blocks.
-    fn assemble(&self, s: usize, children: ContributionBlocks<'_>, columns: Range<usize>, to: &mut [f64]) {
+    fn assemble(&self, s: usize, children: ContributionBlocks<'_, T>, columns: Range<usize>, to: &mut [T]) {
         let node = &self.symbolic.nodes[s];
         if columns.len() > COLUMN_GROUP && to.len() > MIN_SPLIT_COPIES {
             let middle = columns.start + columns.len() / 6 * 3;
@@ -120,7 +121,7 @@ impl Factorisation<'_> {
             );
             return;
         }
-        to.fill(0.0);
+        to.fill(T::default());
         for child in self.symbolic.children(s) {
             let relative_indices = self.symbolic.relative_indices(child);
             extend_add(child, children.block(child), relative_indices, columns.clone(), to, |column| {
@@ -131,7 +132,7 @@ impl Factorisation<'_> {
     }
 
     /// Scatters the matrix's own entries into the panel.
-    fn scatter(&self, s: usize, panel: &mut [f64]) {
+    fn scatter(&self, s: usize, panel: &mut [T]) {
         let node = &self.symbolic.nodes[s];
         let (ld, col_ptr) = (node.ld, self.pattern.col_ptr());
         for k in 0..node.columns / 3 {
@@ -148,7 +149,7 @@ impl Factorisation<'_> {
                 let column = &self.matrix[from..from + 3];
                 if block.transposed {
                     for (r, value) in column.iter().enumerate() {
-                        panel[target + r * ld + c] += value;
+                        panel[target + r * ld + c] += *value;
                     }
                 } else {
                     add(&mut panel[target + c * ld..][..3], column);
@@ -161,10 +162,10 @@ impl Factorisation<'_> {
     fn compute_contribution(
         &self,
         s: usize,
-        panel: &[f64],
-        children: ContributionBlocks<'_>,
+        panel: &[T],
+        children: ContributionBlocks<'_, T>,
         groups: Range<usize>,
-        contribution: &mut [f64],
+        contribution: &mut [T],
     ) {
         let node = &self.symbolic.nodes[s];
         if groups.len() > 1 && contribution.len() * node.columns > MIN_SPLIT_MULTIPLY_ADDS {
@@ -200,7 +201,7 @@ impl Factorisation<'_> {
 
 /// Splits `work`, the work space of `task`, into the regions of its dependencies. Their addresses ascend or descend,
 /// and they need not fill it: they are children of the task's first node, while `work` is the region of its last.
-pub(super) fn dependency_regions<'a>(symbolic: &Symbolic, task: &Task, mut work: &'a mut [f64]) -> Vec<&'a mut [f64]> {
+pub(super) fn dependency_regions<'a, T>(symbolic: &Symbolic, task: &Task, mut work: &'a mut [T]) -> Vec<&'a mut [T]> {
     let regions = || task.dependencies.iter().map(|&t| symbolic.tasks[t].region.clone());
     let ascending = regions().is_sorted_by_key(|region| region.start);
     let mut start = task.region.start;
@@ -219,7 +220,7 @@ pub(super) fn dependency_regions<'a>(symbolic: &Symbolic, task: &Task, mut work:
 }
 
 /// Splits the region of `node` into its children's contribution blocks and the space for its own.
-pub(super) fn split_region<'a>(node: &Node, region: &'a mut [f64]) -> (ContributionBlocks<'a>, &'a mut [f64]) {
+pub(super) fn split_region<'a, T>(node: &Node, region: &'a mut [T]) -> (ContributionBlocks<'a, T>, &'a mut [T]) {
     let len = node.contribution.len();
     if node.contribution.start == node.region.start {
         let (contribution, work) = region.split_at_mut(len);
@@ -231,21 +232,21 @@ pub(super) fn split_region<'a>(node: &Node, region: &'a mut [f64]) -> (Contribut
 }
 
 #[inline(always)]
-fn add(to: &mut [f64], values: &[f64]) {
+fn add<T: Scalar>(to: &mut [T], values: &[T]) {
     for (to, value) in to.iter_mut().zip(values) {
-        *to += value;
+        *to += *value;
     }
 }
 
 /// Extend-add (Liu 1992): adds to `to` those columns of a child's contribution block that are among `columns` of the
 /// front. `column_at` gives the range in `to` of a column of the front, from its diagonal down.
 #[inline(always)]
-fn extend_add(
+fn extend_add<T: Scalar>(
     child: &Node,
-    contribution: &[f64],
+    contribution: &[T],
     relative_indices: &[u32],
     columns: Range<usize>,
-    to: &mut [f64],
+    to: &mut [T],
     column_at: impl Fn(usize) -> Range<usize>,
 ) {
     let first = relative_indices.partition_point(|&index| 3 * (index as usize) < columns.start);
@@ -265,7 +266,7 @@ fn extend_add(
 }
 
 /// Blocked factorisation of a panel. False where a pivot is not positive.
-fn factorise_panel(node: &Node, memory: &mut [f64]) -> bool {
+fn factorise_panel<T: Scalar>(node: &Node, memory: &mut [T]) -> bool {
     let panel = Panel::new(memory, node.ld);
     let bottom = padded(node.columns + node.rows);
     for begin in (0..node.columns).step_by(BLOCK_WIDTH) {
@@ -280,7 +281,7 @@ fn factorise_panel(node: &Node, memory: &mut [f64]) -> bool {
     true
 }
 
-fn finish_rows(panel: Panel, begin: usize, end: usize, rows: Range<usize>) {
+fn finish_rows<T: Scalar>(panel: Panel<T>, begin: usize, end: usize, rows: Range<usize>) {
     if rows.len() > COLUMN_GROUP && rows.len() * (end - begin) * (begin + end) / 2 > MIN_SPLIT_MULTIPLY_ADDS {
         let middle = rows.start + (rows.len() / 2).next_multiple_of(COLUMN_GROUP);
         rayon::join(

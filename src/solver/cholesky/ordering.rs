@@ -5,11 +5,12 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
+use crate::memory::bytes;
 use crate::solver::pattern::Pattern;
 
 /// An adjacent vertex: one that shares an element.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Neighbour {
+pub(in crate::solver) struct Neighbour {
     /// The vertex.
     pub vertex: u32,
     /// Index of the edge's block among those below the diagonal, in the block column of the smaller vertex.
@@ -17,13 +18,13 @@ pub(super) struct Neighbour {
 }
 
 /// The pattern as an undirected graph in compressed form: each edge is stored at both of its vertices.
-pub(super) struct Graph {
+pub(in crate::solver) struct Graph {
     start: Vec<u32>,
     neighbours: Vec<Neighbour>,
 }
 
 impl Graph {
-    pub(super) fn new(pattern: &Pattern) -> Self {
+    pub(in crate::solver) fn new(pattern: &Pattern) -> Self {
         let n = pattern.vertex_count();
         let mut start = vec![0u32; n + 2];
         for j in 0..n {
@@ -50,6 +51,11 @@ impl Graph {
         Self { start, neighbours }
     }
 
+    /// Bytes held.
+    pub(in crate::solver) fn memory(&self) -> u64 {
+        bytes(&self.start) + bytes(&self.neighbours)
+    }
+
     /// Number of vertices.
     pub(super) fn vertex_count(&self) -> usize {
         self.start.len() - 2
@@ -57,7 +63,7 @@ impl Graph {
 
     /// The neighbours of `vertex`.
     #[inline]
-    pub(super) fn neighbours(&self, vertex: u32) -> &[Neighbour] {
+    pub(in crate::solver) fn neighbours(&self, vertex: u32) -> &[Neighbour] {
         let v = vertex as usize;
         &self.neighbours[self.start[v] as usize..self.start[v + 1] as usize]
     }

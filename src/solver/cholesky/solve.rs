@@ -10,20 +10,21 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::numeric::{dependency_regions, split_region};
 use super::substitution;
 use super::symbolic::Symbolic;
+use crate::simd::lanes::Scalar;
 
 /// A solve for up to [`super::MAX_RHS`] right-hand sides.
-pub(super) struct Solve<'a> {
+pub(super) struct Solve<'a, T> {
     pub symbolic: &'a Symbolic,
     /// The factor.
-    pub values: &'a [f64],
+    pub values: &'a [T],
     /// Bits of the right-hand sides, then of the solutions, `columns` for each position in the elimination order. Each
     /// is written by the one task that eliminates it, and read by tasks that are ordered after it.
     pub x: &'a [AtomicU64],
     pub columns: usize,
 }
 
-impl Solve<'_> {
-    pub(super) fn run(&self, work: &mut [f64]) {
+impl<T: Scalar> Solve<'_, T> {
+    pub(super) fn run(&self, work: &mut [T]) {
         if let Some(last) = self.symbolic.tasks.len().checked_sub(1) {
             self.forward_task(last, work);
             self.backward_task(last, work);
@@ -31,16 +32,16 @@ impl Solve<'_> {
     }
 
     #[inline]
-    fn get(&self, row: usize, column: usize) -> f64 {
-        f64::from_bits(self.x[row * self.columns + column].load(Ordering::Relaxed))
+    fn get(&self, row: usize, column: usize) -> T {
+        T::nearest(f64::from_bits(self.x[row * self.columns + column].load(Ordering::Relaxed)))
     }
 
     #[inline]
-    fn set(&self, row: usize, column: usize, value: f64) {
-        self.x[row * self.columns + column].store(value.to_bits(), Ordering::Relaxed);
+    fn set(&self, row: usize, column: usize, value: T) {
+        self.x[row * self.columns + column].store(value.widened().to_bits(), Ordering::Relaxed);
     }
 
-    fn forward_task(&self, t: usize, work: &mut [f64]) {
+    fn forward_task(&self, t: usize, work: &mut [T]) {
         let task = &self.symbolic.tasks[t];
         if !task.dependencies.is_empty() {
             rayon::scope(|scope| {
@@ -56,7 +57,7 @@ impl Solve<'_> {
         }
     }
 
-    fn forward_front(&self, s: usize, region: &mut [f64]) {
+    fn forward_front(&self, s: usize, region: &mut [T]) {
         let node = &self.symbolic.nodes[s];
         let (children, contribution) = split_region(node, region);
         let panel = &self.values[node.panel..][..node.panel_len()];
@@ -65,7 +66,7 @@ impl Solve<'_> {
             for (k, value) in vector[..node.columns].iter_mut().enumerate() {
                 *value = self.get(node.first + k, column);
             }
-            vector[node.columns..].fill(0.0);
+            vector[node.columns..].fill(T::default());
             for child in self.symbolic.children(s) {
                 let from = &children.vector(child, column)[child.columns..][..child.rows];
                 for (index, value) in self.symbolic.relative_indices(child).iter().zip(from.as_chunks::<3>().0) {
@@ -82,7 +83,7 @@ impl Solve<'_> {
         }
     }
 
-    fn backward_task(&self, t: usize, work: &mut [f64]) {
+    fn backward_task(&self, t: usize, work: &mut [T]) {
         let task = &self.symbolic.tasks[t];
         for s in task.nodes.clone().rev() {
             let node = &self.symbolic.nodes[s];
@@ -97,7 +98,7 @@ impl Solve<'_> {
         }
     }
 
-    fn backward_front(&self, s: usize, contribution: &mut [f64]) {
+    fn backward_front(&self, s: usize, contribution: &mut [T]) {
         let node = &self.symbolic.nodes[s];
         let panel = &self.values[node.panel..][..node.panel_len()];
         for column in 0..self.columns {
@@ -109,7 +110,7 @@ impl Solve<'_> {
             for (&row, to) in self.symbolic.rows(node).iter().zip(below.as_chunks_mut::<3>().0) {
                 *to = std::array::from_fn(|c| self.get(3 * row as usize + c, column));
             }
-            below[node.rows..].fill(0.0);
+            below[node.rows..].fill(T::default());
             substitution::backward(panel, node.ld, node.columns, vector);
             for (k, value) in vector[..node.columns].iter().enumerate() {
                 self.set(node.first + k, column, *value);

@@ -4,38 +4,38 @@
 //! dimension.
 
 use super::kernel::TILE;
-use crate::simd::lanes::{Lanes, for_this_processor};
+use crate::simd::lanes::{Lanes, Scalar, for_this_processor};
 
 /// Forward substitution: solves with the lower triangle of a panel of `columns` columns, and subtracts the product of
 /// its rows below with the solution from the rest of `vector`.
-pub(super) fn forward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
+pub(super) fn forward<T: Scalar>(panel: &[T], ld: usize, columns: usize, vector: &mut [T]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
     // SAFETY: the asserts are what it asks for.
-    unsafe { for_this_processor!(forward_front(panel: *const f64, ld: usize, columns: usize, vector: *mut f64)) }
+    unsafe { for_this_processor!(forward_front<T>(panel: *const T, ld: usize, columns: usize, vector: *mut T)) }
 }
 
 /// Backward substitution: subtracts from the columns' part of `vector` the product of the transposed rows below with
 /// the rest, and solves with the transposed triangle.
-pub(super) fn backward(panel: &[f64], ld: usize, columns: usize, vector: &mut [f64]) {
+pub(super) fn backward<T: Scalar>(panel: &[T], ld: usize, columns: usize, vector: &mut [T]) {
     assert!(panel.len() == ld * columns && vector.len() == ld && columns <= ld && ld.is_multiple_of(TILE));
     let (panel, vector) = (panel.as_ptr(), vector.as_mut_ptr());
     // SAFETY: the asserts are what it asks for.
-    unsafe { for_this_processor!(backward_front(panel: *const f64, ld: usize, columns: usize, vector: *mut f64)) }
+    unsafe { for_this_processor!(backward_front<T>(panel: *const T, ld: usize, columns: usize, vector: *mut T)) }
 }
 
 /// # Safety
 /// The panel has `columns` columns of `ld` scalars, not fewer than there are columns and a multiple of 8; the vector
 /// has as many as a column. The processor has the instructions.
 #[inline(always)]
-unsafe fn forward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, vector: *mut f64) {
+unsafe fn forward_front<V: Lanes>(panel: *const V::Scalar, ld: usize, columns: usize, vector: *mut V::Scalar) {
     for j in (0..columns).step_by(TILE) {
         let width = TILE.min(columns - j);
         // SAFETY: the tile and what is below it are within the panel and the vector.
         unsafe {
             let corner = panel.add(j * ld + j);
             let top = vector.add(j);
-            let mut x = [0.0; TILE];
+            let mut x = [V::Scalar::default(); TILE];
             for (n, x) in x.iter_mut().enumerate().take(width) {
                 *x = *top.add(n) / *corner.add(n * ld + n);
                 *top.add(n) = *x;
@@ -62,24 +62,28 @@ unsafe fn forward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, 
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn subtract_columns<V: Lanes, const N: usize>(
-    y: *mut f64,
-    columns: *const f64,
+    y: *mut V::Scalar,
+    columns: *const V::Scalar,
     ld: usize,
     rows: usize,
-    x: &[f64; N],
+    x: &[V::Scalar; N],
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        let mut factors = [V::splat(0.0); N];
+        let mut factors = [V::splat(V::Scalar::default()); N];
         for n in 0..N {
             factors[n] = V::splat(x[n]);
         }
-        for i in (0..rows).step_by(V::COUNT) {
+        let whole = rows - rows % V::COUNT;
+        for i in (0..whole).step_by(V::COUNT) {
             let mut sum = V::load(y.add(i));
             for n in 0..N {
                 sum = sum.minus_product(V::load(columns.add(n * ld + i)), factors[n]);
             }
             sum.store(y.add(i));
+        }
+        if whole < rows {
+            subtract_columns::<V::Rest, N>(y.add(whole), columns.add(whole), ld, rows - whole, x);
         }
     }
 }
@@ -87,7 +91,7 @@ unsafe fn subtract_columns<V: Lanes, const N: usize>(
 /// # Safety
 /// As [`forward_front`].
 #[inline(always)]
-unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize, vector: *mut f64) {
+unsafe fn backward_front<V: Lanes>(panel: *const V::Scalar, ld: usize, columns: usize, vector: *mut V::Scalar) {
     const HALF: usize = TILE / 2;
     for j in (0..columns).step_by(TILE).rev() {
         let width = TILE.min(columns - j);
@@ -96,15 +100,15 @@ unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize,
             let corner = panel.add(j * ld + j);
             let top = vector.add(j);
             let (below, y, rows) = (corner.add(TILE), top.add(TILE), ld - j - TILE);
-            let mut products = [0.0; TILE];
+            let mut products = [V::Scalar::default(); TILE];
             if width == TILE {
-                let first = minus_products::<V, HALF>(y, below, ld, rows);
-                let second = minus_products::<V, HALF>(y, below.add(HALF * ld), ld, rows);
+                let first = minus_products::<V::Rest, HALF>(y, below, ld, rows);
+                let second = minus_products::<V::Rest, HALF>(y, below.add(HALF * ld), ld, rows);
                 products[..HALF].copy_from_slice(&first);
                 products[HALF..].copy_from_slice(&second);
             } else {
                 for (n, product) in products.iter_mut().enumerate().take(width) {
-                    [*product] = minus_products::<V, 1>(y, below.add(n * ld), ld, rows);
+                    [*product] = minus_products::<V::Rest, 1>(y, below.add(n * ld), ld, rows);
                 }
             }
             for n in (0..width).rev() {
@@ -126,15 +130,15 @@ unsafe fn backward_front<V: Lanes>(panel: *const f64, ld: usize, columns: usize,
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
 unsafe fn minus_products<V: Lanes, const N: usize>(
-    y: *const f64,
-    columns: *const f64,
+    y: *const V::Scalar,
+    columns: *const V::Scalar,
     ld: usize,
     rows: usize,
-) -> [f64; N] {
+) -> [V::Scalar; N] {
     // SAFETY: the caller's promise; there are no more than two vectors in eight lanes.
     unsafe {
         let parts = TILE / V::COUNT;
-        let mut sums = [[V::splat(0.0); 2]; N];
+        let mut sums = [[V::splat(V::Scalar::default()); 2]; N];
         for i in (0..rows).step_by(TILE) {
             for part in 0..parts {
                 let at = i + part * V::COUNT;
@@ -144,9 +148,9 @@ unsafe fn minus_products<V: Lanes, const N: usize>(
                 }
             }
         }
-        let mut totals = [0.0; N];
+        let mut totals = [V::Scalar::default(); N];
         for n in 0..N {
-            let mut lanes = [0.0; TILE];
+            let mut lanes = [V::Scalar::default(); TILE];
             for part in 0..parts {
                 sums[n][part].store(lanes.as_mut_ptr().add(part * V::COUNT));
             }
