@@ -1,5 +1,5 @@
 # make        build/retarget and build/libbespoke.so
-# make build/bespoke  the program that dresses characters in GLB, glTF and VRM files (docs/program.md)
+# make build/bespoke  the program that dresses characters in GLB, glTF, VRM and OBJ files (docs/program.md)
 # make demo   makes a sample, dresses two bodies in it and says what came out
 # make gallery  dresses all bodies of the closet in all its garments (build/gallery/index.html, sheet.png, pairs.md) and
 #             makes the paper's figures

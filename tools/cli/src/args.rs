@@ -23,7 +23,7 @@ const EXIT_CODES: &str = "Exit: 0 when it is done, 1 when there is no result, 2 
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Puts the outfit of one file on the character of another.
-    Dress(Dress),
+    Dress(Box<Dress>),
     /// Dresses every outfit of a manifest on every avatar; goes on where it was stopped.
     Batch(Batch),
     /// Dresses the pairs that `bespoke batch` tells on standard input, one after the other.
@@ -59,13 +59,13 @@ pub enum Keep {
 /// `bespoke dress`.
 #[derive(Clone, Debug, Args)]
 pub struct Dress {
-    /// The file with the outfit: GLB, glTF or VRM.
+    /// The file with the outfit: GLB, glTF, VRM or OBJ.
     #[arg(value_hint = ValueHint::FilePath)]
     pub outfit: PathBuf,
-    /// The character to dress: GLB, glTF or VRM.
+    /// The character to dress: GLB, glTF, VRM or OBJ.
     #[arg(value_hint = ValueHint::FilePath)]
     pub avatar: PathBuf,
-    /// Where the result goes, in the form of the avatar's file: .glb, .vrm or .gltf.
+    /// Where the result goes: .glb, .vrm or .gltf; of an avatar that is an OBJ file, .obj too.
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: PathBuf,
     /// The character that the outfit was made for, where it is not in the outfit's file.
@@ -100,6 +100,9 @@ pub struct Dress {
     /// Joints for each vertex of the result: what the engine takes.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=8))]
     pub influences: u32,
+    /// What lies beside OBJ files.
+    #[command(flatten)]
+    pub obj: ObjFiles,
     /// Threads; 0 takes all cores.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: u32,
@@ -109,6 +112,37 @@ pub struct Dress {
     /// No progress and no findings, errors alone.
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// What OBJ files do not hold. Of x.obj, x.skeleton.obj or skeleton.obj beside it is its skeleton, and x.skin.txt its skin weights, of
+/// an avatar skin.txt too, where they are not named here.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Args)]
+#[command(next_help_heading = "OBJ files (skeleton.obj and skin.txt beside them are found)")]
+pub struct ObjFiles {
+    /// The skeleton that the outfit was made on: OBJ with a v line for each joint and an l line for each bone, or a rig: a line
+    /// 'joint NAME PARENT' and the 16 numbers of the bind transform for each joint.
+    #[arg(long, visible_alias = "source-rig", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub source_skeleton: Option<PathBuf>,
+    /// The avatar's skeleton or rig. Two skeletons of the same joints and bones correspond joint by joint.
+    #[arg(long, visible_alias = "target-rig", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub target_skeleton: Option<PathBuf>,
+    /// Skin weights of the avatar: a row for each joint with a number for each vertex, or a line 'JOINT WEIGHT JOINT WEIGHT ...'
+    /// for each vertex, joints from 0.
+    #[arg(long, visible_alias = "skin-weights", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub target_skin: Option<PathBuf>,
+    /// The same of the character that --source names.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub source_skin: Option<PathBuf>,
+    /// The same of the outfit.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub garment_skin: Option<PathBuf>,
+    /// Axes of outfit and source that point right, up and forward, and metres a unit where that is not 1: x,z,y for Blender's,
+    /// y,z,x,0.01 for Unreal's (x,y,-z). With ',trusted' at its end nothing is turned or refused for axes and unit.
+    #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+    pub source_space: Option<String>,
+    /// The same of the avatar.
+    #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+    pub target_space: Option<String>,
 }
 
 /// `bespoke batch`.
@@ -146,7 +180,7 @@ fn slice(text: &str) -> Result<(u32, u32), String> {
 /// `bespoke inspect`.
 #[derive(Clone, Debug, Args)]
 pub struct Inspect {
-    /// The file: GLB, glTF or VRM.
+    /// The file: GLB, glTF, VRM or OBJ.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// Another character: which of its joints correspond to those of the first.
@@ -160,10 +194,10 @@ pub struct Inspect {
 /// `bespoke check`.
 #[derive(Clone, Debug, Args)]
 pub struct Check {
-    /// The file: GLB, glTF or VRM.
+    /// The file: GLB, glTF, VRM or OBJ.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// The garments, where their names do not say it: as for `dress`.
+    /// The garments, as for `dress`, where neither their names say it nor `dress` has put them on.
     #[arg(long, value_name = "NAMES")]
     pub nodes: Option<String>,
     /// Moments of an animation too, by its name or number; without a NAME of all animations of the file.

@@ -1,11 +1,14 @@
 //! `bespoke dress`: the outfit of one file on the character of another.
 
+use std::path::PathBuf;
+
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
 use bespoke::rig::reading::Reading;
 
-use crate::args::Dress;
+use crate::args::{Dress, ObjFiles};
 use crate::attempts::put_on;
 use crate::bodies::{self, joined};
 use crate::failure::{Failure, Result};
@@ -13,8 +16,9 @@ use crate::figure::{Choice, Figure, Part};
 use crate::fit::{Fitted, Job, Refused, Skinned};
 use crate::joint_pairs;
 use crate::known_avatar::KnownAvatar;
+use crate::obj::{self, Beside};
 use crate::outfit::{self, Garment};
-use crate::output;
+use crate::output::{self, Written};
 use crate::parts::Role;
 use crate::parts::pattern::Patterns;
 use crate::report::{self, DressReport, GarmentLine};
@@ -36,24 +40,57 @@ pub fn run_on(args: &Dress, known: &mut Option<KnownAvatar>) -> Result<u8> {
     let patterns = |text: &Option<String>| text.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage);
     let outfit_choice = Choice { garments: patterns(&args.nodes)?, body: None };
     let source_choice = Choice { garments: None, body: patterns(&args.source_nodes)? };
-    output::form(&args.output)?;
+    let written = output::written(args)?;
 
     let avatar = KnownAvatar::of(args, known)?;
-    let outfit = match &args.source {
-        Some(_) => Figure::open(&args.outfit, Role::Outfit, &outfit_choice)?,
-        None => {
-            Figure::open(&args.outfit, Role::Outfit, &Choice { body: source_choice.body.clone(), ..outfit_choice })?
-        }
+    output::need_weights(written, args, &avatar.figure)?;
+    let beside = Files::new(args)?;
+    let outfit_choice = match &args.source {
+        Some(_) => outfit_choice,
+        None => Choice { body: source_choice.body.clone(), ..outfit_choice },
     };
-    let source = args.source.as_ref().map(|file| Figure::open(file, Role::Avatar, &source_choice)).transpose()?;
+    let outfit = Figure::open_with(&args.outfit, Role::Outfit, &outfit_choice, &beside.outfit)?;
+    let open_source = |file| Figure::open_with(file, Role::Avatar, &source_choice, &beside.source);
+    let source = args.source.as_deref().map(open_source).transpose()?;
     let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
     let garments = outfit::in_order(&outfit, outfit::need_garments(&outfit)?, made_for.bodies.first());
-    let pairs = match &args.map {
-        Some(file) => joint_pairs::read(file, made_for.rig(), &avatar.figure.rig)?,
-        None => Vec::new(),
+    // Joint by joint, where two skeletons without names have the same joints and bones.
+    let skeletons = made_for.skeleton().zip(avatar.figure.skeleton());
+    let skeletons = skeletons.filter(|(source, target)| target.aligned_to(source).is_ok());
+    let pairs = match (&args.map, skeletons) {
+        (Some(file), _) => joint_pairs::read(file, made_for.rig(), &avatar.figure.rig)?,
+        (None, Some((source, _))) => (0..source.joints.len() as u32).map(|joint| (joint, Some(joint))).collect(),
+        (None, None) => Vec::new(),
     };
-    let dressing = Dressing { args, outfit: &outfit, avatar, made_for: &made_for, pairs: &pairs };
+    // What is mended by hand, or says where the garment hangs, is told of rigs.
+    let is_plain = args.map.is_none() && !outfit.has_skin();
+    let skeletons = skeletons.filter(|_| is_plain).map(|(source, target)| [source, target]);
+    let dressing = Dressing { args, written, outfit: &outfit, avatar, made_for: &made_for, pairs: &pairs, skeletons };
     dressing.run(&garments)
+}
+
+/// What is given beside OBJ files of outfit and source.
+struct Files {
+    outfit: Beside,
+    source: Beside,
+}
+
+impl Files {
+    fn new(args: &Dress) -> Result<Self> {
+        let ObjFiles { source_skeleton, source_skin, garment_skin, source_space, .. } = &args.obj;
+        if args.source.is_none() && source_skin.is_some() {
+            return Err(Failure::usage("--source-skin is for the character that --source names"));
+        }
+        let source_is_obj = args.source.as_deref().is_some_and(obj::is_obj);
+        let beside = |is_meant: bool, skin: &Option<PathBuf>| Beside {
+            skeleton: source_skeleton.clone().filter(|_| is_meant),
+            space: source_space.clone().filter(|_| is_meant),
+            skin: skin.clone(),
+        };
+        // Where neither is an OBJ file, the outfit's refuses them.
+        let outfit_is_meant = obj::is_obj(&args.outfit) || !source_is_obj;
+        Ok(Self { outfit: beside(outfit_is_meant, garment_skin), source: beside(source_is_obj, source_skin) })
+    }
 }
 
 /// Whom the outfit was made for.
@@ -69,6 +106,14 @@ impl<'a> MadeFor<'a> {
         let made_for = Self { outfit, source, bodies };
         if made_for.rig().joints.is_empty() {
             let file = args.source.as_ref().unwrap_or(&args.outfit);
+            if obj::is_obj(file) {
+                return Err(Failure::no_result(format!(
+                    "{}: there is no skeleton beside it, so it cannot be known where the body is for which the outfit was \
+                     made; name it with --source-skeleton (an OBJ file with a v line for each joint and an l line for each \
+                     bone), or put it there as skeleton.obj",
+                    file.display()
+                )));
+            }
             return Err(Failure::no_result(format!(
                 "{}: it has no skin, so it cannot be known where the body is for which the outfit was made; give the \
                  character that it was made for with --source",
@@ -78,21 +123,35 @@ impl<'a> MadeFor<'a> {
         Ok(made_for)
     }
 
-    /// The outfit's own joints, or those of the character that it stands on.
-    fn rig(&self) -> &'a bespoke::input::rig::Rig {
+    /// Whose joints count: the outfit's, or those of the character that it stands on, where it has none or hangs on none.
+    fn joints_of(&self) -> &'a Figure {
         match self.source {
-            Some(source) if self.outfit.rig.joints.is_empty() => &source.rig,
-            _ => &self.outfit.rig,
+            Some(source) if !self.outfit.has_skin() && !source.rig.joints.is_empty() => source,
+            _ => self.outfit,
         }
+    }
+
+    fn rig(&self) -> &'a bespoke::input::rig::Rig {
+        &self.joints_of().rig
+    }
+
+    fn skeleton(&self) -> Option<&'a Skeleton> {
+        self.joints_of().skeleton()
     }
 
     /// The bodies on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with
     /// the one above.
     fn bodies(&self) -> Vec<Skinned> {
-        let Some(source) = self.source.filter(|_| !self.outfit.rig.joints.is_empty()) else {
+        let Some(source) = self.source.filter(|_| std::ptr::eq(self.joints_of(), self.outfit)) else {
             return self.bodies.clone();
         };
+        if source.skeleton().is_some() && source.skeleton() == self.outfit.skeleton() {
+            return self.bodies.clone();
+        }
         let there = |body: &Skinned| {
+            if !body.has_weights() {
+                return Some(body.clone());
+            }
             Some(Skinned {
                 skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?,
                 mesh: body.mesh.clone(),
@@ -104,10 +163,12 @@ impl<'a> MadeFor<'a> {
 
 struct Dressing<'a> {
     args: &'a Dress,
+    written: Written,
     outfit: &'a Figure,
     avatar: &'a KnownAvatar,
     made_for: &'a MadeFor<'a>,
     pairs: &'a [CallersPair],
+    skeletons: Option<[&'a Skeleton; 2]>,
 }
 
 /// A garment with its result.
@@ -144,7 +205,7 @@ impl Dressing<'_> {
                 garment: &cloth,
                 drawn: &drawn,
                 morphs: &morphs,
-                has_skin: !self.outfit.rig.joints.is_empty(),
+                has_skin: self.outfit.has_skin(),
                 source: sources.first(),
                 source_rig: self.made_for.rig(),
                 avatar: &avatar.body,
@@ -153,6 +214,8 @@ impl Dressing<'_> {
                 shared,
                 layers: &layers,
                 pairs: self.pairs,
+                skeletons: self.skeletons,
+                spaces: [self.outfit.space(), self.avatar.space],
                 influences: args.influences as usize,
                 options: &options,
                 quiet: args.quiet,
@@ -190,7 +253,12 @@ impl Dressing<'_> {
                 if refused.len() == 1 { "it" } else { "these" }
             )));
         }
-        output::write(args, self.outfit, figure, &dressed)?;
+        report::in_folder(&args.output)
+            .map_err(|e| Failure::no_result(format!("{}: its folder cannot be made: {e}", args.output.display())))?;
+        match self.written {
+            Written::Gltf(form) => output::write(args, form, self.outfit, figure, &dressed)?,
+            Written::Obj => obj::write(args, self.outfit, figure, &dressed)?,
+        }
         let flaws: Vec<_> = dressed.iter().filter_map(|d| Some((d.garment, d.fitted.flaw.as_ref()?))).collect();
         flaws.iter().for_each(|(garment, flaw)| say(false, &format!("{}: {flaw}", garment.name)));
         Ok(if flaws.is_empty() { 0 } else { 3 })

@@ -2,11 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::rig::{Rig, RigJoint};
+use bespoke::input::skeleton::Skeleton;
 use bespoke_gltf::{Document, Instance, Primitive, Scene};
 use glam::{DMat4, DVec3};
 
 use crate::failure::{Failure, Result};
+use crate::obj::{self, Beside, Joints};
+use crate::output;
 use crate::parts::pattern::Patterns;
 use crate::parts::{Kind, Named, Role, Sorted, sort};
 
@@ -76,6 +80,8 @@ pub struct Figure {
     pub parts: Vec<Part>,
     /// What was passed over, in words.
     pub notes: Vec<String>,
+    /// Where it was an OBJ file, and not glTF.
+    pub obj: Option<obj::Source>,
 }
 
 impl Figure {
@@ -84,8 +90,36 @@ impl Figure {
     /// # Errors
     /// With the file, and where in it.
     pub fn open(file: &Path, role: Role, choice: &Choice) -> Result<Self> {
+        Self::open_with(file, role, choice, &Beside::default())
+    }
+
+    /// The same, where an OBJ file has others beside it.
+    ///
+    /// # Errors
+    /// As [`Self::open`], and where the file is none that has others beside it.
+    pub fn open_with(file: &Path, role: Role, choice: &Choice, beside: &Beside) -> Result<Self> {
+        if obj::is_obj(file) {
+            let (document, source, joints) = obj::open(file, role, beside)?;
+            let mut figure = Self::of_document(file, document)?;
+            figure.take_joints(source, joints);
+            figure.sort_parts(role, choice)?;
+            return Ok(figure);
+        }
+        if *beside != Beside::default() {
+            return Err(Failure::usage(format!(
+                "{}: skeleton, skin weights and axes are given beside OBJ files alone; this one has its own",
+                file.display()
+            )));
+        }
+        let document = Document::open(file).map_err(|e| Failure::no_result(e.to_string()))?;
+        let mut figure = Self::of_document(file, document)?;
+        figure.sort_parts(role, choice)?;
+        Ok(figure)
+    }
+
+    /// What it shows, not yet sorted.
+    fn of_document(file: &Path, document: Document) -> Result<Self> {
         let fail = |e: bespoke_gltf::Error| Failure::no_result(e.to_string());
-        let document = Document::open(file).map_err(fail)?;
         let named = |e: bespoke_gltf::Error| fail(e.in_file(file.display().to_string()));
         let scene = document.scene().map_err(named)?;
         let materials = document.materials().map_err(named)?;
@@ -118,9 +152,42 @@ impl Figure {
             }
         }
         parts.retain(|part| !part.triangles.is_empty());
-        let mut figure = Self { file: file.to_path_buf(), document, scene, rig, joint_nodes, parts, notes };
-        figure.sort_parts(role, choice)?;
-        Ok(figure)
+        Ok(Self { file: file.to_path_buf(), document, scene, rig, joint_nodes, parts, notes, obj: None })
+    }
+
+    /// The joints of an OBJ file as they were given, in their order; where there are no skin weights, the parts have none.
+    fn take_joints(&mut self, source: obj::Source, joints: Option<Joints>) {
+        let number: Vec<u32> = self.joint_nodes.iter().map(|&node| node as u32).collect();
+        for row in self.parts.iter_mut().flat_map(|part| &mut part.influences) {
+            if !source.has_skin {
+                row.clear();
+            }
+            row.iter_mut().for_each(|(joint, _)| *joint = number[*joint as usize]);
+            row.sort_by_key(|&(joint, _)| joint);
+        }
+        if let Some(joints) = joints {
+            self.rig = joints.rig();
+            self.joint_nodes = (0..self.rig.joints.len()).collect();
+        }
+        self.notes.extend(source.notes.iter().cloned());
+        self.obj = Some(source);
+    }
+
+    /// Whether the vertices of its parts have weights on its joints.
+    pub fn has_skin(&self) -> bool {
+        !self.rig.joints.is_empty() && self.obj.as_ref().is_none_or(|source| source.has_skin)
+    }
+
+    /// Its joints where they have no names.
+    pub fn skeleton(&self) -> Option<&Skeleton> {
+        self.obj.as_ref()?.skeleton.as_ref()
+    }
+
+    /// In which coordinate system it stands here: that of glTF. Of a glTF file this is known to be so: meshes and joints are bound to
+    /// each other.
+    pub fn space(&self) -> CoordinateSystem {
+        let trusted = self.obj.as_ref().is_none_or(|source| source.space.trusted);
+        CoordinateSystem { trusted, ..CoordinateSystem::default() }
     }
 
     /// The meshes, numbered as `instance` of a part.
@@ -150,6 +217,9 @@ impl Figure {
 
     /// The form of the file in words.
     pub fn format(&self) -> String {
+        if self.obj.is_some() {
+            return "OBJ".into();
+        }
         let form = match self.document.form() {
             bespoke_gltf::Form::Glb => "GLB",
             bespoke_gltf::Form::Gltf => "glTF",
@@ -159,6 +229,12 @@ impl Figure {
             Some(bespoke_gltf::Vrm::One) => format!("VRM 1 ({form})"),
             None => form.to_string(),
         }
+    }
+
+    /// Whether this program has written a part: its garments have a skin of their own.
+    fn is_put_on(&self, part: &Part) -> bool {
+        let skin = self.instance(part.instance).skin.map(|skin| self.scene.skins[skin].name.as_str());
+        skin == Some(output::SKIN) || self.obj.as_ref().is_some_and(|source| source.worn.contains(&part.node_name))
     }
 
     fn sort_parts(&mut self, role: Role, choice: &Choice) -> Result<()> {
@@ -180,9 +256,15 @@ impl Figure {
                 node: &part.node_name,
                 material: &part.material,
                 hangs_on: part.hangs_on.map(|joint| self.rig.joints[joint as usize].name.as_str()),
+                is_put_on: self.is_put_on(part),
             })
             .collect();
-        let sorted = sort(&named, role);
+        let mut sorted = sort(&named, role);
+        // An OBJ file that is one thing is what it is given as.
+        if let (true, [only]) = (self.obj.is_some(), &mut sorted[..]) {
+            let kind = if role == Role::Outfit { Kind::Garment } else { Kind::Body };
+            *only = Sorted { kind, reason: "it is all that is in the file".into(), by_material: false };
+        }
         for (part, mut sorted) in self.parts.iter_mut().zip(sorted) {
             let is_in = |patterns: &Patterns| patterns.choose(&part.node_name, &part.material);
             match choice.body.as_ref().map(is_in) {

@@ -1,10 +1,13 @@
 //! One garment through one session of the library.
 
+use std::time::Instant;
+
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Severity};
 use bespoke::input::rig::Rig;
+use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::report::Report;
@@ -23,6 +26,13 @@ pub struct Skinned {
     pub mesh: TriangleMesh,
     /// Joints of each vertex.
     pub skin: SkinWeights,
+}
+
+impl Skinned {
+    /// Whether any vertex has a weight.
+    pub fn has_weights(&self) -> bool {
+        (0..self.skin.vertex_count()).any(|v| !self.skin.weights(v).is_empty())
+    }
 }
 
 /// What a garment is dressed with.
@@ -54,6 +64,10 @@ pub struct Job<'a> {
     pub layers: &'a [TriangleMesh],
     /// Joints that the user says correspond.
     pub pairs: &'a [CallersPair],
+    /// Source and target skeleton, where the two correspond joint by joint; they take the place of the rigs.
+    pub skeletons: Option<[&'a Skeleton; 2]>,
+    /// The coordinate system of garment and source, and that of the avatar.
+    pub spaces: [CoordinateSystem; 2],
     /// Joints for each vertex of the result.
     pub influences: usize,
     /// How it fits.
@@ -96,6 +110,8 @@ pub struct Fitted {
     pub findings: Vec<Finding>,
     /// What was measured.
     pub report: Report,
+    /// Seconds from the first step of the library to the verified result.
+    pub seconds: f64,
 }
 
 /// A garment that is not dressed.
@@ -114,10 +130,12 @@ impl Job<'_> {
     /// Where there is no verified result.
     pub fn run(&self) -> Result<Fitted, Box<Refused>> {
         let mut session = Session::new();
+        let begin = Instant::now();
         let outcome = self.fill(&mut session).and_then(|()| {
             let control = session.control();
             watched(self.name, &control, self.quiet, || session.run().map(|_| ()))
         });
+        let seconds = begin.elapsed().as_secs_f64();
         let findings = findings(&session);
         let flaw = match outcome {
             Ok(()) => None,
@@ -126,6 +144,8 @@ impl Job<'_> {
             }
             Err(error) => return Err(self.refused(error, findings)),
         };
+        // Without weights of the avatar there are none to take over.
+        let moves = self.avatar.has_weights();
         let read = || -> bespoke::error::Result<Fitted> {
             let (normals, tangents) = session.garment_normals(self.drawn)?;
             Ok(Fitted {
@@ -135,12 +155,13 @@ impl Job<'_> {
                 morphs: (0..self.morphs.len())
                     .map(|k| session.garment_morph(k))
                     .collect::<bespoke::error::Result<_>>()?,
-                skin: session.garment_skin(self.influences)?,
-                added: session.added_joints()?,
+                skin: if moves { session.garment_skin(self.influences)? } else { unmoved(self.garment) },
+                added: if moves { session.added_joints()? } else { Vec::new() },
                 caps: caps(&session),
                 flaw,
                 findings: findings.clone(),
                 report: session.report(),
+                seconds,
             })
         };
         match read() {
@@ -186,21 +207,32 @@ impl Job<'_> {
         for morph in self.morphs {
             session.add_garment_morph(morph.clone())?;
         }
-        // Garment, body and joints of a file are bound to each other, in the axes and the unit of glTF. Only which way a character
-        // faces is not said, and matters for the target alone.
-        session.set_source_coordinate_system(CoordinateSystem { trusted: true, ..CoordinateSystem::default() })?;
+        let [source_space, target_space] = self.spaces;
+        session.set_source_coordinate_system(source_space)?;
+        session.set_target_coordinate_system(target_space)?;
         session.set_source_rig(self.source_rig.clone())?;
         if let Some(source) = self.source {
             session.set_source_avatar(source.mesh.clone())?;
-            session.set_source_skin(source.skin.clone())?;
+            if source.has_weights() {
+                session.set_source_skin(source.skin.clone())?;
+            }
         }
         session.use_avatar(self.shared)?;
+        if let Some([source, target]) = self.skeletons {
+            session.set_source_skeleton(source.clone())?;
+            session.set_target_skeleton(target.clone())?;
+        }
         session.set_avatar_parts(self.roles.to_vec())?;
         for layer in self.layers {
             session.add_layer(layer.clone())?;
         }
         session.set_joint_pairs(self.pairs.to_vec())
     }
+}
+
+/// No weights for each vertex of `cloth`.
+fn unmoved(cloth: &Skinned) -> SkinWeights {
+    SkinWeights::from_rows(cloth.skin.joint_count(), cloth.mesh.positions.iter().map(|_| Vec::new()))
 }
 
 fn caps(session: &Session) -> Vec<u32> {
@@ -222,7 +254,9 @@ pub fn shared(rig: &Rig, body: &Skinned, roles: &[PartRole]) -> bespoke::error::
     let mut session = Session::new();
     session.set_target_rig(rig.clone())?;
     session.set_target_avatar(body.mesh.clone())?;
-    session.set_target_skin(body.skin.clone())?;
+    if body.has_weights() {
+        session.set_target_skin(body.skin.clone())?;
+    }
     session.set_avatar_parts(roles.to_vec())?;
     session.share_avatar()
 }

@@ -59,8 +59,8 @@ fn joint(text: &str, rig: &Rig, whose: &str) -> Result<u32, String> {
 /// Weights on the joints of `from` as weights on those of `to`, by name, or by the name of the next joint above. None where the
 /// rigs have no name in common.
 pub fn on_rig(skin: &SkinWeights, from: &Rig, to: &Rig) -> Option<SkinWeights> {
-    let names: HashMap<&str, u32> =
-        to.joints.iter().zip(0..).map(|(joint, index)| (joint.name.as_str(), index)).collect();
+    let names = to.joints.iter().zip(0..).map(|(joint, index)| (joint.name.as_str(), index));
+    let names: HashMap<&str, u32> = names.filter(|(name, _)| !name.is_empty()).collect();
     let order = from.parents_first("source rig").ok()?;
     let mut map: Vec<Option<u32>> = vec![None; from.joints.len()];
     for joint in order {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::session::SharedAvatar;
 
 use crate::args::{Dress, Keep};
@@ -10,6 +11,7 @@ use crate::bodies;
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure};
 use crate::fit::shared;
+use crate::obj::Beside;
 use crate::parts::Role;
 use crate::parts::pattern::Patterns;
 
@@ -22,6 +24,8 @@ pub struct KnownAvatar {
     pub body: bodies::Avatar,
     /// The same, for all sessions.
     pub shared: SharedAvatar,
+    /// Its coordinate system.
+    pub space: CoordinateSystem,
 }
 
 /// All that it depends on: another size or age of the file, and it is read again.
@@ -31,6 +35,7 @@ struct Source {
     length: u64,
     age: u128,
     nodes: Option<String>,
+    beside: Beside,
     is_clothed: bool,
 }
 
@@ -43,6 +48,11 @@ impl Source {
             length: known.map_or(0, |known| known.len()),
             age: age.unwrap_or_default().as_nanos(),
             nodes: args.avatar_nodes.clone(),
+            beside: Beside {
+                skeleton: args.obj.target_skeleton.clone(),
+                skin: args.obj.target_skin.clone(),
+                space: args.obj.target_space.clone(),
+            },
             is_clothed: args.keep == Keep::Both,
         }
     }
@@ -61,11 +71,21 @@ impl KnownAvatar {
         }
         let garments = None;
         let body = args.avatar_nodes.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage)?;
-        let figure = Figure::open(&args.avatar, Role::Avatar, &Choice { garments, body })?;
+        let figure = Figure::open_with(&args.avatar, Role::Avatar, &Choice { garments, body }, &source.beside)?;
+        if figure.obj.is_some() && figure.rig.joints.is_empty() {
+            return Err(Failure::no_result(format!(
+                "{}: there is no skeleton beside it; name it with --target-skeleton (an OBJ file with a v line for each joint and \
+                 an l line for each bone), or put it there as skeleton.obj",
+                args.avatar.display()
+            )));
+        }
         figure.need_rig("it cannot be dressed; give a character with a skeleton and skin weights")?;
         let body = bodies::avatar(&figure, args.keep == Keep::Both);
         let shared = share(&args.avatar, &figure, &body)?;
-        Ok(known.insert(Self { read_from: source, figure, body, shared }))
+        let mut space = figure.space();
+        // Which way a character faces, no file says for sure.
+        space.trusted &= figure.obj.is_some();
+        Ok(known.insert(Self { read_from: source, figure, body, shared, space }))
     }
 }
 

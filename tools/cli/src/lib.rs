@@ -15,6 +15,7 @@ pub mod inspect;
 pub mod joint_pairs;
 mod known_avatar;
 pub mod moments;
+pub mod obj;
 pub mod outfit;
 mod output;
 mod own_body;

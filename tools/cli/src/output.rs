@@ -1,7 +1,6 @@
 //! The dressed avatar as a file: that of the avatar with the garments appended, everything else as it was.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
 
 use bespoke_gltf::{Edit, Form, Import, VERTICES};
 use glam::{DAffine3, DMat4, DVec3};
@@ -12,31 +11,67 @@ use crate::caps;
 use crate::dress::Dressed;
 use crate::failure::{Failure, Result};
 use crate::figure::{Figure, Part};
+use crate::obj::is_obj;
 use crate::parts::Kind;
 
-/// The form of a file by the ending of its name.
+/// The skin of all garments that this program writes has this name: by it they are known again, whatever they are called.
+pub const SKIN: &str = "bespoke";
+
+/// What the result is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// A glTF file.
+    Gltf(Form),
+    /// An OBJ file.
+    Obj,
+}
+
+/// What the result is written as, by the ending of its name.
 ///
 /// # Errors
-/// Where the name has none of the endings.
-pub fn form(output: &Path) -> Result<Form> {
-    let ending = output.extension().map(|e| e.to_string_lossy().to_lowercase());
+/// Where the name has none of the endings, or the avatar's file is not of that kind.
+pub fn written(args: &Dress) -> Result<Written> {
+    let ending = args.output.extension().map(|e| e.to_string_lossy().to_lowercase());
     match ending.as_deref() {
-        Some("glb" | "vrm") => Ok(Form::Glb),
-        Some("gltf") => Ok(Form::Gltf),
-        _ => Err(Failure::usage(format!(
-            "{}: the result is glTF, so its name has to end in .glb, .vrm or .gltf",
-            output.display()
+        Some("glb" | "vrm") => Ok(Written::Gltf(Form::Glb)),
+        Some("gltf") => Ok(Written::Gltf(Form::Gltf)),
+        Some("obj") if is_obj(&args.avatar) => Ok(Written::Obj),
+        Some("obj") => Err(Failure::usage(format!(
+            "{}: an OBJ file is written where the avatar is one; this avatar has a skeleton and materials that OBJ cannot hold, so \
+             the name has to end in .glb, .vrm or .gltf",
+            args.output.display()
         ))),
+        _ => {
+            let or_obj = if is_obj(&args.avatar) { ", or in .obj as the avatar's" } else { "" };
+            Err(Failure::usage(format!(
+                "{}: the result is glTF, so its name has to end in .glb, .vrm or .gltf{or_obj}",
+                args.output.display()
+            )))
+        }
     }
+}
+
+/// # Errors
+/// Where the result is to have skin weights, and the avatar has none.
+pub fn need_weights(written: Written, args: &Dress, avatar: &Figure) -> Result<()> {
+    if written == Written::Obj || avatar.has_skin() {
+        return Ok(());
+    }
+    Err(Failure::no_result(format!(
+        "{}: it has no skin weights, which a glTF file needs for its skeleton; give them with --target-skin, put them beside it as \
+         skin.txt, or let the result be an OBJ file (-o {})",
+        args.avatar.display(),
+        args.output.with_extension("obj").display()
+    )))
 }
 
 /// Writes the avatar with what it wears now.
 ///
 /// # Errors
 /// Where the file cannot be written; nothing half-written stays.
-pub fn write(args: &Dress, outfit: &Figure, avatar: &Figure, dressed: &[Dressed]) -> Result<()> {
+pub fn write(args: &Dress, form: Form, outfit: &Figure, avatar: &Figure, dressed: &[Dressed]) -> Result<()> {
     let fail = |e: bespoke_gltf::Error| Failure::no_result(e.to_string());
-    let mut edit = Edit::new(&avatar.document, form(&args.output)?).map_err(fail)?;
+    let mut edit = Edit::new(&avatar.document, form).map_err(fail)?;
     take_off(&mut edit, avatar, args.keep).map_err(fail)?;
     let mut garments = Garments { outfit, avatar, import: Import::new(&outfit.document), joints: BTreeMap::new() };
     garments.write(&mut edit, dressed).map_err(fail)?;
@@ -154,7 +189,7 @@ impl Garments<'_> {
         let used: Vec<usize> = self.joints.keys().map(|joint| nodes[joint]).collect();
         let inverse = |joint: &Joint| DMat4::from(binds[joint].inverse()).to_cols_array_2d();
         let inverses: Vec<_> = self.joints.keys().map(inverse).collect();
-        edit.add_skin("bespoke", &used, &inverses)
+        edit.add_skin(SKIN, &used, &inverses)
     }
 
     /// The mesh of one garment: primitives as the outfit has them, with new positions, normals and weights.

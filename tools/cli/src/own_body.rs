@@ -1,6 +1,7 @@
 //! A garment on the body of its own file.
 
 use bespoke::error::Result;
+use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::options::Options;
 use bespoke::session::{PartRole, RenderMesh};
 
@@ -27,7 +28,7 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
         garment: &cloth,
         drawn: &RenderMesh::default(),
         morphs: &[],
-        has_skin: true,
+        has_skin: figure.has_skin(),
         source: Some(&body),
         source_rig: &figure.rig,
         avatar: &body,
@@ -36,6 +37,8 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
         shared: &shared,
         layers: &[],
         pairs: &[],
+        skeletons: figure.skeleton().map(|skeleton| [skeleton, skeleton]),
+        spaces: [figure.space(), CoordinateSystem::default()],
         influences: 4,
         options: &Options::default(),
         quiet: true,

@@ -103,6 +103,7 @@ struct ResultLine {
     added_joints: usize,
     inflate_iterations: u32,
     fit_iterations: u32,
+    /// Of the library, from its inputs to the verified result.
     seconds: f64,
     converged: bool,
     new_self_intersections: u64,
@@ -115,7 +116,6 @@ impl GarmentLine {
     pub fn dressed(name: &str, fitted: &Fitted) -> Self {
         let report = &fitted.report;
         let verification = report.verification.unwrap_or_default();
-        let stages = [&report.prepare, &report.inflate, &report.repose, &report.fit];
         Self {
             name: name.to_string(),
             status: if fitted.flaw.is_some() { "flawed" } else { "dressed" },
@@ -125,7 +125,7 @@ impl GarmentLine {
                 added_joints: fitted.added.len(),
                 inflate_iterations: report.inflate.iterations,
                 fit_iterations: report.fit.iterations,
-                seconds: stages.iter().map(|stage| stage.seconds).sum::<f64>() + report.verify_seconds,
+                seconds: fitted.seconds,
                 converged: report.converged,
                 new_self_intersections: verification.new_garment_garment(),
                 own_self_intersections: verification.initial,
@@ -164,6 +164,14 @@ pub struct DressReport {
     pub joint_map: Vec<JointLine>,
 }
 
+/// Makes the folder in which a file is to be.
+///
+/// # Errors
+/// Where it cannot be made.
+pub fn in_folder(file: &Path) -> std::io::Result<()> {
+    file.parent().map_or(Ok(()), std::fs::create_dir_all)
+}
+
 /// Writes a report to a file, or to standard output for `-`.
 ///
 /// # Errors
@@ -174,7 +182,8 @@ pub fn write(file: &Path, report: &impl Serialize) -> Result<()> {
         print!("{text}");
         return Ok(());
     }
-    bespoke_gltf::replace(file, text.as_bytes())
+    in_folder(file)
+        .and_then(|()| bespoke_gltf::replace(file, text.as_bytes()))
         .map_err(|e| Failure::no_result(format!("{}: it cannot be written: {e}", file.display())))
 }
 

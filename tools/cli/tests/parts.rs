@@ -11,7 +11,8 @@ use Kind::{Body, Garment, Hair, Prop};
 type Line = (&'static str, &'static str, Kind);
 
 fn kinds(lines: &[Line], role: Role) -> Vec<Kind> {
-    let named: Vec<Named> = lines.iter().map(|&(node, material, _)| Named { node, material, hangs_on: None }).collect();
+    let named: Vec<Named> =
+        lines.iter().map(|&(node, material, _)| Named { node, material, ..Named::default() }).collect();
     sort(&named, role).into_iter().map(|sorted| sorted.kind).collect()
 }
 
@@ -97,10 +98,19 @@ fn names_that_say_nothing() {
 /// What hangs on a slot for props is one, whatever its name.
 #[test]
 fn slots_hold_props() {
-    let part = |hangs_on| Named { node: "Hat_in_hand", material: "", hangs_on };
+    let part = |hangs_on| Named { node: "Hat_in_hand", hangs_on, ..Named::default() };
     let kinds: Vec<Kind> =
         sort(&[part(Some("handslot.r")), part(Some("Head"))], Role::Avatar).iter().map(|s| s.kind).collect();
     assert_eq!(kinds, [Prop, Garment]);
+}
+
+/// What this program has put on is a garment, whatever its names say, and then the rest of the file is its wearer.
+#[test]
+fn what_was_put_on_is_a_garment() {
+    let part = |node, is_put_on| Named { node, is_put_on, ..Named::default() };
+    let parts = [part("Cylinder.001", false), part("Skin_Suit_Head", true), part("Sphere", false)];
+    let kinds: Vec<Kind> = sort(&parts, Role::Outfit).iter().map(|s| s.kind).collect();
+    assert_eq!(kinds, [Body, Garment, Body]);
 }
 
 /// Patterns choose by node and material, and leave out.

@@ -8,16 +8,25 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::failure::{Failure, Result};
+use crate::obj;
 
 /// An outfit. All but the file is as in `bespoke dress`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Outfit {
-    /// GLB, glTF or VRM.
+    /// GLB, glTF, VRM or OBJ.
     pub file: PathBuf,
     /// What it is called in the names of results; the file's without its ending where it is not said.
     #[serde(default)]
     pub name: String,
+    /// `--source-skeleton`.
+    pub skeleton: Option<PathBuf>,
+    /// `--garment-skin`.
+    pub skin: Option<PathBuf>,
+    /// `--source-skin`.
+    pub source_skin: Option<PathBuf>,
+    /// `--source-space`.
+    pub space: Option<String>,
     /// `--nodes`.
     pub nodes: Option<String>,
     /// `--source`.
@@ -32,11 +41,17 @@ pub struct Outfit {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Avatar {
-    /// GLB, glTF or VRM.
+    /// GLB, glTF, VRM or OBJ.
     pub file: PathBuf,
     /// As that of an outfit.
     #[serde(default)]
     pub name: String,
+    /// `--target-skeleton`.
+    pub skeleton: Option<PathBuf>,
+    /// `--target-skin`.
+    pub skin: Option<PathBuf>,
+    /// `--target-space`.
+    pub space: Option<String>,
     /// `--avatar-nodes`.
     pub nodes: Option<String>,
 }
@@ -143,7 +158,21 @@ impl Manifest {
 
     fn pair(&self, outfit: &Outfit, avatar: &Avatar) -> Pair {
         let path = |file: &Path| self.folder.join(file);
-        let files = [Some(&outfit.file), Some(&avatar.file), outfit.source.as_ref(), outfit.map.as_ref()];
+        let named = [
+            ("--source", &outfit.source),
+            ("--map", &outfit.map),
+            ("--source-skeleton", &outfit.skeleton),
+            ("--garment-skin", &outfit.skin),
+            ("--source-skin", &outfit.source_skin),
+            ("--target-skeleton", &avatar.skeleton),
+            ("--target-skin", &avatar.skin),
+        ];
+        let named = || named.iter().filter_map(|(option, file)| Some((*option, path(file.as_deref()?))));
+        let meshes: Vec<PathBuf> = [Some(&outfit.file), Some(&avatar.file), outfit.source.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(|file| path(file))
+            .collect();
         let output = path(Path::new(&self.output.replace("{outfit}", &outfit.name).replace("{avatar}", &avatar.name)));
         let text = |path: PathBuf| path.to_string_lossy().into_owned();
         let mut arguments = vec![text(path(&outfit.file)), text(path(&avatar.file)), "-o".into(), text(output.clone())];
@@ -151,10 +180,10 @@ impl Manifest {
         let number = |value: Option<f64>| value.map(|value| value.to_string());
         for (option, value) in [
             ("--nodes", outfit.nodes.clone()),
-            ("--source", outfit.source.as_deref().map(|file| text(path(file)))),
             ("--source-nodes", outfit.source_nodes.clone()),
             ("--avatar-nodes", avatar.nodes.clone()),
-            ("--map", outfit.map.as_deref().map(|file| text(path(file)))),
+            ("--source-space", outfit.space.clone()),
+            ("--target-space", avatar.space.clone()),
             ("--fit", number(dials.fit)),
             ("--offset", number(dials.offset)),
             ("--looseness", number(dials.looseness)),
@@ -164,10 +193,16 @@ impl Manifest {
             // In one word: a value may begin with a dash.
             arguments.extend(value.map(|value| format!("{option}={value}")));
         }
+        arguments.extend(named().map(|(option, file)| format!("{option}={}", file.display())));
         Pair {
             name: format!("{} on {}", outfit.name, avatar.name),
             avatar: format!("{}\0{}", avatar.file.display(), avatar.nodes.as_deref().unwrap_or_default()),
-            inputs: files.into_iter().flatten().map(|file| path(file)).collect(),
+            inputs: meshes
+                .iter()
+                .cloned()
+                .chain(named().map(|(_, file)| file).filter(|file| !meshes.contains(file)))
+                .chain(meshes.iter().flat_map(|file| obj::neighbours(file)))
+                .collect(),
             output,
             arguments,
         }

@@ -42,6 +42,8 @@ pub struct Named<'a> {
     pub material: &'a str,
     /// The joint that it hangs on without skin weights, if it does.
     pub hangs_on: Option<&'a str>,
+    /// Whether this program has put it on: then it is a garment, whatever its names say.
+    pub is_put_on: bool,
 }
 
 /// What the file is to the command: it decides about parts whose names say nothing.
@@ -69,7 +71,11 @@ pub fn sort(parts: &[Named], role: Role) -> Vec<Sorted> {
     let common = common_first_word(parts);
     let spoken: Vec<_> = parts.iter().map(|part| Spoken::of(part, common.as_deref())).collect();
     let names_skin = spoken.iter().any(|s| s.material == Said::Skin || s.node == Said::Skin);
-    let firm: Vec<_> = spoken.iter().map(|s| s.kind(names_skin)).collect();
+    let put_on = |part: &Named| {
+        let reason = "bespoke has put it on".to_string();
+        part.is_put_on.then_some(Sorted { kind: Kind::Garment, reason, by_material: false })
+    };
+    let firm: Vec<_> = parts.iter().zip(&spoken).map(|(part, s)| put_on(part).or_else(|| s.kind(names_skin))).collect();
     let has = |kind: Kind| firm.iter().flatten().any(|sorted| sorted.kind == kind);
     let rest = match role {
         Role::Outfit if has(Kind::Body) || !has(Kind::Garment) => Sorted {

@@ -118,10 +118,7 @@ fn layers(sheet: &mut Sheet, figure: &Figure, places: &[Vec<DVec3>], to_sheet: P
     let mut garments = Vec::new();
     let mut layers = Vec::new();
     for part in figure.parts.iter().filter(|part| part.sorted.kind != Kind::Prop) {
-        // What the program has dressed is on a skin that it has named.
-        let skin = figure.instance(part.instance).skin.map(|skin| figure.scene.skins[skin].name.as_str());
-        let kind = if skin == Some("bespoke") { Kind::Garment } else { part.sorted.kind };
-        let (role, colour) = match kind {
+        let (role, colour) = match part.sorted.kind {
             Kind::Garment => {
                 let number = garments.iter().position(|node| *node == part.node).unwrap_or(garments.len());
                 if number == garments.len() {
