@@ -30,11 +30,11 @@ const TURNS: [(&str, [f64; 3]); 4] = [
 /// Nothing that others compute with 32 bits is farther off, in metres.
 const NEAR: f64 = 1e-5;
 
-fn body() -> Character {
+pub fn body() -> Character {
     character(&Body::Mannequin.model(), Naming::Vrm).placed(y_up())
 }
 
-fn vest() -> Character {
+pub fn vest() -> Character {
     worn(garments::vest(2.5).mesh)
 }
 
@@ -69,9 +69,9 @@ fn turn(degrees: f64) -> DQuat {
     DQuat::from_rotation_x(degrees.to_radians())
 }
 
-/// The file with an animation "wave" in which limbs turn on straight ways, the hips go along a spline, and the head is
+/// The file with an animation `called` so, in which limbs turn on straight ways, the hips go along a spline, and the head is
 /// turned at once; as a VRM file, if that is wanted.
-fn waving(bytes: &[u8], vrm: Option<Vrm>) -> Vec<u8> {
+pub fn waving(bytes: &[u8], vrm: Option<Vrm>, called: &str) -> Vec<u8> {
     let document = open(bytes);
     let nodes = document.nodes().unwrap();
     let mut edit = Edit::new(&document, Form::Glb).unwrap();
@@ -118,7 +118,7 @@ fn waving(bytes: &[u8], vrm: Option<Vrm>) -> Vec<u8> {
         };
         (0..3).flat_map(key).flat_map(|v| v.to_array()).collect()
     });
-    edit.push("animations", json!({ "name": "wave", "samplers": samplers, "channels": channels })).unwrap();
+    edit.push("animations", json!({ "name": called, "samplers": samplers, "channels": channels })).unwrap();
     let bones: Vec<(&str, usize)> = nodes
         .all
         .iter()
@@ -200,6 +200,7 @@ fn check_counts_in_poses() {
             Part { node: "Vest", material: "Wool", mesh: &vest },
         ]),
         None,
+        "wave",
     );
     std::fs::write(folder.join("waving.glb"), &file).unwrap();
     let run = bespoke(&folder, &["check", "waving.glb", "--animation", "wave", "--json"]);
@@ -332,7 +333,7 @@ fn other_programs_move_the_garment_as_we_do() {
     let plain = glb(&[Part { node: "Body", material: "Body", mesh: &slim }]);
     let humanoid = slim.joints.iter().filter(|joint| !joint.name.is_empty() && joint.name != "Root").count();
     for (name, vrm) in [("plain.glb", None), ("zero.vrm", Some(Vrm::Zero)), ("one.vrm", Some(Vrm::One))] {
-        std::fs::write(folder.join(name), waving(&plain, vrm)).unwrap();
+        std::fs::write(folder.join(name), waving(&plain, vrm, "wave")).unwrap();
         let out = folder.join(format!("dressed-{name}"));
         ends(&bespoke(&folder, &["dress", "outfit.glb", name, "-o", out.to_str().unwrap(), "-q"]), 0);
         judges::valid(&[&out]);

@@ -6,6 +6,7 @@ mod farm;
 mod files;
 mod judges;
 mod obj;
+mod pages;
 
 use std::path::Path;
 use std::process::{Command, Output};
