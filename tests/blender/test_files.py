@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 import tubes
-from case import Case, part, seen, weights
+from case import ROOT, Case, part, seen, weights
 
 FOLDER = pathlib.Path(os.environ["BLENDER_USER_RESOURCES"]) / "files"
 
@@ -84,6 +84,29 @@ class Files(Case):
 
     def test_fbx(self) -> None:
         self.there_and_back(".fbx")
+
+    def test_the_script_of_the_page(self) -> None:
+        """docs/blender.md, "From a script", as it stands there."""
+        tubes.scene()
+        for old, new in (("sleeve", "Suit"), ("rig", "SuitArmature"), ("other rig", "Rig")):
+            bpy.data.objects[old].name = new
+        save(FOLDER / "suit.fbx", "Suit", "arm", "SuitArmature")
+        save(FOLDER / "barbarian.glb", "other", "Rig")
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        page = (ROOT / "docs/blender.md").read_text()
+        script = page[page.index("## From a script") :].split("```python\n")[1].split("```")[0]
+        folder = os.getcwd()
+        os.chdir(FOLDER)
+        try:
+            exec(compile(script, "docs/blender.md", "exec"), {})
+        finally:
+            os.chdir(folder)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        load(FOLDER / "dressed.glb")
+        rig = bpy.data.objects["Rig"]
+        worn = [thing for thing in rig.children if thing.type == "MESH" and thing.name.startswith("Suit")]
+        self.assertEqual(len(worn), 1, [thing.name for thing in bpy.data.objects])
+        self.near(weights(worn[0], rig).sum(axis=0), np.ones(len(worn[0].data.vertices)), 1e-5)
 
     def test_what_is_no_body_is_not_taken_for_one(self) -> None:
         tubes.scene()
