@@ -38,6 +38,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED] = "settings_adjusted",
     [BESPOKE_DIAGNOSTIC_KIND_KEPT_TOGETHER] = "kept_together",
     [BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR] = "welded_near",
+    [BESPOKE_DIAGNOSTIC_KIND_T_JUNCTIONS] = "t_junctions",
     [BESPOKE_DIAGNOSTIC_KIND_RIMS_NOT_FOUND] = "rims_not_found",
     [BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE] = "carried_piece",
     [BESPOKE_DIAGNOSTIC_KIND_UNTANGLED] = "untangled",

@@ -361,6 +361,9 @@ enum BespokeDiagnosticKind
   /// Open seams of the garment whose sides are within BespokeOptions.weld_distance, which are closed. The first
   /// vertices are named.
   BESPOKE_DIAGNOSTIC_KIND_WELDED_NEAR = 29,
+  /// Vertices of the garment lie on the edge of a triangle that does not have them, as where an edge was split on one side
+  /// alone: both sides keep together, but may part by a hair. The first vertices are named.
+  BESPOKE_DIAGNOSTIC_KIND_T_JUNCTIONS = 39,
   /// A piece of the garment is a closed surface around a bone, as where both sides of the cloth are modelled, and no cuff,
   /// hem or collar of it was found: nothing keeps its openings in their places along the bones. A triangle of it is named,
   /// and a bone that it is around.

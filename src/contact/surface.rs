@@ -41,6 +41,9 @@ pub struct Surface {
     pub edges: Vec<[u32; 2]>,
     /// Number of vertices, isolated ones included.
     pub vertex_count: usize,
+    /// Pairs of triangles that are joined where none of their edges is, as at a T-junction: they take no part in contact with each
+    /// other. The lower one first, in ascending order.
+    joined: Vec<[u32; 2]>,
     /// Vertices and edges that each triangle owns.
     ownership: Vec<Ownership>,
 }
@@ -75,12 +78,23 @@ impl Surface {
             }
             ownership.push(owned);
         }
-        Self { triangles, edges, vertex_count, ownership }
+        Self { triangles, edges, vertex_count, joined: Vec::new(), ownership }
+    }
+
+    /// The same, with pairs of triangles that are joined, the lower one first, in ascending order.
+    pub fn with_joined(mut self, pairs: Vec<[u32; 2]>) -> Self {
+        self.joined = pairs;
+        self
+    }
+
+    /// The pairs of triangles that are joined where none of their edges is.
+    pub fn joined(&self) -> &[[u32; 2]] {
+        &self.joined
     }
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.ownership)
+        bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.joined) + bytes(&self.ownership)
     }
 
     /// What a triangle owns.

@@ -23,6 +23,9 @@ use super::curve_window::Window;
 use super::{Configuration, Direction, Energy, Sink};
 use crate::memory::bytes;
 
+/// Distances between points in a row differ by no more than this factor where the curve goes on.
+const MOST_UNEVEN: f64 = 1e3;
+
 /// The unit direction from a point to the next, and one over their distance; both zero where they coincide.
 #[derive(Clone, Copy)]
 struct Edge {
@@ -69,12 +72,19 @@ fn elements<'a, T, const N: usize, const M: usize>(
         curve.into().windows(rest, chord, |points, weight| {
             let window = Window::new(points);
             let edges = edges(&window, rest);
-            if edges.iter().all(|edge: &Edge| edge.inverse > 0.0) {
+            if edges.iter().all(|edge: &Edge| edge.inverse > 0.0) && (chord == 0.0 || !turns_back(&edges)) {
                 elements.push(element(window, edges, weight));
             }
         });
     }
     elements
+}
+
+/// Whether points that are equally far apart along the curve nearly coincide: it turns back on itself there, and the
+/// directions mean nothing.
+fn turns_back(edges: &[Edge]) -> bool {
+    let inverses = || edges.iter().map(|edge| edge.inverse);
+    inverses().fold(0.0, f64::max) > MOST_UNEVEN * inverses().fold(f64::INFINITY, f64::min)
 }
 
 /// Hands the square of a residual, times a weight, to the sink; `by` are the residual's derivatives by the points.

@@ -19,5 +19,6 @@ pub mod section;
 pub mod sliver_caps;
 pub mod solid_angle;
 pub mod spread;
+pub mod t_junctions;
 pub mod triangle_motion;
 pub mod turn;

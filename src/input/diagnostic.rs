@@ -60,6 +60,8 @@ pub enum DiagnosticKind {
     RimsNotFound,
     /// Open seams whose sides are a hair apart, which are closed.
     WeldedNear,
+    /// Vertices of the garment that lie on an edge of a triangle beside them which does not have them.
+    TJunctions,
     /// The garment passed through itself in the design, and begins pulled apart there.
     Untangled,
     /// A cap that closes an opening of the garment where a bone leaves it, left out while the garment is fitted.
@@ -264,6 +266,15 @@ pub enum Diagnostic {
         first: Vec<u32>,
         /// The widest gap, in the garment's unit.
         gap: f64,
+    },
+    /// Vertices of the garment lie on an edge of a triangle beside them which does not have them; they are held there.
+    TJunctions {
+        /// How many vertices.
+        count: usize,
+        /// The first of them, at most four.
+        first: Vec<u32>,
+        /// The triangle on whose edge the first lies.
+        triangle: u32,
     },
     /// A piece of the garment is around no bone, and is carried along with the body beside it.
     CarriedPiece {

@@ -16,6 +16,7 @@ impl Diagnostic {
             Self::KeptTogether { .. } => DiagnosticKind::KeptTogether,
             Self::RimsNotFound { .. } => DiagnosticKind::RimsNotFound,
             Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
+            Self::TJunctions { .. } => DiagnosticKind::TJunctions,
             Self::CarriedPiece { .. } => DiagnosticKind::CarriedPiece,
             Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
             Self::NearContact { .. } => DiagnosticKind::NearContact,
@@ -61,6 +62,7 @@ impl Diagnostic {
             | Self::LoosePiece { .. }
             | Self::KeptTogether { .. }
             | Self::WeldedNear { .. }
+            | Self::TJunctions { .. }
             | Self::CarriedPiece { .. }
             | Self::NearContact { .. }
             | Self::SettingsAdjusted { .. }
@@ -113,6 +115,7 @@ impl Diagnostic {
         match *self {
             Self::SplitVertices { first: ref vertices, .. }
             | Self::WeldedNear { first: ref vertices, .. }
+            | Self::TJunctions { first: ref vertices, .. }
             | Self::NearContact { ref vertices, .. } => vertices.iter().map(|&v| vertex(v)).collect(),
             Self::DuplicateTriangle { triangle: t, of } => [t, of].map(triangle).into(),
             Self::CollapsedTriangle { triangle: t, .. } | Self::FlatTriangle { triangle: t, .. } => vec![triangle(t)],

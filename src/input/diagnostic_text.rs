@@ -74,6 +74,14 @@ impl Display for Diagnostic {
                     first.join(", ")
                 )
             }
+            Self::TJunctions { count, first, triangle } => {
+                let first = first.first().map_or(String::new(), |v| format!(", such as vertex {v} on triangle {triangle}"));
+                write!(
+                    f,
+                    "garment: {count} vertices lie on the edge of a triangle that does not have them (T-junctions){first}; the \
+                     two sides keep together, but may part by a hair; split these edges where the vertices are"
+                )
+            }
             Self::CarriedPiece { vertices, triangle, bone, distance, from_body, stiff } => {
                 let [a, b] = bone.joints;
                 let from = if *from_body { "the source avatar" } else { "that bone" };

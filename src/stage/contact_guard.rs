@@ -105,10 +105,11 @@ impl ContactGuard {
     }
 
     /// Begins at `at`, where the pairs of garment triangles in `initial_intersections` intersect: they are exempted until they
-    /// separate, together with what touches within rounding. Lowers the minimum separation below the distances of all active
+    /// separate, together with what touches within rounding; what is joined is so for good. Lowers the minimum separation below the distances of all active
     /// pairs.
     pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
-        self.exempt_intersecting(at, initial_intersections.to_vec(), |_, _| true);
+        let joined = self.bodies.garment.surface.joined();
+        self.exempt_intersecting(at, [initial_intersections, joined].concat(), |_, _| true);
         self.update_min_separation(at, [0.0; 2]);
     }
 
@@ -154,12 +155,16 @@ impl ContactGuard {
 
     fn reinstate_separated(&mut self, at: Configuration<'_>) -> Result<bool> {
         let before = self.broad_phase.exempt_pairs();
-        if before.is_empty() {
+        let joined = self.bodies.garment.surface.joined();
+        if before.triangle_pairs().len() <= joined.len() {
             return Ok(false);
         }
         let triangles = self.bodies.garment.surface.triangles.clone();
         let mesh = TriangleMesh { positions: at.x.to_vec(), triangles };
-        let pairs = intersecting(&mesh, before.triangle_pairs())?;
+        let may_separate = before.triangle_pairs().iter().filter(|pair| joined.binary_search(pair).is_err());
+        let may_separate: Vec<[u32; 2]> = may_separate.copied().collect();
+        let mut pairs = intersecting(&mesh, &may_separate)?;
+        pairs.extend(joined);
         if pairs.len() == before.triangle_pairs().len() {
             return Ok(false);
         }

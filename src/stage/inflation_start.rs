@@ -34,6 +34,10 @@ impl Problem {
         designed.extend(initial_intersections);
         designed.sort_unstable();
         designed.dedup();
+        if !options.strict {
+            // T-junctions have a diagnostic of their own.
+            designed.retain(|pair| self.joined.binary_search(pair).is_err());
+        }
         report_initial_intersections(self, &designed, options.strict, diagnostics);
         if options.strict && !initial_intersections.is_empty() {
             return Err(intersects_itself(self, initial_intersections));

@@ -334,6 +334,22 @@ fn chords_far_shorter_than_the_edges_cost_no_memory() {
     }
 }
 
+/// Both sides of a slit without width, up to rounding: directions between points that coincide would be noise, and stiff.
+#[test]
+fn chords_leave_out_where_a_curve_turns_back_on_itself() {
+    let mut random = Random::new(21);
+    let n = 12;
+    let there = |k: u32| DVec3::new(0.1 * f64::from(k), 0.3, 0.7) + 1e-16 * random.vector();
+    let mut rest: Vec<DVec3> = (0..=n).map(there).collect();
+    rest.extend((1..n).rev().map(|k| DVec3::new(0.1 * f64::from(k) + 0.05, 0.3, 0.7)));
+    let loops = [boundary(rest.len() as u32)];
+    for energy in [&Curvature::new(&rest, &loops, 0.05) as &dyn Energy, &Torsion::new(&rest, &loops, 0.05)] {
+        assert!(!energy.is_empty());
+        let stiffest = dense(energy, &rest, 0.0).hessian.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
+        assert!(stiffest < 1e10, "{stiffest:e}");
+    }
+}
+
 #[test]
 fn chords_on_degenerate_curves_are_finite() {
     let mut random = Random::new(19);

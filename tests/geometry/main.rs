@@ -12,5 +12,6 @@ mod piece;
 mod sliver_caps;
 mod solid_angle;
 mod spread;
+mod t_junctions;
 mod triangle_motion;
 mod turn;

@@ -136,6 +136,12 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::TJunctions { count: 120, first: vec![1987, 1990], triangle: 48 },
+            "garment: 120 vertices lie on the edge of a triangle that does not have them (T-junctions), such as vertex 1987 on \
+             triangle 48; the two sides keep together, but may part by a hair; split these edges where the vertices are"
+                .into(),
+        ),
+        (
             Diagnostic::CarriedPiece {
                 vertices: 7,
                 triangle: 40,

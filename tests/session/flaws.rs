@@ -1,8 +1,8 @@
-//! Garments with flaws: where faces are missing, they take little more than what is whole.
+//! Garments with flaws: where faces are missing or edges have T-junctions, they take little more than what is whole.
 
 use bespoke::control::Stage;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::diagnostic::DiagnosticKind;
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind};
 use bespoke::session::{Precision, Session};
 use glam::DVec3;
 use testing::Random;
@@ -45,4 +45,75 @@ fn a_net_takes_little_more_than_what_is_whole() {
         assert!(session.verify(Precision::F64).unwrap().is_clean());
         assert!(!is_adjusted(&session) && iterations(&session) <= 3 * whole, "{} {whole}", iterations(&session));
     }
+}
+
+/// With `count` T-junctions: an edge has a vertex in its middle on one side and none on the other.
+fn with_t_junctions(mut garment: TriangleMesh, count: usize) -> TriangleMesh {
+    let mut random = Random::new(11);
+    let mut made = 0;
+    while made < count {
+        let t = (random.unit() * garment.triangles.len() as f64) as usize;
+        let [a, b, c] = garment.triangles[t];
+        let has = |s: &[u32; 3]| s.contains(&a) && s.contains(&b);
+        if garment.triangles.iter().filter(|s| has(s)).count() < 2 {
+            continue;
+        }
+        let m = garment.positions.len() as u32;
+        let [p, q]: [DVec3; 2] = [a, b].map(|v| garment.positions[v as usize]);
+        garment.positions.push(0.5 * (p + q));
+        garment.triangles[t] = [a, m, c];
+        garment.triangles.push([m, b, c]);
+        made += 1;
+    }
+    garment
+}
+
+/// How far the vertices that were put on edges have left them, in lengths of the edge.
+fn widest_slit(garment: &TriangleMesh, result: &[DVec3], first: usize) -> f64 {
+    let mut widest: f64 = 0.0;
+    for m in first..result.len() {
+        let corners = garment.triangles.iter().find(|t| t[1] as usize == m).unwrap();
+        let after = garment.triangles.iter().find(|t| t[0] as usize == m && t[2] == corners[2]).unwrap();
+        let [a, b] = [corners[0], after[1]].map(|v| result[v as usize]);
+        let edge = b - a;
+        let s = ((result[m] - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+        widest = widest.max((result[m] - a - s * edge).length() / edge.length());
+    }
+    widest
+}
+
+/// Slits without width are no borders, whose bends would be infinite there, and take no part in contact.
+#[test]
+fn t_junctions_take_little_more_than_what_is_whole_and_stay_closed() {
+    let whole = iterations(&dressed(&fine()));
+    let count = fine().positions.len();
+    for (junctions, precision) in [(1, Precision::F64), (120, Precision::F32), (600, Precision::F64)] {
+        let mut garment = with_t_junctions(fine(), junctions);
+        if precision == Precision::F32 {
+            garment.positions.iter_mut().for_each(|p| *p = p.as_vec3().as_dvec3());
+        }
+        let mut session = session(1.0, DVec3::ZERO);
+        session.set_garment(garment.clone(), precision).unwrap();
+        assert_eq!(session.run().unwrap(), Stage::Done);
+        let wide = widest_slit(&garment, &session.garment_positions().unwrap(), count);
+        println!("{junctions} junctions: {} iterations, whole {whole}; slits of {wide}", iterations(&session));
+        assert!(session.verify(precision).unwrap().is_clean());
+        assert!(!is_adjusted(&session) && iterations(&session) <= 2 * whole, "{} {whole}", iterations(&session));
+        assert!(wide < 0.25, "{wide}");
+        let found: Vec<&Diagnostic> = session.diagnostics().iter().collect();
+        let Some(Diagnostic::TJunctions { count: named, first, .. }) =
+            found.iter().find(|diagnostic| diagnostic.kind() == DiagnosticKind::TJunctions)
+        else {
+            panic!("{found:?}")
+        };
+        assert_eq!((*named, first.len()), (junctions, junctions.min(4)));
+        assert!(first.iter().all(|&v| v as usize >= count), "{first:?}");
+        assert!(found.iter().all(|diagnostic| diagnostic.kind() != DiagnosticKind::SelfIntersection));
+    }
+}
+
+#[test]
+fn a_whole_garment_has_no_t_junctions() {
+    let session = dressed(&fine());
+    assert!(session.diagnostics().iter().all(|diagnostic| diagnostic.kind() != DiagnosticKind::TJunctions));
 }

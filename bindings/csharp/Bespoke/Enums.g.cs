@@ -347,6 +347,12 @@ namespace Bespoke
         WeldedNear = 29,
 
         /// <summary>
+        /// Vertices of the garment lie on the edge of a triangle that does not have them, as where an edge was split on
+        /// one side alone: both sides keep together, but may part by a hair. The first vertices are named.
+        /// </summary>
+        TJunctions = 39,
+
+        /// <summary>
         /// A piece of the garment is a closed surface around a bone, as where both sides of the cloth are modelled, and
         /// no cuff, hem or collar of it was found: nothing keeps its openings in their places along the bones. A
         /// triangle of it is named, and a bone that it is around.

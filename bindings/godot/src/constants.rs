@@ -126,6 +126,8 @@ impl BespokeRetarget {
     #[constant]
     pub const KIND_WELDED_NEAR: i64 = 29;
     #[constant]
+    pub const KIND_T_JUNCTIONS: i64 = 39;
+    #[constant]
     pub const KIND_RIMS_NOT_FOUND: i64 = 32;
     #[constant]
     pub const KIND_UNTANGLED: i64 = 27;

@@ -21,6 +21,7 @@ use crate::contact::{Avatar, Bodies, Garment, Surface};
 use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::t_junctions::{self, TJunction, touching_pairs};
 use crate::input::body::Body;
 use crate::input::curve::WeldedCurve;
 use crate::input::diagnostic::{Bone, Diagnostic};
@@ -38,6 +39,9 @@ use crate::stage::start::untangle::{Untangled, begin_apart};
 use crate::stage::start::weight_check::believed;
 use crate::stage::start::{enclosure, open_ends, repair};
 use crate::verify::intersections_with_cancel;
+
+/// A vertex is on an edge within the rounding of coordinates that came in 32 bits.
+const JUNCTION_REACH: f64 = 1e-6;
 
 /// The clearance of carried pieces in d-hat, at least: beyond the barrier.
 const CARRIED_IN_DHAT: f64 = 1.5;
@@ -120,6 +124,8 @@ pub struct Problem {
     pub callers_groups: Vec<Vec<u32>>,
     /// Pairs of garment triangles that intersect in the design, the lower index first.
     pub designed_intersections: Vec<[u32; 2]>,
+    /// Pairs of garment triangles that touch at T-junctions, the lower index first, in ascending order.
+    pub joined: Vec<[u32; 2]>,
     /// The distances that contact keeps.
     pub distances: ContactDistances,
     /// The avatar has skin weights; else the nearest bones decide.
@@ -177,6 +183,8 @@ impl Problem {
             diagnostics.push(Diagnostic::CoarseCoordinates { min_separation: distances.min_separation });
         }
         let designed_intersections = intersections_of(garment, inputs.known_intersections, cancel)?;
+        let junctions = t_junctions::find(&garment.positions, &garment.triangles, JUNCTION_REACH);
+        let joined = touching_pairs(&junctions, &garment.triangles);
         cancel.check()?;
         let callers = &weld.triangle_of;
         let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)
@@ -205,19 +213,23 @@ impl Problem {
             CarriedPlaces::new(garment, &pieces, &map, designed_on.as_ref(), options.designed_clearance)
         };
         // A strict caller asks to be refused, so nothing is pulled apart for him.
-        let untangled =
-            if options.strict { None } else { begin_apart(garment, &designed_intersections, &projected, cancel)? };
+        let untangled = if options.strict {
+            None
+        } else {
+            begin_apart(garment, [&designed_intersections, &joined], &projected, cancel)?
+        };
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let pins: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
         let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
         check_curves(inputs.curves, garment)?;
         let asked = Asked { pins: &pins, rigid_groups: inputs.rigid_groups, curves: inputs.curves };
-        let (shape, curves) = Shape::new(garment, source, target, &asked, &held, options);
+        let (shape, curves) = Shape::new(garment, &junctions, source, target, &asked, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
         diagnostics.extend(curves.near.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
         diagnostics.extend(curves.rims.diagnostics(source, |t| triangles[t as usize]));
+        diagnostics.extend(junctions_found(&junctions, &weld));
         Diagnostic::list(diagnostics, &pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
             vertices: piece.vertices.len(),
             triangle: weld.triangle_of[piece.triangle as usize],
@@ -264,6 +276,7 @@ impl Problem {
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
             has_skin: inputs.skin.is_some(),
             designed_intersections,
+            joined,
             distances,
         })
     }
@@ -304,7 +317,7 @@ impl Problem {
 
     /// The garment and `avatar`, as contact has them.
     pub fn bodies(&self, avatar: Avatar) -> Arc<Bodies> {
-        let surface = Surface::new(self.rest.len(), self.triangles.clone());
+        let surface = Surface::new(self.rest.len(), self.triangles.clone()).with_joined(self.joined.clone());
         Arc::new(Bodies { garment: Garment { surface, rest: self.rest.clone() }, avatar })
     }
 }
@@ -395,6 +408,17 @@ fn check_curves(curves: &[WeldedCurve], garment: &TriangleMesh) -> Result<()> {
     }
     let edges = Topology::new(garment.positions.len(), &garment.triangles).edges;
     curves.iter().enumerate().try_for_each(|(name, curve)| curve.check_edges(name, &edges))
+}
+
+/// What is said of T-junctions, in the caller's indices.
+fn junctions_found(junctions: &[TJunction], weld: &Weld) -> Option<Diagnostic> {
+    let first = junctions.first()?;
+    let on = |junction: &TJunction| junction.between.first().map(|&v| weld.vertex_of[v as usize]);
+    Some(Diagnostic::TJunctions {
+        count: junctions.iter().map(|junction| junction.between.len()).sum(),
+        first: junctions.iter().filter_map(on).take(4).collect(),
+        triangle: weld.triangle_of[first.triangle as usize],
+    })
 }
 
 /// Says why what closes the garment at a bone was not taken for a cap.

@@ -18,6 +18,7 @@ use crate::energy::rigid::Rigid;
 use crate::energy::surface::Surface;
 use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::geometry::sliver_caps::without_caps;
+use crate::geometry::t_junctions::TJunction;
 use crate::input::curve::WeldedCurve;
 use crate::input::skeleton::Skeleton;
 use crate::options::Options;
@@ -82,10 +83,11 @@ impl HeldPieces<'_> {
 }
 
 impl Shape {
-    /// The terms of `garment` as designed, between the skeletons `source` and `target`. `held` are its pieces that something
-    /// else holds; the borders that are held to others, and the rims of shells, are found.
+    /// The terms of `garment` as designed, with its T-junctions, between the skeletons `source` and `target`. `held` are its
+    /// pieces that something else holds; the borders that are held to others, and the rims of shells, are found.
     pub fn new(
         garment: &TriangleMesh,
+        junctions: &[TJunction],
         source: &Skeleton,
         target: &Skeleton,
         asked: &Asked<'_>,
@@ -93,14 +95,17 @@ impl Shape {
         options: &Options,
     ) -> (Self, Curves) {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
-        let topology = Topology::new(rest.len(), triangles);
+        // A slit without width is no boundary, and its sides keep their angle.
+        let closed: Vec<[u32; 3]> =
+            triangles.iter().copied().chain(junctions.iter().flat_map(TJunction::caps)).collect();
+        let topology = Topology::new(rest.len(), &closed);
         let mut is_held = vec![false; rest.len()];
         held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
         let near = NearBorders::find(rest, triangles, &topology, &is_held);
         let rims = ShellRims::find(garment, &topology, &is_held, source);
         let curves = HeldCurves::new(topology.loops.iter().chain(&rims.loops), asked.curves);
-        let whole = without_caps(rest, triangles);
+        let whole = without_caps(rest, &closed);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
         let surface = if options.surface_length > 0.0 {

@@ -46,18 +46,23 @@ pub struct Untangled {
     pub remaining: Vec<[u32; 2]>,
 }
 
-/// [`untangle`], unless too much remains or that brings the garment into the avatar as it begins.
+/// [`untangle`], unless too much remains or that brings the garment into the avatar as it begins. Of the intersecting `pairs`
+/// those that are `joined`, in ascending order, are to stay.
 ///
 /// # Errors
 /// `Cancelled`.
 pub fn begin_apart(
     garment: &TriangleMesh,
-    pairs: &[[u32; 2]],
+    [pairs, joined]: [&[[u32; 2]]; 2],
     avatar: &ProjectedAvatar,
     cancel: &Cancel,
 ) -> Result<Option<Untangled>> {
+    let apart = |pairs: &[[u32; 2]]| pairs.iter().filter(|pair| joined.binary_search(pair).is_err()).count();
+    if apart(pairs) == 0 {
+        return Ok(None);
+    }
     let Some(untangled) = untangle(garment, pairs, cancel)? else { return Ok(None) };
-    if untangled.remaining.len() as f64 > MOST_REMAINING * pairs.len() as f64 {
+    if apart(&untangled.remaining) as f64 > MOST_REMAINING * apart(pairs) as f64 {
         return Ok(None);
     }
     let pulled = TriangleMesh { positions: untangled.start.clone(), triangles: garment.triangles.clone() };

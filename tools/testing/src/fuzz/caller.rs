@@ -127,7 +127,7 @@ unsafe fn diagnostics(session: *const BespokeSession) {
     known("read_diagnostics", status, BespokeStatus::Ok);
     for (k, diagnostic) in list.iter().enumerate() {
         assert_eq!(diagnostic.kind != 0, k < count, "as many as there are, or as fit, are written");
-        assert!(diagnostic.kind <= BespokeDiagnosticKind::BonesUnclear as u32);
+        assert!(diagnostic.kind <= BespokeDiagnosticKind::TJunctions as u32);
         assert!(diagnostic.severity <= BespokeSeverity::Error as u32);
         let used = diagnostic.element_count as usize;
         assert!(used <= diagnostic.elements.len());
