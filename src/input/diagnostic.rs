@@ -323,6 +323,8 @@ pub enum Diagnostic {
         between: f64,
         /// The length beyond its end that was retracted.
         beyond: f64,
+        /// These two as shares of all that is there.
+        shares: [f64; 2],
     },
     /// The shrunk avatar would pass through the garment between bones that form a cycle, which was cut open.
     CycleCut {

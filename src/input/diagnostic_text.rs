@@ -5,8 +5,8 @@ use std::fmt::{Display, Formatter, Result};
 
 use super::diagnostic::{Bone, Diagnostic, Foreignness, JointFault, LimbPlace};
 use super::diagnostic_words::{
-    at_bone, avatar_triangle, axes, bone_name, input, listed, part, part_name, point, quoted, ranges, short, turned,
-    units,
+    NO_OPENING, at_bone, avatar_triangle, axes, bone_name, input, listed, part, part_name, point, quoted, ranges,
+    short, turned, units,
 };
 
 /// Axes that are exchanged are turned by 90 degrees, or by 120; what stands the other way round by 180.
@@ -112,14 +112,22 @@ impl Display for Diagnostic {
                     near.join(" and ")
                 )
             }
-            Self::BoneMoved { bone, aside, between, beyond, .. } => {
+            Self::BoneMoved { bone, aside, between, beyond, shares, .. } => {
                 let [a, b] = bone.joints;
                 write!(
                     f,
                     "source skeleton: at the bone between joints {a} and {b}, the shrunk avatar would penetrate the garment; \
                      {} (the skeleton is 2 long); check the result there, or move skeleton and garment onto each other",
-                    moves(*aside, *between, *beyond)
-                )
+                    moves(*aside, [*between, *beyond], *shares)
+                )?;
+                match shares {
+                    [between, _] if *between > MUCH => write!(f, "; {NO_OPENING}"),
+                    [_, beyond] if *beyond > MUCH => f.write_str(
+                        "; what should leave the garment there, as a hand does, may be shut up in it: lay the bone through the \
+                         opening",
+                    ),
+                    _ => Ok(()),
+                }
             }
             Self::CycleCut { .. } => f.write_str(
                 "source skeleton: between bones that form a cycle, the shrunk avatar would penetrate the garment; the cycle \
@@ -459,6 +467,9 @@ impl Display for Diagnostic {
     }
 }
 
+/// A limb of which more than this share was pulled back may not come out of the garment again.
+const MUCH: f64 = 0.5;
+
 /// Where a limb is and was.
 fn misplaced(f: &mut Formatter<'_>, bone: Bone, place: LimbPlace) -> Result {
     let (name, cause) = (
@@ -509,17 +520,19 @@ fn several(like: &Diagnostic) -> &'static str {
     }
 }
 
-/// What was done at a bone, where the shrunk avatar was in the garment's way.
-fn moves(aside: f64, between: f64, beyond: f64) -> String {
+/// What was done at a bone, where the shrunk avatar was in the garment's way: how far it was led aside, and what was pulled back
+/// between its joints and beyond its end, as lengths and shares.
+fn moves(aside: f64, [between, beyond]: [f64; 2], shares: [f64; 2]) -> String {
+    let [of_bone, of_end] = shares.map(|share| 100.0 * share);
     let mut done = Vec::new();
     if aside > 0.0 {
         done.push(format!("it was led aside by up to {aside:.3}"));
     }
     if between > 0.0 {
-        done.push(format!("{between:.3} of its length was pulled back to where it is still inside"));
+        done.push(format!("{between:.3} of its length ({of_bone:.0} %) was pulled back to where it is still inside"));
     }
     if beyond > 0.0 {
-        done.push(format!("what goes {beyond:.3} beyond its end was pulled back"));
+        done.push(format!("of what goes beyond its end {beyond:.3} ({of_end:.0} %) was pulled back"));
     }
     if done.is_empty() {
         done.push("a bone beside it was moved".to_string());

@@ -6,6 +6,10 @@ use super::placement::size::RATIOS;
 
 use crate::maths;
 
+/// What helps where a part of the body has to go through cloth.
+pub const NO_OPENING: &str =
+    "where the garment has no opening for that part, as for a tail or horn, leave it and its bone out, or cut one";
+
 /// The place of a bone with these joints; none is between bones that form a cycle.
 pub fn at_bone(joints: Option<[u32; 2]>) -> String {
     match joints {

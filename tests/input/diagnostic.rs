@@ -17,8 +17,14 @@ fn layer(index: u32) -> Element {
 
 #[test]
 fn every_sentence_is_made_of_its_data() {
-    let moved =
-        |aside, between, beyond| Diagnostic::BoneMoved { bone: BONE, triangles: vec![1, 2], aside, between, beyond };
+    let moved = |aside, between, beyond, shares| Diagnostic::BoneMoved {
+        bone: BONE,
+        triangles: vec![1, 2],
+        aside,
+        between,
+        beyond,
+        shares,
+    };
     let start = "source skeleton: at the bone between joints 5 and 7, the shrunk avatar would penetrate the garment;";
     let end = "(the skeleton is 2 long); check the result there, or move skeleton and garment onto each other";
     let cases = [
@@ -170,12 +176,26 @@ fn every_sentence_is_made_of_its_data() {
              begins at 5.0e-7 and rises as they part"
                 .into(),
         ),
-        (moved(0.0, 0.0, 0.0), format!("{start} a bone beside it was moved {end}")),
+        (moved(0.0, 0.0, 0.0, [0.0; 2]), format!("{start} a bone beside it was moved {end}")),
         (
-            moved(0.1, 0.2, 0.3),
+            moved(0.1, 0.2, 0.3, [0.1, 0.5]),
             format!(
-                "{start} it was led aside by up to 0.100, and 0.200 of its length was pulled back to where it is still inside, \
-                 and what goes 0.300 beyond its end was pulled back {end}"
+                "{start} it was led aside by up to 0.100, and 0.200 of its length (10 %) was pulled back to where it is still \
+                 inside, and of what goes beyond its end 0.300 (50 %) was pulled back {end}"
+            ),
+        ),
+        (
+            moved(0.0, 0.4, 0.0, [0.8, 0.0]),
+            format!(
+                "{start} 0.400 of its length (80 %) was pulled back to where it is still inside {end}; where the garment has no \
+                 opening for that part, as for a tail or horn, leave it and its bone out, or cut one"
+            ),
+        ),
+        (
+            moved(0.0, 0.0, 0.3, [0.0, 1.0]),
+            format!(
+                "{start} of what goes beyond its end 0.300 (100 %) was pulled back {end}; what should leave the garment there, \
+                 as a hand does, may be shut up in it: lay the bone through the opening"
             ),
         ),
         (

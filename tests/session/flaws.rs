@@ -117,3 +117,46 @@ fn a_whole_garment_has_no_t_junctions() {
     let session = dressed(&fine());
     assert!(session.diagnostics().iter().all(|diagnostic| diagnostic.kind() != DiagnosticKind::TJunctions));
 }
+
+/// Without two triangles at some vertices each, opposite each other: what is left hangs together there in one point.
+fn with_bow_ties(mut garment: TriangleMesh, every: usize) -> (TriangleMesh, usize) {
+    let mut around: Vec<Vec<usize>> = vec![Vec::new(); garment.positions.len()];
+    for (t, corners) in garment.triangles.iter().enumerate() {
+        corners.iter().for_each(|&v| around[v as usize].push(t));
+    }
+    let mut removed = vec![false; garment.triangles.len()];
+    let mut made = 0;
+    for (v, triangles) in around.iter().enumerate().step_by(every) {
+        let others =
+            |t: usize| garment.triangles[t].iter().filter(|&&w| w as usize != v).copied().collect::<Vec<u32>>();
+        let first = others(triangles[0]);
+        let opposite = triangles.iter().filter(|&&t| others(t).iter().all(|w| !first.contains(w)));
+        // The middle of those that have no edge in common with the first.
+        let opposite: Vec<usize> = opposite.copied().collect();
+        let is_inner = triangles.len() == 6 && opposite.len() == 3 && triangles.iter().all(|&t| !removed[t]);
+        if !is_inner {
+            continue;
+        }
+        let neighbours = |t: usize| {
+            let beside = |s: usize| s != t && others(s).iter().any(|w| others(t).contains(w));
+            opposite.iter().filter(|&&s| beside(s)).count()
+        };
+        let middle = opposite.iter().copied().find(|&t| neighbours(t) == 2).unwrap();
+        (removed[triangles[0]], removed[middle]) = (true, true);
+        made += 1;
+    }
+    let mut kept = removed.iter().map(|removed| !removed);
+    garment.triangles.retain(|_| kept.next().unwrap());
+    (garment, made)
+}
+
+#[test]
+fn bow_ties_take_little_more_than_what_is_whole() {
+    let whole = iterations(&dressed(&fine()));
+    let (garment, made) = with_bow_ties(fine(), 7);
+    assert!(made > 100, "{made}");
+    let session = dressed(&garment);
+    println!("{made} bow-ties: {} iterations, whole {whole}", iterations(&session));
+    assert!(session.verify(Precision::F64).unwrap().is_clean());
+    assert!(!is_adjusted(&session) && iterations(&session) <= 2 * whole, "{} {whole}", iterations(&session));
+}

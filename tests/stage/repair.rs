@@ -239,6 +239,64 @@ fn a_sleeve_that_bows_to_the_side() {
     }
 }
 
+/// A tail with a bone, through the middle of a sleeve that has no hole there: refused with both parts, and what to leave out.
+#[test]
+fn a_tail_through_cloth_is_refused_with_what_to_leave_out() {
+    let mut tailed = straight_arm();
+    tailed.joints.push(DVec3::new(0.0, 1.4, 0.1));
+    tailed.bones.push([1, 3]);
+    let tail = tube([0.1, 1.4], |z| DVec3::new(0.0, 0.0, z), |z| 0.08 * (1.5 - z), [12, 8], [true; 2]);
+    let mut avatar = body(1.1);
+    let first = avatar.positions.len() as u32;
+    // From along z to along y.
+    avatar.positions.extend(tail.positions.iter().map(|p| DVec3::new(p.x, p.z, 0.1 - p.y)));
+    avatar.triangles.extend(tail.triangles.iter().map(|t| t.map(|v| v + first)));
+    let garment = tube([-0.6, 0.7], |z| DVec3::new(0.0, 0.0, z), |_| 0.3, [18, 16], [false; 2]);
+    let case = Case { garment, source: tailed.clone(), avatar, target: tailed };
+    let message = case.is_refused();
+    println!("{message}");
+    for words in [
+        "between joints 1 and 3",
+        "(avatar triangle ",
+        "at garment triangles ",
+        "no opening for that part, as for a tail",
+    ] {
+        assert!(message.contains(words), "{message}");
+    }
+    let named = |words: &str| -> u32 {
+        let rest = &message[message.find(words).unwrap() + words.len()..];
+        rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap()].parse().unwrap()
+    };
+    assert!(named("(avatar triangle ") >= body(1.1).triangles.len() as u32, "of the tail: {message}");
+    // On the side of the sleeve where the tail is.
+    let [a, b, c] =
+        case.garment.triangles[named("at garment triangles ") as usize].map(|v| case.garment.positions[v as usize]);
+    assert!((a + b + c).y / 3.0 > 0.2 && ((a + b + c).z / 3.0 - 0.1).abs() < 0.2, "{message}");
+}
+
+/// A sleeve that turns aside before the wrist, so that the hand would pass through its wall.
+fn turned_sleeve(aside: f64, from: f64) -> Case {
+    let wrist = chain(&[[0.0, 0.0, -1.0], [0.0; 3], [0.0, 0.0, 0.6]]);
+    let garment =
+        tube([-0.7, 0.9], |z| DVec3::new(aside * (z - from).max(0.0), 0.0, z), |_| 0.14, [32, 18], [false; 2]);
+    let avatar = tube([-1.1, 1.3], |z| DVec3::new(0.0, 0.0, z), |_| 0.12, [24, 14], [true; 2]);
+    Case { garment, source: wrist.clone(), avatar, target: wrist }
+}
+
+/// What goes beyond the last joint counts as much as what is before it: the whole hand is pulled back, and that is said with its
+/// share and what it may lead to.
+#[test]
+fn a_hand_that_is_pulled_back_whole_is_said() {
+    let case = turned_sleeve(0.7, 0.3);
+    let mut diagnostics = Vec::new();
+    case.problem(&mut diagnostics).unwrap();
+    let [Diagnostic::BoneMoved { bone, shares: [_, beyond], .. }] = diagnostics[..] else { panic!("{diagnostics:?}") };
+    assert_eq!(bone.index, 1);
+    assert!(beyond > 0.9, "{beyond}");
+    let sentence = diagnostics[0].to_string();
+    assert!(sentence.contains("beyond its end") && sentence.contains("may be shut up in it"), "{sentence}");
+}
+
 /// A straight sleeve on a bent arm: the elbow itself is outside, and both bones that meet there.
 #[test]
 fn an_elbow_outside_its_sleeve() {

@@ -17,7 +17,7 @@ use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::body::Body;
 use crate::input::diagnostic::{Bone, Diagnostic};
-use crate::input::diagnostic_words::at_bone;
+use crate::input::diagnostic_words::{NO_OPENING, at_bone, avatar_triangle};
 use crate::input::skeleton::{Location, Skeleton};
 use crate::verify::intersections_with_cancel;
 
@@ -80,14 +80,14 @@ pub fn resolve(
     let refusals = || penetrations.iter().take(MAX_DIAGNOSTICS).map(|p| refusal_of(p, source, avatar));
     let Some(Repair { path, start, lost, .. }) = found else {
         diagnostics.extend(refusals());
-        return Err(refusal(&penetrations, source));
+        return Err(refusal(&penetrations, source, avatar));
     };
     if let Some(lost) = design.emptied(&lost).into_iter().find(|lost| design.size(lost.piece) >= MIN_PIECE) {
         diagnostics.extend(refusals());
         let triangle = callers[design.triangle(lost.piece) as usize];
         return Err(outside(triangle, bone_of(lost.bone, source)));
     }
-    diagnostics.extend(repairs(&penetrations, &path, source));
+    diagnostics.extend(repairs(&penetrations, &path, source, &extents));
     *projected = start;
     Ok(path.bent.segments(&extents))
 }
@@ -305,7 +305,12 @@ fn near_penetrations(penetrations: &[Penetration], source: &Skeleton) -> Vec<boo
 }
 
 /// What was done, bone by bone; last what was done to cycles.
-fn repairs(penetrations: &[Penetration], path: &SkeletonPath, source: &Skeleton) -> Vec<Diagnostic> {
+fn repairs(
+    penetrations: &[Penetration],
+    path: &SkeletonPath,
+    source: &Skeleton,
+    extents: &[[f64; 2]],
+) -> Vec<Diagnostic> {
     let through = |bone: Option<u32>| {
         let mut triangles: Vec<u32> = penetrations.iter().filter(|p| p.bone == bone).map(|p| p.garment).collect();
         triangles.sort_unstable();
@@ -321,7 +326,11 @@ fn repairs(penetrations: &[Penetration], path: &SkeletonPath, source: &Skeleton)
             continue;
         }
         let aside = path.displacements[bone.index as usize];
-        diagnostics.push(Diagnostic::BoneMoved { bone, triangles, aside, between, beyond });
+        let [low, high] = extents[bone.index as usize];
+        let whole = length(source, bone.joints);
+        let share = |part: f64, of: f64| if of > 0.0 { (part / of).min(1.0) } else { 0.0 };
+        let shares = [share(between, whole), share(beyond, whole * (high - 1.0 - low))];
+        diagnostics.push(Diagnostic::BoneMoved { bone, triangles, aside, between, beyond, shares });
     }
     let triangles = through(None);
     if !triangles.is_empty() {
@@ -342,18 +351,20 @@ fn refusal_of(penetration: &Penetration, source: &Skeleton, avatar: &Body) -> Di
     }
 }
 
-fn refusal(penetrations: &[Penetration], source: &Skeleton) -> Error {
+fn refusal(penetrations: &[Penetration], source: &Skeleton, avatar: &Body) -> Error {
     let mut triangles: Vec<u32> = penetrations.iter().map(|p| p.garment).collect();
     triangles.sort_unstable();
     triangles.dedup();
     let count = triangles.len();
     let named: Vec<String> = triangles.iter().take(NAMED).map(u32::to_string).collect();
+    let part =
+        penetrations.first().map_or(String::new(), |p| format!(" ({})", avatar_triangle(avatar.triangle(p.avatar))));
     Error::new(
         ErrorKind::NotEnclosed,
         format!(
-            "garment: the avatar, shrunk onto the source skeleton, penetrates it {}: at garment triangles \
+            "garment: the avatar, shrunk onto the source skeleton, penetrates it {}{part}: at garment triangles \
              {}{} ({count} in all), and no way around them was found; move the garment or the skeleton so that the garment \
-             is around its bones",
+             is around its bones; {NO_OPENING}",
             at_bone(penetrations.first().and_then(|p| p.bone).map(|bone| source.bones[bone as usize])),
             named.join(", "),
             if count > named.len() { ", ..." } else { "" },
