@@ -192,6 +192,10 @@ impl Dressing<'_> {
         let KnownAvatar { figure, body: avatar, shared, .. } = self.avatar;
         let notes = self.outfit.notes.iter().chain(&figure.notes).chain(&avatar.notes);
         notes.for_each(|note| say(args.quiet, note));
+        if self.written != Written::Obj {
+            let files = [self.outfit, figure].into_iter().filter_map(|figure| figure.obj.as_ref());
+            files.flat_map(|source| &source.material_notes).for_each(|note| say(args.quiet, note));
+        }
         let sources = self.made_for.bodies();
         let (mut dressed, mut refused) = (Vec::<Dressed>::new(), Vec::new());
         let mut layers: Vec<TriangleMesh> = Vec::new();

@@ -4,6 +4,7 @@
 
 mod file;
 mod joints;
+mod materials;
 mod write;
 
 use std::collections::{BTreeMap, HashMap};
@@ -19,6 +20,7 @@ pub use file::{Corner, ObjFile};
 pub use joints::{Joints, Rows};
 pub use write::write;
 
+use self::materials::Materials;
 use crate::failure::{Failure, Result};
 use crate::figure::Part;
 use crate::parts::Role;
@@ -52,6 +54,8 @@ pub struct Source {
     pub worn: Vec<String>,
     /// What was taken, in words.
     pub notes: Vec<String>,
+    /// What of its materials could not be had, in words.
+    pub material_notes: Vec<String>,
 }
 
 impl Source {
@@ -169,9 +173,12 @@ pub fn open(path: &Path, role: Role, beside: &Beside) -> Result<(Document, Sourc
         has_skin: rows.is_some(),
         worn: Vec::new(),
         notes,
+        material_notes: Vec::new(),
     };
+    let mut materials = Materials::of(path, &source.file.text);
     let mut edit = Edit::new(&document, Form::Glb).map_err(fail)?;
-    fill(&mut edit, &mut source, joints.as_ref(), rows.as_ref(), &stem).map_err(fail)?;
+    fill(&mut edit, &mut source, joints.as_ref(), rows.as_ref(), &mut materials, &stem).map_err(fail)?;
+    source.material_notes = materials.notes;
     let glb = edit.output(&stem).map_err(fail)?.file;
     let document = Document::from_bytes(glb, nothing_outside()).map_err(fail)?;
     Ok((document, source, joints))
@@ -183,6 +190,7 @@ fn fill(
     source: &mut Source,
     joints: Option<&Joints>,
     rows: Option<&Rows>,
+    materials: &mut Materials,
     stem: &str,
 ) -> bespoke_gltf::Result<()> {
     let rig = joints.map(Joints::rig).unwrap_or_default();
@@ -216,7 +224,7 @@ fn fill(
             None => objects.push((&known.object, vec![piece])),
         }
     }
-    let mut materials: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut written: BTreeMap<&str, usize> = BTreeMap::new();
     for (mesh, (object, pieces)) in objects.iter().enumerate() {
         let mut primitives = Vec::new();
         for (primitive, &piece) in pieces.iter().enumerate() {
@@ -245,11 +253,14 @@ fn fill(
             let mut entry = json!({ "attributes": attributes, "indices": edit.add_triangles(&triangles)? });
             let name = source.file.pieces[piece].material.as_str();
             if !name.is_empty() {
-                let material = match materials.get(name) {
+                let material = match written.get(name) {
                     Some(&known) => known,
-                    None => edit.push("materials", json!({ "name": name }))?,
+                    None => {
+                        let material = materials.entry(edit, name)?;
+                        edit.push("materials", material)?
+                    }
                 };
-                materials.insert(name, material);
+                written.insert(name, material);
                 entry["material"] = material.into();
             }
             primitives.push(entry);

@@ -22,6 +22,26 @@ use super::{AVATAR, OUTFIT, bespoke, ends, judges, mesh};
 /// Blender's axes, in which the closet models.
 const UPRIGHT: &str = "x,z,y";
 
+/// The vest's materials: an image under a name with options before it, and a colour that the back shows through.
+const MATERIALS: &str = "\
+newmtl Wool
+Kd 0.5 0.25 1
+map_Kd -s 1 1 1 wool.png
+
+newmtl Lining
+Ns 10
+Kd 0.5 0.25 1
+d 0.75
+";
+
+/// One pixel, as PNG.
+const PIXEL: &[u8] = &[
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00,
+    0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00, 0x0C, 0x49,
+    0x44, 0x41, 0x54, 0x78, 0x9C, 0x63, 0x68, 0x50, 0x50, 0x00, 0x00, 0x01, 0xE4, 0x00, 0xC1, 0xEA, 0x5B, 0x19, 0x17,
+    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82,
+];
+
 fn short(points: &[DVec3]) -> Vec<[f32; 3]> {
     points.iter().map(|p| p.as_vec3().to_array()).collect()
 }
@@ -73,6 +93,8 @@ pub fn write_files(folder: &Path) {
         fs::write(folder.join(name), text).unwrap();
     };
     write("design/vest.obj", vest());
+    write("design/vest.mtl", MATERIALS.into());
+    fs::write(folder.join("design/wool.png"), PIXEL).unwrap();
     write("design/mannequin.obj", body(&mannequin));
     write("design/skeleton.obj", skeleton(&mannequin));
     write("slim/avatar.obj", format!("# slim\no Slim\n{}", body(&slim)));
@@ -224,8 +246,18 @@ fn obj_and_glb() {
         let joints: std::collections::BTreeSet<u32> =
             meshes[1].geometry.influences.iter().flatten().map(|&(joint, _)| joint).collect();
         assert!(joints.len() > 2, "{file}: it hangs on {joints:?}");
-        let materials = Document::open(&folder.join(file)).unwrap().materials().unwrap();
-        assert!(["Wool", "Lining"].iter().all(|name| materials.iter().any(|m| m == name)), "{file}: {materials:?}");
+        let document = Document::open(&folder.join(file)).unwrap();
+        let materials = document.json()["materials"].as_array().unwrap();
+        let material =
+            |name: &str| materials.iter().find(|m| m["name"] == name).unwrap_or_else(|| panic!("{file}: {name}"));
+        let surface = &material("Lining")["pbrMetallicRoughness"];
+        assert_eq!(surface["baseColorFactor"].to_string(), "[0.5,0.25,1.0,0.75]", "{file}");
+        assert_eq!(material("Lining")["alphaMode"], "BLEND", "{file}");
+        let texture =
+            material("Wool")["pbrMetallicRoughness"]["baseColorTexture"]["index"].as_u64().expect("a texture");
+        let image = document.json()["textures"][texture as usize]["source"].as_u64().unwrap();
+        let view = document.json()["images"][image as usize]["bufferView"].as_u64().unwrap();
+        assert_eq!(document.view_bytes(view as usize).unwrap(), PIXEL, "{file}");
         ends(&bespoke(&folder, &["check", file]), 0);
     }
     judges::valid(&[&folder.join("all.glb"), &folder.join("onto.glb")]);
@@ -359,6 +391,10 @@ fn obj_refusals() {
         assert!(said.contains(says), "{args:?}: {said}");
         assert!(!said.contains("panicked"), "{args:?}: {said}");
     }
+    // Materials that are not there are no reason to refuse.
+    fs::remove_file(folder.join("design/vest.mtl")).unwrap();
+    let run = bespoke(&folder, &["inspect", vest]);
+    ends(&run, 0);
     let bare = ["dress", vest, "bare/avatar.obj", "--target-skeleton", "slim/skeleton.obj", "-o", "out.glb"];
     let run = bespoke(&folder, &bare);
     ends(&run, 1);
