@@ -1,11 +1,12 @@
 //! The skeleton that two rigs have in common, at its places in both, and the skin weights on it.
 //!
-//! Of two people these are the landmarks that both have, with the joints that a caller adds to them; of other creatures the
-//! joints that correspond. All other joints are contracted into the nearest one above them.
+//! Of two people these are the landmarks that both have, with the joints that a caller adds to them, and the fingers that the
+//! garment is worn on; of other creatures the joints that correspond. All other joints are contracted into the nearest one above them.
 
 use glam::{DAffine3, DVec3};
 
 use super::body_part::Side;
+use super::hands::worn_fingers;
 use super::joint_map::{JointMap, Reason};
 use super::landmark::Landmark;
 use super::places::{self, Character, index, places};
@@ -25,6 +26,8 @@ pub enum CommonJoint {
     Landmark(Landmark),
     /// A joint of the source rig and one of the target rig.
     Pair(u32, u32),
+    /// The end of what these two move.
+    Tip(u32, u32),
 }
 
 /// The skeleton that two rigs have in common.
@@ -40,6 +43,8 @@ pub struct CommonSkeleton {
     pub owner: Vec<Option<u32>>,
     /// The landmarks in source and target, in the order of [`Landmark::ALL`].
     pub landmarks: [[Option<DVec3>; Landmark::COUNT]; 2],
+    /// The garment has tubes for fingers that the rigs do not both know.
+    pub lacks_fingers: bool,
 }
 
 impl CommonSkeleton {
@@ -76,11 +81,34 @@ impl CommonSkeleton {
                     Some(build.push(CommonJoint::Landmark(landmark), [from, to], above.map(Node::Landmark)));
             }
         }
+        let mut pairs: [Vec<Option<u32>>; 2] = [source.rig, target.rig].map(|rig| vec![None; rig.joints.len()]);
+        let (fingers, lacks_fingers) = match garment.filter(|_| person) {
+            Some(garment) => worn_fingers(garment.mesh, [source, target], &map.readings),
+            None => Default::default(),
+        };
+        for finger in fingers {
+            let wrist = Some(Landmark::Wrist(finger.side)).filter(|&wrist| of_landmark[index(wrist)].is_some());
+            let mut above = wrist.map(Node::Landmark);
+            let mut nodes = Vec::new();
+            for &[joint, other] in &finger.joints {
+                let places = [source.rig.place(joint), target.rig.place(other)];
+                let node = build.push(CommonJoint::Pair(joint, other), places, above);
+                (pairs[0][joint as usize], pairs[1][other as usize]) = (Some(node), Some(node));
+                above = Some(Node::Joint(joint));
+                nodes.push(node);
+            }
+            if let Some(&[joint, other]) = finger.joints.last() {
+                build.push(CommonJoint::Tip(joint, other), finger.tips, above);
+            }
+            // The other fingers of a mitten go along.
+            for (joint, with) in finger.others {
+                pairs[1][joint as usize] = Some(nodes[with]);
+            }
+        }
         let is_moved = match target.skin {
             Some(skin) => moves(skin, &target.rig.joints.iter().map(|joint| joint.parent).collect::<Vec<_>>()),
             None => vec![true; target.rig.joints.len()],
         };
-        let mut pairs: [Vec<Option<u32>>; 2] = [source.rig, target.rig].map(|rig| vec![None; rig.joints.len()]);
         for &joint in &order[0] {
             let mapped = map.joints[joint as usize];
             let Some(other) = mapped.target else { continue };
@@ -112,7 +140,7 @@ impl CommonSkeleton {
         };
         let (from, owner) = (owners(0, source.rig, &order[0]), owners(1, target.rig, &order[1]));
         let (source, target, joints) = build.finish(&of_landmark, &from)?;
-        Ok(Self { joints, source, target, owner, landmarks: [on_source, on_target] })
+        Ok(Self { joints, source, target, owner, landmarks: [on_source, on_target], lacks_fingers })
     }
 
     /// What its joints are in messages: "left knee", or the names that pairs have in the source rig.
@@ -120,6 +148,7 @@ impl CommonSkeleton {
         let name = |joint: &CommonJoint| match *joint {
             CommonJoint::Landmark(landmark) => landmark.name().to_string(),
             CommonJoint::Pair(joint, _) => source.called(joint as usize),
+            CommonJoint::Tip(joint, _) => format!("tip of {}", source.called(joint as usize)),
         };
         self.joints.iter().map(name).collect()
     }
@@ -141,7 +170,9 @@ impl CommonSkeleton {
         let landmarks = posing.moved_landmarks(motions, &self.landmarks[1]);
         let place = |(joint, place): (&CommonJoint, &DVec3)| match *joint {
             CommonJoint::Landmark(landmark) => landmarks[index(landmark)].unwrap_or(*place),
-            CommonJoint::Pair(_, target) => motions[target as usize].transform_point3(*place),
+            CommonJoint::Pair(_, target) | CommonJoint::Tip(_, target) => {
+                motions[target as usize].transform_point3(*place)
+            }
         };
         let joints = self.joints.iter().zip(&self.target.joints).map(place).collect();
         Skeleton { joints, bones: self.target.bones.clone() }
@@ -158,7 +189,7 @@ impl CommonSkeleton {
 const SURE: f64 = 0.6;
 
 impl CommonSkeleton {
-    /// A finding about the landmarks of which the map is not sure, if there are any.
+    /// A finding about the landmarks, and the fingers of the garment, of which the map is not sure, if there are any.
     pub fn unsure(&self, map: &JointMap) -> Option<Diagnostic> {
         let is_unsure = |landmark: &Landmark| {
             let joint_of = |side: usize| Some((side, map.readings[side].joint_of(landmark.part()?)?));
@@ -166,9 +197,10 @@ impl CommonSkeleton {
         };
         let landmarks = self.joints.iter().filter_map(|joint| match joint {
             CommonJoint::Landmark(landmark) => Some(*landmark),
-            CommonJoint::Pair(..) => None,
+            CommonJoint::Pair(..) | CommonJoint::Tip(..) => None,
         });
         let mut places: Vec<&'static str> = landmarks.filter(is_unsure).map(Landmark::both).collect();
+        places.extend(self.lacks_fingers.then_some("fingers"));
         places.sort_unstable();
         places.dedup();
         (!places.is_empty()).then_some(Diagnostic::JointsUnsure { places })

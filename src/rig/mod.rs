@@ -3,6 +3,7 @@
 
 pub mod body_part;
 pub mod common_skeleton;
+pub mod hands;
 pub mod joint_map;
 pub mod landmark;
 pub mod names;

@@ -1,4 +1,4 @@
-//! The common skeleton has the ends of the feet for what is worn on them, and for nothing else.
+//! The common skeleton has the ends of the feet for what is worn on them, and fingers for gloves, and neither for anything else.
 
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::rig::{Rig, RigJoint};
@@ -32,6 +32,97 @@ fn person(toes: bool) -> Rig {
         }
     }
     Rig { joints }
+}
+
+/// That person with arms along x, and these fingers of the left hand, each with where it lies beside the middle of the hand.
+fn with_hands(fingers: &[(&str, f64)]) -> Rig {
+    let mut joints = person(true).joints;
+    let mut add = |name: String, parent: u32, place: [f64; 3]| {
+        joints.push(RigJoint { name, parent: Some(parent), bind: DMat4::from_translation(DVec3::from(place)) });
+        joints.len() as u32 - 1
+    };
+    for (side, sign) in [("Left", 1.0), ("Right", -1.0)] {
+        let arm = add(format!("{side}Arm"), 1, [0.2 * sign, 1.45, 0.0]);
+        let forearm = add(format!("{side}ForeArm"), arm, [0.45 * sign, 1.45, 0.0]);
+        let hand = add(format!("{side}Hand"), forearm, [0.7 * sign, 1.45, 0.0]);
+        for &(finger, z) in fingers.iter().filter(|_| side == "Left") {
+            (0..3).fold(hand, |parent, k| {
+                add(format!("LeftHand{finger}{}", k + 1), parent, [KNUCKLE + 0.04 * f64::from(k), 1.45, z])
+            });
+        }
+    }
+    Rig { joints }
+}
+
+const KNUCKLE: f64 = 0.78;
+const FINGERS: [(&str, f64); 5] =
+    [("Thumb", 0.07), ("Index", 0.03), ("Middle", 0.01), ("Ring", -0.01), ("Pinky", -0.03)];
+
+/// A tube along x around the height of the arms.
+fn tube(x: [f64; 2], z: [f64; 2]) -> TriangleMesh {
+    let corner = |k: usize| DVec3::new(x[k >> 2], 1.45 + [-0.012, 0.012][k & 1], z[(k >> 1) & 1]);
+    let quads = [[0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    TriangleMesh { positions: (0..8).map(corner).collect(), triangles }
+}
+
+/// A palm with a tube for each of these stretches beside the middle of the hand.
+fn glove(tubes: &[[f64; 2]]) -> TriangleMesh {
+    let tubes = tubes.iter().map(|&z| tube([KNUCKLE - 0.02, 0.92], z));
+    join(&[tube([0.6, KNUCKLE - 0.02], [-0.05, 0.09])].into_iter().chain(tubes).collect::<Vec<_>>())
+}
+
+/// The joints beyond the left wrist, by their names in the source, and which of them the target's joint `others` goes with.
+fn fingers(rigs: [&Rig; 2], mesh: &TriangleMesh, others: &str) -> (Vec<String>, Option<String>, bool) {
+    let [source, target] = rigs;
+    let map = JointMap::new(source, target, rigs.map(|rig| Reading::new(rig, None)), &[]).expect("a map");
+    let [from, to] = rigs.map(|rig| Character { rig, body: None, skin: None });
+    let common = CommonSkeleton::new(from, to, &map, Some(Worn { mesh, skin: None })).expect("they correspond");
+    assert_eq!(common.source.bones, common.target.bones);
+    let of_hand = |joint: &CommonJoint| match joint {
+        CommonJoint::Pair(joint, _) => Some(source.joints[*joint as usize].name.replace("LeftHand", "")),
+        CommonJoint::Tip(joint, _) => Some(source.joints[*joint as usize].name.replace("LeftHand", "") + " tip"),
+        CommonJoint::Landmark(_) => None,
+    };
+    let other = target.joints.iter().position(|joint| joint.name == others);
+    let with = other.and_then(|joint| of_hand(&common.joints[common.owner[joint]? as usize]));
+    (common.joints.iter().filter_map(of_hand).collect(), with, common.unsure(&map).is_some())
+}
+
+#[test]
+fn gloves_have_bones_in_their_fingers_and_mittens_one_of_them() {
+    let (known, without) = (with_hands(&FINGERS), with_hands(&[]));
+    let chain = |finger: &str| [1, 2, 3].map(|k| format!("{finger}{k}")).into_iter().chain([format!("{finger}3 tip")]);
+    let sorted = |names: &[&str]| {
+        let mut all: Vec<String> = names.iter().flat_map(|name| chain(name)).collect();
+        all.sort();
+        all
+    };
+    let found = |rigs: [&Rig; 2], mesh: &TriangleMesh| {
+        let (mut names, with, unsure) = fingers(rigs, mesh, "LeftHandIndex2");
+        names.sort();
+        (names, with, unsure)
+    };
+    let own = FINGERS.map(|(_, z)| [z - 0.008, z + 0.008]);
+    let all = ["Thumb", "Index", "Middle", "Ring", "Pinky"];
+    let index = Some("Index2".to_string());
+    assert_eq!(found([&known; 2], &glove(&own)), (sorted(&all), index, false));
+    // One tube for four fingers: the middle one leads, and the others go along with it.
+    let mitten = glove(&[[-0.045, 0.045], own[0]]);
+    let middle = Some("Middle2".to_string());
+    assert_eq!(found([&known; 2], &mitten), (sorted(&["Thumb", "Middle"]), middle.clone(), false));
+    let bag = glove(&[[-0.045, 0.085]]);
+    assert_eq!(found([&known; 2], &bag), (sorted(&["Middle"]), middle, false));
+    // A cuff ends before the fingers.
+    let (names, ..) = found([&known; 2], &tube([0.5, KNUCKLE - 0.02], [-0.05, 0.09]));
+    assert_eq!(names, [""; 0]);
+    // What only one side knows leads nowhere, which is told where fingers of the garment would stay empty.
+    for rigs in [[&known, &without], [&known, &with_hands(&FINGERS[3..])]] {
+        let (names, _, unsure) = found(rigs, &glove(&own));
+        assert!(unsure && names.len() == 4 * rigs[1].joints.iter().filter(|joint| joint.name.ends_with("1")).count());
+    }
+    assert_eq!(found([&known, &without], &bag), (Vec::new(), None, false));
+    assert_eq!(found([&without, &known], &bag).0, [""; 0]);
 }
 
 /// A box around `x` without its lid: from the heel to before the toes, or a tube where it has no bottom either.

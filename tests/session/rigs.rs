@@ -16,7 +16,7 @@ use bespoke::session::{Budget, Precision, Session};
 use closet::avatars::Avatar;
 use closet::rigs::{Body, Character, Naming, Pose, Role, SIDES, character, y_up};
 use closet::{Sample, garments};
-use glam::{DMat4, DVec3};
+use glam::{DAffine3, DMat4, DVec3};
 use testing::character::{self as dressing, rig};
 
 static MANNEQUIN: LazyLock<Sample> = LazyLock::new(|| Body::Mannequin.model());
@@ -288,4 +288,77 @@ fn where_the_own_pose_is_wedged_that_of_the_design_is_tried() {
         session.garment_positions().unwrap()
     };
     assert_eq!(run(), run());
+}
+
+/// What lies so far outside of a part of a body: of triangles all of whose corners are in it.
+fn patch(body: &Character, offset: f64, is_in: impl Fn(usize) -> bool) -> Character {
+    let mut mesh = body.mesh.clone();
+    let normals = mesh.normals();
+    mesh.positions.iter_mut().zip(normals).for_each(|(p, normal)| *p += offset * normal);
+    mesh.retain(|t| t.iter().all(|&v| is_in(v as usize)));
+    body.wears(&mesh)
+}
+
+fn place(character: &Character, role: Role) -> DVec3 {
+    character.joints.iter().find(|joint| joint.role == role).expect("it has one").bind.translation
+}
+
+/// A cap on a head that looks to a side.
+#[test]
+fn a_hat_turns_with_a_body_that_faces_sideways() {
+    let (source, target) = (mannequin(Naming::Mixamo), slim(Naming::Unreal));
+    let brow = place(&source, Role::Head).y + 0.115;
+    let cap = patch(&source, 0.006, |v| source.mesh.positions[v].y > brow);
+    let mut plain = session(&cap, &source, &target);
+    dressed(&mut plain, "as it is");
+    let expected = plain.garment_positions().unwrap();
+    for degrees in [90.0_f64, -90.0] {
+        let turn = DAffine3::from_rotation_y(degrees.to_radians());
+        let mut aside = session(&cap, &source, &target.clone().placed(turn));
+        dressed(&mut aside, "turned");
+        assert!(aside.diagnostics().iter().all(|found| found.kind() != DiagnosticKind::FacingMismatch));
+        let off = aside.garment_positions().unwrap().into_iter().zip(&expected);
+        let off = off.map(|(p, &q)| p.distance(turn.transform_point3(q))).fold(0.0, f64::max);
+        assert!(off < 2e-4, "{degrees} degrees: {off}");
+    }
+}
+
+/// The mannequin's mitten on a hand that is as large as its forearm, which goes far beyond the end of that bone.
+#[test]
+fn a_mitten_is_on_a_much_larger_hand() {
+    let (source, target) = (mannequin(Naming::Mixamo), character(&Body::BigHead.model(), Naming::Vrm).placed(y_up()));
+    let left = SIDES[0];
+    let (elbow, wrist) = (place(&source, Role::LowerArm(left)), place(&source, Role::Wrist(left)));
+    let is_of_it = |joint: usize| {
+        let role = source.joints[joint].role;
+        role == Role::LowerArm(left)
+            || role == Role::Wrist(left)
+            || matches!(role, Role::Finger(side, ..) if side == left)
+    };
+    let mitten = patch(&source, 0.004, |v| {
+        let share: f64 =
+            source.influences[v].iter().filter(|(joint, _)| is_of_it(*joint)).map(|(_, weight)| weight).sum();
+        let along = (source.mesh.positions[v] - elbow).dot(wrist - elbow) / (wrist - elbow).length_squared();
+        share > 0.6 && along > 0.6
+    });
+    let mut session =
+        dressing::session(&mitten, &source, &target, Options { threads: 2, ..Options::default() }).unwrap();
+    session.set_source_avatar(dressing::mesh(&source)).unwrap();
+    session.set_source_skin(dressing::skin(&source)).unwrap();
+    dressed(&mut session, "a mitten");
+    assert!(session.diagnostics().iter().all(|found| found.kind() != DiagnosticKind::JointsUnsure));
+    // The tip of the mitten is at the tip of the hand, and its cuff on the forearm.
+    let fitted = session.garment_positions().unwrap();
+    let [elbow, wrist] = [Role::LowerArm(left), Role::Wrist(left)].map(|role| place(&target, role));
+    let along = |p: &DVec3| (*p - elbow).dot(wrist - elbow) / (wrist - elbow).length_squared();
+    let reach = |points: &mut dyn Iterator<Item = DVec3>| points.map(|p| along(&p)).fold(0.0, f64::max);
+    let is_hand = |v: &usize| {
+        let (joint, _) = target.influences[*v].iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).expect("weights");
+        matches!(target.joints[joint].role, Role::Wrist(side) | Role::Finger(side, ..) if side == left)
+    };
+    let hand = (0..target.mesh.positions.len()).filter(is_hand);
+    let tips = [reach(&mut fitted.iter().copied()), reach(&mut hand.map(|v| target.mesh.positions[v]))];
+    let cuff = fitted.iter().map(along).fold(f64::INFINITY, f64::min);
+    assert!(cuff > 0.3 && cuff < 0.9, "{cuff}");
+    assert!((tips[0] - tips[1]).abs() < 0.15, "{tips:?}");
 }
