@@ -305,16 +305,20 @@ fn what_needs_nothing_is_not_told() {
     let (sine, cosine) = 45_f64.to_radians().sin_cos();
     let by_45 = move |p: DVec3| DVec3::new(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z);
     let by_90 = |p: DVec3| DVec3::new(-p.y, p.x, p.z);
-    for (name, map) in [
-        ("45 degrees", Box::new(by_45) as Box<dyn Fn(DVec3) -> DVec3>),
-        ("90 degrees", Box::new(by_90)),
-        ("y-up", Box::new(laid)),
-        ("centimetres", Box::new(|p| 100.0 * p)),
-        ("elsewhere", Box::new(|p| p + DVec3::new(3.0, -2.0, 5.0))),
+    // What is a right angle off is turned back all the same.
+    for (name, degrees, map) in [
+        ("45 degrees", 0.0, Box::new(by_45) as Box<dyn Fn(DVec3) -> DVec3>),
+        ("90 degrees", 90.0, Box::new(by_90)),
+        ("y-up", 90.0, Box::new(laid)),
+        ("centimetres", 0.0, Box::new(|p| 100.0 * p)),
+        ("elsewhere", 0.0, Box::new(|p| p + DVec3::new(3.0, -2.0, 5.0))),
     ] {
-        let (turn, found) = good.clone().target_through(map).check(true);
+        let (turn, found) = good.clone().target_through(&map).check(true);
         assert!(found.is_empty(), "{name}: {found:?}");
-        assert_eq!(turn.unwrap(), AxisTurn::IDENTITY, "{name}");
+        let turn = turn.unwrap();
+        assert_eq!(turn.degrees(), degrees, "{name}");
+        let p = DVec3::new(1.0, 2.0, 3.0);
+        assert!(degrees == 0.0 || turn.apply(map(p)) == p, "{name}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The best turn from one skeleton to another, of those that map axes onto axes.
 //!
-//! A body that is turned by up to 45 degrees from one of these finds its way by itself as it grows. By a half turn it does
-//! not: half-way all of it would lie in one plane.
+//! A body that is turned by up to 45 degrees from one of these finds its way by itself as it grows, and takes along what is around
+//! its limbs. By a half turn it does not: half-way all of it would lie in one plane.
 
 use glam::DVec3;
 

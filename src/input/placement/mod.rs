@@ -21,13 +21,12 @@ use super::diagnostic::{Diagnostic, Severity, Subject};
 use super::skeleton::Skeleton;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Turns of up to this many degrees need nothing: the body finds its way as it grows. By a half turn it does not, for half-way
-/// all of it would lie in one plane.
-const HARMLESS: f64 = 90.0;
+/// Turns of up to this many degrees need no word: between y up and z up nobody has made a mistake.
+const USUAL: f64 = 90.0;
 
 /// Compares the inputs, and adds what is found to `diagnostics`. Returns the turn of the target after which both bodies face the
-/// same way: none where they do, or where a turn does no harm. With `strict` the target is refused instead of turned. A side
-/// whose coordinate system is trusted is not looked at.
+/// same way, or are nearest to that. With `strict` the target is refused instead, where it is turned by more than a right angle. A
+/// side whose coordinate system is trusted is not looked at.
 ///
 /// # Errors
 /// `NotEnclosed` where the garment is in another unit or in other axes than its skeleton, `InvalidSkeleton` where an avatar
@@ -121,15 +120,16 @@ fn sides(scene: &Scene<'_>, strict: bool, found: &mut Vec<Diagnostic>) -> AxisTu
         let mirrored = front::is_turned_inside_out(scene).then(|| mirror_to_tell(scene)).flatten();
         let sure = turns_front && front < -front::SURE;
         found.push(Diagnostic::SidesSwapped { joints, mirrored, all: true, sure });
-        return if turn.degrees() > HARMLESS { turn } else { AxisTurn::IDENTITY };
+        return if turn.degrees() > USUAL { turn } else { AxisTurn::IDENTITY };
     }
     facing(scene, turn, front, strict, found)
 }
 
-/// Says that the target is turned, where that does harm, and how it would be told.
+/// Says that the target is turned, where that is unusual, and how it would be told. It is turned back in any case: a half turn would
+/// take all of a growing body through one plane, and a hat would stay as it is while the head in it turns.
 fn facing(scene: &Scene<'_>, turn: AxisTurn, front: f64, strict: bool, found: &mut Vec<Diagnostic>) -> AxisTurn {
-    if turn.degrees() <= HARMLESS {
-        return AxisTurn::IDENTITY;
+    if turn.degrees() <= USUAL {
+        return turn;
     }
     let system = scene.target_coordinate_system;
     found.push(Diagnostic::FacingMismatch {
