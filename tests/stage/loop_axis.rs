@@ -73,6 +73,28 @@ fn a_loop_around_one_limb_follows_its_bone() {
     assert_eq!(chosen(&leg(0.05), &person), [[10, 11]]);
 }
 
+/// An armhole lies around the shoulder. Where the target's arms are raised it stays with the trunk, and a sleeve goes along.
+#[test]
+fn an_armhole_does_not_turn_with_the_arm() {
+    let with_elbow = |place: DVec3| {
+        let mut person = person();
+        person.joints[4] = place;
+        person.joints[5] = person.joints[3] + 2.0 * (place - person.joints[3]);
+        person
+    };
+    let (a, t) = (with_elbow(DVec3::new(0.41, 0.0, 1.24)), with_elbow(DVec3::new(0.5, 0.0, 1.45)));
+    let armhole = ellipse(DVec3::new(0.2, 0.0, 1.4), 0.06 * DVec3::Y, 0.12 * DVec3::Z);
+    let across = DVec3::new(0.7, 0.0, 0.7);
+    let sleeve = ellipse(DVec3::new(0.31, 0.0, 1.34), 0.06 * DVec3::Y, 0.07 * across);
+    let bone = |points: &[DVec3], source: &Skeleton, target: &Skeleton| {
+        let bones = choose(points, source, target).expect("an axis").bones;
+        bones.iter().map(|&bone| source.bones[bone as usize]).collect::<Vec<_>>()
+    };
+    assert_eq!(bone(&armhole, &a, &a), [[3, 4]]);
+    assert_eq!(bone(&armhole, &a, &t), [[2, 3]]);
+    assert_eq!(bone(&sleeve, &a, &t), [[3, 4]]);
+}
+
 #[test]
 fn a_hem_around_both_legs_follows_their_mean() {
     let person = person();

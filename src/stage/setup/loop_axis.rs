@@ -3,12 +3,16 @@
 //! A cuff follows the closest bone that passes through it. A hem around both legs has no bone of its own:
 //! where several bones cross the loop's plane inside the loop's hull, it follows their mean. A small hole in the cloth, as
 //! in a net or where faces are missing, follows none.
+//!
+//! An armhole lies around the joint at which two bones meet. Where the target's arms are raised, it would turn with the upper arm,
+//! and pull the sides of a vest out to wings: it belongs to the trunk, so it follows the one of the two that turns less.
 
 use glam::DVec3;
 
 use crate::energy::position::MovingAxis;
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::BoundaryLoop;
+use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 use crate::maths;
 
@@ -27,6 +31,9 @@ const STUB: f64 = 0.1;
 /// hold the cloth as a whole.
 pub(super) const HOLE: f64 = 0.1;
 
+/// A loop around a joint follows the other bone there where that turns less by so many degrees.
+const STEADIER: f64 = 20.0;
+
 /// A loop whose area is below this share of its squared length is a slit, without a normal.
 const SLIT: f64 = 1e-6;
 
@@ -43,7 +50,8 @@ pub struct LoopAxis {
 ///
 /// `rest` are the garment's vertices; both skeletons are in its space and share one order of joints (the bones
 /// of `target` are not read). For each loop: all the bones through it that cross its plane inside its hull,
-/// if there are several; else the closest bone among those through it; else the closest bone at all. A bone
+/// if there are several; else the closest bone among those through it, or the one that it meets within the loop and that turns
+/// much less from source to target; else the closest bone at all. A bone
 /// is *through* the loop within 60 degrees of its normal, and *closest* as a segment, to the mean of the
 /// loop's vertices. The normal is that of the loop's area vector, along which the opening looks largest.
 pub fn choose_loop_axes(
@@ -67,7 +75,12 @@ pub fn choose_loop_axes(
             if crossing.is_empty() && opening.is_hole(source) {
                 return None;
             }
-            let bones = if crossing.len() > 1 { crossing } else { vec![opening.closest_bone(source, target)?] };
+            let bones = if crossing.len() > 1 {
+                crossing
+            } else {
+                let closest = opening.closest_bone(source, target)?;
+                vec![opening.steadier_bone(closest, source, target).unwrap_or(closest)]
+            };
             let axis = opening.mean_of(&bones, source, target);
             Some(LoopAxis { bones, axis })
         })
@@ -177,6 +190,35 @@ impl Opening {
             }
         }
         through.1.or(any.1)
+    }
+
+    /// The bone that meets `bone` at a joint around which the loop lies, goes through the loop as well, and turns less from
+    /// source to target; if there is one.
+    fn steadier_bone(&self, bone: u32, source: &Skeleton, target: &Skeleton) -> Option<u32> {
+        let span = |skeleton: &Skeleton, [a, b]: [u32; 2]| skeleton.joints[b as usize] - skeleton.joints[a as usize];
+        let turn = |bone: u32| {
+            let [from, to] = [source, target].map(|skeleton| span(skeleton, source.bones[bone as usize]));
+            turn::angle_between(from, to).to_degrees()
+        };
+        let own = source.bones[bone as usize];
+        let meets_within = |other: [u32; 2]| {
+            let joint = other.into_iter().find(|joint| own.contains(joint));
+            joint.is_some_and(|joint| {
+                let along = span(source, own);
+                let beyond = |p: &DVec3| (*p - source.joints[joint as usize]).dot(along) > 0.0;
+                self.points.iter().any(beyond) && !self.points.iter().all(beyond)
+            })
+        };
+        let steadier = |&other: &u32| {
+            let ends = source.bones[other as usize];
+            other != bone
+                && meets_within(ends)
+                && self.is_through(span(source, ends))
+                && !self.is_stub(ends, source, target)
+                && turn(other) + STEADIER < turn(bone)
+        };
+        let found = (0..source.bones.len() as u32).filter(steadier);
+        found.min_by(|&a, &b| turn(a).total_cmp(&turn(b)))
     }
 
     /// The mean of `bones` in both skeletons, each turned so that it points along the loop's normal.
