@@ -1,16 +1,16 @@
 //! Corrections of key poses: the same garment posed by weights of several kinds, and by the library's with the offsets that
-//! it finds for each pose.
+//! it finds for each pose. And what it costs to have rigs: their reading, the map and the weights of the result beside the fit,
+//! and the way back to the own pose where the body stands in another one than the garment was made in.
 //!
 //! Beside two pairs of the closet stand real ones where there are any, in folders of their own. Skeletons become rigs of their
-//! joints, so that both sorts go the same way. What the rigs cost is told as well: reading, the map and the weights of the
-//! result, in shares of the run.
+//! joints, so that both sorts go the same way.
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use bespoke::error::Error;
+use bespoke::error::{Error, ErrorKind};
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::Diagnostic;
 use bespoke::input::rig::{Rig, RigJoint};
@@ -30,7 +30,7 @@ use closet::{Kind, sample};
 use gallery::folder::Pair;
 use gallery::sheet::{Cell, Heading, Layer, Role, Sheet, View};
 use gallery::{look, pair};
-use testing::posing::{Bound, Counts, POSES, Puppet};
+use testing::posing::{Bend, Bound, Counts, POSES, Puppet};
 
 /// Those of the closet.
 const PAIRS: [(Garment, Avatar); 2] = [(Garment::Coat, Avatar::Heavy), (Garment::Trousers, Avatar::Giant)];
@@ -44,9 +44,15 @@ const SHOWN: usize = 4;
 
 const METHODS: [&str; 4] = ["nearest vertex", "closest point", "Bespoke", "corrected"];
 
+/// The pose of a runner, to see what the way from the pose of the design to that of the body takes, in degrees.
+const RUNNER: &[Bend] = &[Bend::Elbow, Bend::Knee];
+const RUNNING: f64 = 75.0;
+
 /// What there may be of the intersections of the nearest vertex, and what rigs and weights may take of the time of the fits.
 const ALLOWED: f64 = 1.0 / 3.0;
 const RIGS: f64 = 0.10;
+/// What the way to the own pose may take of all.
+const WAY: f64 = 0.50;
 
 /// The joints of the samples' skeletons, with those of Mixamo's names that are in their places, and the top of the head.
 const NAMES: [&str; 16] = [
@@ -83,6 +89,9 @@ struct Found {
     counts: [Counts; METHODS.len()],
     /// Seconds of the run, of its fit, of rigs and weights, and of the corrections.
     seconds: [f64; 4],
+    /// Seconds of the way to the own pose, and of all, where the body stands in a pose that the garment was not made in. None
+    /// where there is no result.
+    way: Option<[f64; 2]>,
     body: TriangleMesh,
     garment: TriangleMesh,
     /// The body in the pose in which all joints bend, and the garment there by each method.
@@ -131,16 +140,7 @@ impl Given {
         let upright = self.upright();
         let Self { pair, skin, front, up } = self;
         let puppet = Puppet::new(&pair.skeleton, front, up);
-        let mut session = Session::new();
-        session.set_options(Options::default())?;
-        session.set_garment(pair.garment.clone(), Precision::F32)?;
-        session.set_source_rig(rig(&pair.source_skeleton, &puppet))?;
-        if let Some(source) = pair.source_avatar {
-            session.set_source_avatar(source)?;
-        }
-        session.set_target_avatar(pair.avatar.clone())?;
-        session.set_target_rig(rig(&pair.skeleton, &puppet))?;
-        session.set_target_skin(skin.clone())?;
+        let mut session = session(&pair, &puppet, pair.avatar.clone(), &pair.skeleton, &skin)?;
         let clock = Instant::now();
         session.run()?;
         let run = clock.elapsed().as_secs_f64();
@@ -154,6 +154,7 @@ impl Given {
         let clock = Instant::now();
         session.solve_pose_corrections(INFLUENCES)?;
         let seconds = [run, session.report().fit.seconds, rigs, clock.elapsed().as_secs_f64()];
+        let way = way(&pair, &puppet, &skin)?;
 
         let worn = TriangleMesh {
             positions: session.garment_as_read(Precision::F32)?.into_iter().map(|p| Precision::F32.round(p)).collect(),
@@ -176,8 +177,49 @@ impl Given {
                 bent = (pose.under.positions, cloths);
             }
         }
-        Ok(Found { name: pair.name, counts, seconds, body: pair.avatar, garment: worn, bent, upright })
+        Ok(Found { name: pair.name, counts, seconds, way, body: pair.avatar, garment: worn, bent, upright })
     }
+}
+
+/// All inputs, with the body as it stands.
+fn session(
+    pair: &Pair,
+    puppet: &Puppet,
+    avatar: TriangleMesh,
+    skeleton: &Skeleton,
+    skin: &SkinWeights,
+) -> Result<Session, Error> {
+    let mut session = Session::new();
+    session.set_options(Options::default())?;
+    session.set_garment(pair.garment.clone(), Precision::F32)?;
+    session.set_source_rig(rig(&pair.source_skeleton, puppet))?;
+    if let Some(source) = &pair.source_avatar {
+        session.set_source_avatar(source.clone())?;
+    }
+    session.set_target_avatar(avatar)?;
+    session.set_target_rig(rig(skeleton, puppet))?;
+    session.set_target_skin(skin.clone())?;
+    Ok(session)
+}
+
+/// What the way to the own pose takes, and the run, for a body that stands as a runner does. Where the body itself closes the way,
+/// what it took so far; none where the garment is refused in that pose.
+fn way(pair: &Pair, puppet: &Puppet, skin: &SkinWeights) -> Result<Option<[f64; 2]>, Error> {
+    let moves = puppet.moves(RUNNER, RUNNING);
+    let joints =
+        pair.skeleton.joints.iter().zip(&moves).map(|(&joint, motion)| motion.transform_point3(joint)).collect();
+    let avatar = TriangleMesh {
+        positions: linear_blend(&pair.avatar.positions, skin, &moves),
+        triangles: pair.avatar.triangles.clone(),
+    };
+    let skeleton = Skeleton { joints, bones: pair.skeleton.bones.clone() };
+    let mut session = session(pair, puppet, avatar, &skeleton, skin)?;
+    let clock = Instant::now();
+    let has_ended = match session.run() {
+        Err(error) => error.kind == ErrorKind::ImplausibleResult,
+        Ok(_) => true,
+    };
+    Ok(has_ended.then(|| [session.report().repose.seconds, clock.elapsed().as_secs_f64()]))
 }
 
 /// A skeleton with the joints of the samples, as a rig.
@@ -245,6 +287,8 @@ pub fn figure(folders: &[PathBuf]) -> Outcome<Figure> {
         "fit, s",
         "rigs and weights, s",
         "corrections, s",
+        "way, s",
+        "run with it, s",
     ];
     let view = View { azimuth: 24.0, elevation: 7.0, ..View::default() };
     let mut figure = Figure::new(Sheet::new("Key poses", subtitle, view), &columns);
@@ -252,13 +296,15 @@ pub fn figure(folders: &[PathBuf]) -> Outcome<Figure> {
     let real = folders.iter().filter_map(|folder| Pair::read(folder)).map(Given::real);
     let given: Vec<Given> = PAIRS.into_iter().map(Given::closet).chain(real).collect::<Outcome<_>>()?;
     let mut found = given.into_iter().map(Given::find).collect::<Outcome<Vec<Found>>>()?;
-    let (mut totals, mut seconds) = ([Counts::default(); METHODS.len()], [0.0; 4]);
+    let (mut totals, mut seconds) = ([Counts::default(); METHODS.len()], [0.0; 6]);
     for pair in &found {
         totals.iter_mut().zip(pair.counts).for_each(|(sum, counts)| *sum += counts);
-        seconds.iter_mut().zip(pair.seconds).for_each(|(sum, seconds)| *sum += seconds);
+        let of_pair = || pair.seconds.into_iter().chain(pair.way.into_iter().flatten());
+        seconds.iter_mut().zip(of_pair()).for_each(|(sum, seconds)| *sum += seconds);
         let mut row = vec![pair.name.clone()];
         row.extend(pair.counts.map(caption));
-        row.extend(pair.seconds.map(|seconds| format!("{seconds:.2}")));
+        row.extend(of_pair().map(|seconds| format!("{seconds:.2}")));
+        row.resize(columns.len(), "refused".into());
         figure.rows.push(row);
     }
     found.sort_by_key(|pair| Reverse(pair.corrected()));
@@ -270,7 +316,7 @@ pub fn figure(folders: &[PathBuf]) -> Outcome<Figure> {
         }
     }
     let [nearest, closest, weights, corrected] = totals.map(|sum| sum.own + sum.body);
-    let [_, fit, rigs, _] = seconds;
+    let [_, fit, rigs, _, way, all] = seconds;
     figure.claim(
         corrected as f64 <= ALLOWED * nearest as f64,
         format!("{corrected} pairs in all with corrections, {nearest} by nearest vertices (allowed: a third)"),
@@ -282,6 +328,10 @@ pub fn figure(folders: &[PathBuf]) -> Outcome<Figure> {
     figure.claim(
         rigs <= RIGS * fit,
         format!("rigs and weights take {:.1} % of the time of the fit (at most {:.0} %)", 1e2 * rigs / fit, 1e2 * RIGS),
+    );
+    figure.claim(
+        way <= WAY * all,
+        format!("the way to the own pose takes {:.0} % of all time (at most {:.0} %)", 1e2 * way / all, 1e2 * WAY),
     );
     Ok(figure)
 }
