@@ -144,10 +144,10 @@ internal static class Layout
         return listed.Count;
     }
 
-    // DiagnosticKind: DIAGNOSTIC_KIND.
+    // DiagnosticKind: DIAGNOSTIC_KIND; TJunctions: T_JUNCTIONS.
     private static string Upper(string name)
     {
-        return Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", "_").ToUpperInvariant();
+        return Regex.Replace(name, "(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_").ToUpperInvariant();
     }
 
     // Every function of the header is declared, with as many parameters, as C calls it, and nothing is marshalled but a
