@@ -105,8 +105,8 @@ impl ContactGuard {
     }
 
     /// Begins at `at`, where the pairs of garment triangles in `initial_intersections` intersect: they are exempted until they
-    /// separate, together with what touches within rounding; what is joined is so for good. Lowers the minimum separation below the distances of all active
-    /// pairs.
+    /// separate, together with what touches within rounding; what is joined is so for good. Lowers the minimum separation below
+    /// the distances of all active pairs.
     pub fn initialise(&mut self, at: Configuration<'_>, initial_intersections: &[[u32; 2]]) {
         let joined = self.bodies.garment.surface.joined();
         self.exempt_intersecting(at, [initial_intersections, joined].concat(), |_, _| true);
