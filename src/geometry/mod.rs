@@ -7,6 +7,7 @@
 //! contact code.
 
 pub mod alignment;
+pub mod border_edges;
 pub mod bvh;
 pub mod closest_point;
 pub mod cover;

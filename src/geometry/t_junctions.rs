@@ -8,6 +8,8 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use super::border_edges::{BorderEdge, border_edges};
+
 /// An edge of one triangle, beside which other triangles have vertices on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TJunction {
@@ -22,8 +24,9 @@ pub struct TJunction {
 /// The T-junctions of a mesh, in the order of their triangles. A vertex is on an edge that is nearer to it than `reach`. Both
 /// sides have the ends of the edge in common: seams whose sides have not are left as they are.
 pub fn find(positions: &[DVec3], triangles: &[[u32; 3]], reach: f64) -> Vec<TJunction> {
-    let borders = border_edges(triangles);
-    let mut at: HashMap<u32, Vec<Border>> = HashMap::new();
+    let mut borders = border_edges(triangles);
+    borders.sort_unstable_by_key(|border| (border.triangle, border.corner));
+    let mut at: HashMap<u32, Vec<BorderEdge>> = HashMap::new();
     for border in &borders {
         border.ends.iter().for_each(|&v| at.entry(v).or_default().push(*border));
     }
@@ -56,36 +59,13 @@ impl TJunction {
     }
 }
 
-/// An edge with one triangle, in the direction in which that has it.
-#[derive(Clone, Copy)]
-struct Border {
-    ends: [u32; 2],
-    triangle: u32,
-}
-
-fn border_edges(triangles: &[[u32; 3]]) -> Vec<Border> {
-    let mut sides: Vec<([u32; 2], u32, usize)> = Vec::with_capacity(3 * triangles.len());
-    for (t, corners) in (0u32..).zip(triangles) {
-        for k in 0..3 {
-            let [a, b] = [corners[k], corners[(k + 1) % 3]];
-            if a != b {
-                sides.push(([a.min(b), a.max(b)], t, k));
-            }
-        }
-    }
-    sides.sort_unstable();
-    let alone = sides.chunk_by(|s, t| s.0 == t.0).filter(|same| same.len() == 1);
-    let mut borders: Vec<(u32, usize)> = alone.map(|same| (same[0].1, same[0].2)).collect();
-    borders.sort_unstable();
-    let border = |(t, k): (u32, usize)| {
-        let corners = triangles[t as usize];
-        Border { ends: [corners[k], corners[(k + 1) % 3]], triangle: t }
-    };
-    borders.into_iter().map(border).collect()
-}
-
 /// Follows the border edges that lie on `border` from its first end to its second.
-fn junction(positions: &[DVec3], at: &HashMap<u32, Vec<Border>>, border: Border, reach: f64) -> Option<TJunction> {
+fn junction(
+    positions: &[DVec3],
+    at: &HashMap<u32, Vec<BorderEdge>>,
+    border: BorderEdge,
+    reach: f64,
+) -> Option<TJunction> {
     let [first, last] = border.ends;
     let [from, to] = border.ends.map(|v| positions[v as usize]);
     let edge = to - from;

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use crate::geometry::border_edges::{BorderEdge, border_edges};
 use crate::geometry::mesh::TriangleMesh;
 
 /// Two vertices are welded only where this share of the shortest edge at either is longer than the gap between them: a
@@ -17,8 +18,9 @@ const SHARE_OF_EDGES: f64 = 0.25;
 /// The triangles at a seam turn back on each other where the cosine of the angle between them is above this: 30 degrees.
 const FOLDED: f64 = 0.87;
 
-/// An edge with one triangle, in the direction in which that has it.
+/// An edge with one triangle.
 struct BoundaryEdge {
+    /// In the direction in which the triangle has it.
     ends: [u32; 2],
     /// From the edge to the third corner, across the edge; of unit length.
     inward: DVec3,
@@ -73,25 +75,13 @@ pub fn mean_edge(mesh: &TriangleMesh) -> f64 {
 }
 
 fn boundary_edges(mesh: &TriangleMesh) -> Vec<BoundaryEdge> {
-    let mut sides: Vec<([u32; 2], u32, usize)> = Vec::new();
-    for (t, corners) in (0u32..).zip(&mesh.triangles) {
-        for k in 0..3 {
-            let [a, b] = [corners[k], corners[(k + 1) % 3]];
-            if a != b {
-                sides.push(([a.min(b), a.max(b)], t, k));
-            }
-        }
-    }
-    sides.sort_unstable();
-    let alone = sides.chunk_by(|s, t| s.0 == t.0).filter(|same| same.len() == 1);
-    let edge = |&(_, t, k): &([u32; 2], u32, usize)| {
-        let corners = mesh.triangles[t as usize];
-        let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-        let [pa, pb, pc] = [a, b, c].map(|v| mesh.positions[v as usize]);
+    let edge = |border: BorderEdge| {
+        let [a, b] = border.ends;
+        let [pa, pb, pc] = [a, b, border.opposite].map(|v| mesh.positions[v as usize]);
         let inward = (pc - pa).reject_from(pb - pa).try_normalize()?;
         inward.is_finite().then_some(BoundaryEdge { ends: [a, b], inward })
     };
-    alone.filter_map(|same| edge(&same[0])).collect()
+    border_edges(&mesh.triangles).into_iter().filter_map(edge).collect()
 }
 
 /// All pairs of edges that could be a seam.

@@ -1,6 +1,7 @@
 //! Meshes, search trees and closest points against brute force and known answers.
 
 mod alignment;
+mod border_edges;
 mod bvh;
 mod closest_point;
 mod covered;
