@@ -128,14 +128,12 @@ impl Line {
 
     /// The middles of its bones, as far as the garment is around them.
     fn inside<'a>(&'a self, garment: &'a TriangleMesh) -> impl Iterator<Item = DVec3> + 'a {
-        let enclosed = |&[a, b]: &[DVec3; 2]| Section::cut(garment, a.midpoint(b), b - a).encloses(a.midpoint(b));
-        self.bones().filter(enclosed).map(|[a, b]| a.midpoint(b))
+        self.bones().filter(|&bone| is_around(garment, bone)).map(|[a, b]| a.midpoint(b))
     }
 
     /// Whether the garment is around its first bone.
     fn is_worn(&self, garment: &TriangleMesh) -> bool {
-        let Some([a, b]) = self.bones().next() else { return false };
-        Section::cut(garment, a.midpoint(b), b - a).encloses(a.midpoint(b))
+        self.bones().next().is_some_and(|bone| is_around(garment, bone))
     }
 
     /// Whether cloth is somewhere between it and another one, inside of the garment.
@@ -150,6 +148,11 @@ impl Line {
         };
         self.inside(garment).any(|p| nearest(p).is_some_and(|q| is_between(p, q)))
     }
+}
+
+/// Whether the garment is around the middle of a bone.
+fn is_around(garment: &TriangleMesh, [a, b]: [DVec3; 2]) -> bool {
+    Section::cut(garment, a.midpoint(b), b - a).encloses(a.midpoint(b))
 }
 
 /// Within the end of what a joint at `place` moves: the middle of what is near to the farthest point of it.
