@@ -22,6 +22,7 @@ use bespoke::session::{KeyPose, Precision, Session};
 use glam::{DMat3, DMat4, DVec3};
 
 use crate::figure::{Figure, Outcome};
+use crate::poses::claim_times;
 use crate::skin_weights::{BEND, INFLUENCES, by_tools, skin_of};
 use closet::avatars::{Avatar, avatar};
 use closet::garments::{Garment, garment};
@@ -48,11 +49,8 @@ const METHODS: [&str; 4] = ["nearest vertex", "closest point", "Bespoke", "corre
 const RUNNER: &[Bend] = &[Bend::Elbow, Bend::Knee];
 const RUNNING: f64 = 75.0;
 
-/// What there may be of the intersections of the nearest vertex, and what rigs and weights may take of the time of the fits.
+/// What there may be of the intersections of the nearest vertex.
 const ALLOWED: f64 = 1.0 / 3.0;
-const RIGS: f64 = 0.10;
-/// What the way to the own pose may take of all.
-const WAY: f64 = 0.50;
 
 /// The joints of the samples' skeletons, with those of Mixamo's names that are in their places, and the top of the head.
 const NAMES: [&str; 16] = [
@@ -325,14 +323,7 @@ pub fn figure(folders: &[PathBuf]) -> Outcome<Figure> {
         corrected <= weights && weights < closest,
         format!("{corrected} with corrections, {weights} without, {closest} by closest points"),
     );
-    figure.claim(
-        rigs <= RIGS * fit,
-        format!("rigs and weights take {:.1} % of the time of the fit (at most {:.0} %)", 1e2 * rigs / fit, 1e2 * RIGS),
-    );
-    figure.claim(
-        way <= WAY * all,
-        format!("the way to the own pose takes {:.0} % of all time (at most {:.0} %)", 1e2 * way / all, 1e2 * WAY),
-    );
+    claim_times(&mut figure, [rigs, fit], [way, all]);
     Ok(figure)
 }
 

@@ -175,6 +175,12 @@ pub fn figure() -> Outcome<Figure> {
             1e2 * ALLOWED
         ),
     );
+    claim_times(&mut figure, [rigs, fit], [way, all]);
+    Ok(figure)
+}
+
+/// Claims what rigs and weights take of the fit, and what the way to the own pose takes of all; in seconds.
+pub fn claim_times(figure: &mut Figure, [rigs, fit]: [f64; 2], [way, all]: [f64; 2]) {
     figure.claim(
         rigs <= RIGS * fit,
         format!("rigs and weights take {:.1} % of the time of the fit (at most {:.0} %)", 1e2 * rigs / fit, 1e2 * RIGS),
@@ -183,5 +189,4 @@ pub fn figure() -> Outcome<Figure> {
         way <= WAY * all,
         format!("the way to the own pose takes {:.0} % of all time (at most {:.0} %)", 1e2 * way / all, 1e2 * WAY),
     );
-    Ok(figure)
 }
