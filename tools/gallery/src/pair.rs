@@ -9,6 +9,7 @@ use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::regularity::{asymmetry, opening_growth};
@@ -90,18 +91,21 @@ pub fn dress(
     let ran = catch_unwind(AssertUnwindSafe(|| run(garment, body, mannequin, options, &mut outcome)))
         .unwrap_or_else(|_| Err(Error::new(ErrorKind::Internal, "it panicked, which is a defect of the library")));
     outcome.seconds = clock.elapsed().as_secs_f64();
-    outcome.error = ran.err().map(|error| error.message);
+    match ran {
+        Ok(positions) => measure(&mut outcome, garment, body, positions),
+        Err(error) => outcome.error = Some(error.message),
+    }
     outcome
 }
 
-/// Fills in what is measured, as far as it comes.
+/// Fills in what the session measures, as far as it comes; where it leaves the garment's vertices.
 fn run(
     garment: &Sample,
     body: &Sample,
     mannequin: Option<&Sample>,
     options: &Options,
     outcome: &mut Outcome,
-) -> Result<()> {
+) -> Result<Vec<DVec3>> {
     let mut session = session(garment, body, mannequin, options)?;
     let ended = session.run();
     let report = session.report();
@@ -114,13 +118,16 @@ fn run(
     let distortion = session.distortion()?;
     outcome.distortion = Some(mean_and_largest(&distortion));
     outcome.distortions = distortion.into_iter().map(|d| d as f32).collect();
-    let positions = session.garment_as_read(Precision::F32)?;
+    session.garment_as_read(Precision::F32)
+}
+
+/// Fills in what is measured on the garment at `positions`, which takes no part in the seconds of the session.
+fn measure(outcome: &mut Outcome, garment: &Sample, body: &Sample, positions: Vec<DVec3>) {
     let designed = mesh(&garment.mesh);
     let dressed = TriangleMesh { positions, triangles: designed.triangles.clone() };
     outcome.asymmetry = Some([&dressed, &mesh(&body.mesh)].map(|mesh| 1e3 * asymmetry(mesh)));
     outcome.opening_growth = opening_growth(&designed, &dressed.positions);
     outcome.positions = dressed.positions.into_iter().map(|p| p.as_vec3().to_array()).collect();
-    Ok(())
 }
 
 /// Mean and largest of numbers from 0 on.
