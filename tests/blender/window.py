@@ -155,6 +155,18 @@ def steps() -> Iterator[float]:
     assert names() - before == {"jacket on heavy rig"}, names()
     print("undone and redone", flush=True)
 
+    # A body with a shape key, which the garment is to follow.
+    heavy = bpy.data.objects["heavy"]
+    for name in ("Basis", "heavier"):
+        heavy.shape_key_add(name=name)
+    for point in heavy.data.shape_keys.key_blocks["heavier"].data:
+        point.co.y *= 1.1
+    with bpy.context.temp_override(area=area, region=region):
+        assert bpy.ops.bespoke.follow_key(key="heavier") == {"FINISHED"}
+    yield 0.5
+    yield from picture("keys")
+    bpy.context.scene.bespoke.followed_keys.clear()
+
     # A jacket that passes through itself, for something to select.
     points = bpy.data.objects["jacket"].data.vertices
     for k in range(40, 44):

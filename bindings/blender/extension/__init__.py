@@ -4,16 +4,17 @@ The library is in the wheel that comes with this extension, the package `bespoke
 
     dials, preferences     what is asked for
     lists, joint_map       the choice of meshes and of joints that correspond
-    meshes, rigs           from objects and armatures to arrays
+    shape_keys             those of the body that garments follow
+    meshes, rigs, humanoid from objects and armatures to arrays
     work, turns            the fitting itself, in a thread; knows nothing of Blender
     results, findings      back: objects, and what is to be looked at
     dress, panel           the operator and the sidebar
     texts, troubleshooting what is said, from the package and its pages
 """
 
-from . import dials, dress, findings, joint_map, lists, panel, preferences, troubleshooting
+from . import dials, dress, findings, joint_map, lists, panel, preferences, shape_keys, troubleshooting
 
-_MODULES = (preferences, dials, lists, joint_map, findings, troubleshooting, dress, panel)
+_MODULES = (preferences, dials, lists, shape_keys, joint_map, findings, troubleshooting, dress, panel)
 
 
 def register() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import bespoke
 import bpy
 
-from . import texts
+from . import shape_keys, texts
 
 # The dials of the panel, as they are called in all programs of Bespoke, and the options that they are.
 MAIN = {"fit": "fit_weight", "looseness": "designed_clearance", "offset": "offset"}
@@ -61,8 +61,13 @@ class BespokeMesh(bpy.types.PropertyGroup):
 
 def _fill(scene: bpy.types.Scene, armature: bpy.types.Object | None, bodies: Any) -> None:
     """Where nothing is chosen yet, all meshes that an armature bends, and that can be seen, are its body. What only
-    hangs on a bone may be a prop."""
-    if armature is None or any(item.object for item in bodies):
+    hangs on a bone may be a prop. Meshes of another armature, which was chosen before, go."""
+    if armature is None:
+        return
+    for k in reversed(range(len(bodies))):
+        if bodies[k].object is not None and armature_of(bodies[k].object) not in (None, armature):
+            bodies.remove(k)
+    if any(item.object for item in bodies):
         return
     bodies.clear()
     worn = {item.object for item in (*scene.bespoke.garments, *scene.bespoke.followers)}
@@ -81,6 +86,10 @@ def _source_chosen(self: Any, context: bpy.types.Context) -> None:
 def _target_chosen(self: Any, context: bpy.types.Context) -> None:
     self.joints.clear()
     _fill(context.scene, self.target, self.target_bodies)
+    there = shape_keys.names(shape_keys.bodies(context.scene))
+    for k in reversed(range(len(self.followed_keys))):
+        if self.followed_keys[k].name not in there:
+            self.followed_keys.remove(k)
 
 
 def _mended(self: Any, _context: bpy.types.Context) -> None:
@@ -100,6 +109,10 @@ class BespokeJoint(bpy.types.PropertyGroup):
     reason_comment: bpy.props.StringProperty()
     confidence: bpy.props.FloatProperty(name="Confidence", description="From 0, a guess, to 1, sure")
     part: bpy.props.StringProperty()
+
+
+class BespokeShapeKey(bpy.types.PropertyGroup):
+    """A shape key of the body to dress, which is its name."""
 
 
 class BespokePlace(bpy.types.PropertyGroup):
@@ -160,6 +173,7 @@ class BespokeScene(bpy.types.PropertyGroup):
     )
     target_bodies: bpy.props.CollectionProperty(type=BespokeMesh)
     target_body_index: bpy.props.IntProperty()
+    followed_keys: bpy.props.CollectionProperty(type=BespokeShapeKey)
     joints: bpy.props.CollectionProperty(type=BespokeJoint)
     joint_index: bpy.props.IntProperty()
     findings: bpy.props.CollectionProperty(type=BespokeDiagnostic)
@@ -210,7 +224,7 @@ def chosen(scene: bpy.types.Scene) -> dict[str, Any]:
     return found
 
 
-_CLASSES = (BespokeMesh, BespokeJoint, BespokePlace, BespokeDiagnostic, BespokeScene)
+_CLASSES = (BespokeMesh, BespokeJoint, BespokeShapeKey, BespokePlace, BespokeDiagnostic, BespokeScene)
 
 
 def register() -> None:

@@ -6,10 +6,11 @@ import dataclasses
 
 import bespoke
 import bpy
+import mathutils
 import mathutils.kdtree
 import numpy as np
 
-from . import dials, meshes, preferences, rigs, work
+from . import dials, meshes, preferences, rigs, shape_keys, work
 from .meshes import Array, Mesh, SceneError
 
 
@@ -116,7 +117,7 @@ def _morphs(thing: bpy.types.Object, source: bpy.types.Object) -> list[tuple[str
         return []
     turn = np.array(rigs.frame(source) @ meshes.rest_matrix(thing), np.float64)[:3, :3].T
     keys = thing.data.shape_keys.key_blocks[1:]
-    return [(key.name, (_shape(key) - _shape(key.relative_key)) @ turn) for key in keys]
+    return [(key.name, (meshes.shape(key) - meshes.shape(key.relative_key)) @ turn) for key in keys]
 
 
 def _followers(
@@ -155,12 +156,6 @@ def _nearest(vertices: Array, found: list[tuple[Mesh, work.Garment]]) -> int:
     return int(np.argmin(distances))
 
 
-def _shape(key: bpy.types.ShapeKey) -> Array:
-    numbers = np.empty(3 * len(key.data), np.float32)
-    key.data.foreach_get("co", numbers)
-    return numbers.reshape(-1, 3).astype(np.float64)
-
-
 def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
     """What the scene asks for.
 
@@ -197,7 +192,9 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
                     read.append(meshes.read(thing, mesh, frame))
             return read
 
-        bodies_there, bodies_here = bodies(source_bodies, to_source), bodies(target_bodies, to_target)
+        bodies_there = bodies(source_bodies, to_source)
+        followed = shape_keys.chosen(scene, target_bodies) if needs_garments else []
+        bodies_here, morphs = _body_to_dress(target_bodies, to_target, followed, depsgraph)
         layers_here = bodies(layers, to_target)
         for item in chosen if needs_garments else ():
             with garment_mesh(item.object, depsgraph) as mesh:
@@ -210,6 +207,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         whole=_body([*bodies_there, *(mesh for mesh, _ in found)], source, None) if bodies_there and found else None,
         target_rig=rigs.joints(target),
         target=_body(bodies_here, target, [roles[thing] for thing in target_bodies]),
+        target_morphs=morphs,
         layers=[(mesh.vertices, mesh.triangles) for mesh in layers_here],
         pairs=pairs(scene, source, target),
         options=options(context),
@@ -217,6 +215,27 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         asks_for_covered=settings.mask_covered,
     )
     return Inputs(task, [mesh for mesh, _ in found], followers, source, bodies_there, target, bodies_here, layers_here)
+
+
+def _body_to_dress(
+    things: list[bpy.types.Object], frame: mathutils.Matrix, followed: list[str], depsgraph: bpy.types.Depsgraph
+) -> tuple[list[Mesh], list[tuple[str, Array]]]:
+    """Its meshes without the shape keys that garments are to follow, and what each of these adds to the vertices of all."""
+    read: list[Mesh] = []
+    of_mesh: list[dict[str, Array]] = []
+    for thing in things:
+        if set(followed).intersection(shape_keys.names([thing])):
+            mesh, offsets = shape_keys.read(thing, followed, frame)
+        else:
+            with meshes.evaluated(thing, depsgraph) as now:
+                mesh, offsets = meshes.read(thing, now, frame), {}
+        read.append(mesh)
+        of_mesh.append(offsets)
+    parts = list(zip(read, of_mesh))
+    return read, [
+        (name, np.concatenate([offsets.get(name, np.zeros_like(mesh.vertices)) for mesh, offsets in parts]))
+        for name in followed
+    ]
 
 
 def garment_mesh(thing: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> object:

@@ -105,6 +105,13 @@ def array(mesh: bpy.types.Mesh) -> Array:
     return numbers.reshape(-1, 3)
 
 
+def shape(key: bpy.types.ShapeKey) -> Array:
+    """The vertices of a shape key, shape (n, 3), float64."""
+    numbers = np.empty(3 * len(key.data), np.float32)
+    key.data.foreach_get("co", numbers)
+    return numbers.reshape(-1, 3).astype(np.float64)
+
+
 def moved(points: Array, matrix: mathutils.Matrix) -> Array:
     """Points by a matrix, float64."""
     numbers = np.array(matrix, np.float64)

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from . import dials, dress, findings
+from . import dials, dress, findings, shape_keys
 
 
 class _Panel:
@@ -54,7 +54,10 @@ class BESPOKE_PT_dress(_Panel, bpy.types.Panel):
         column.prop(settings, "target", text="")
         _list(column, settings, "target_bodies", "target_body_index", 1, can_move=False)
         if 0 <= settings.target_body_index < len(settings.target_bodies):
-            column.prop(settings.target_bodies[settings.target_body_index], "role")
+            row = column.row()
+            row.use_property_split = True
+            row.prop(settings.target_bodies[settings.target_body_index], "role")
+        self._keys(column, context.scene)
         column.separator()
         dial = column.column(align=True)
         dial.use_property_split = True
@@ -73,6 +76,18 @@ class BESPOKE_PT_dress(_Panel, bpy.types.Panel):
         column.use_property_split = True
         for name in ("fit_group", "pin_group", "rigid_group"):
             column.prop_search(item, name, item.object, "vertex_groups")
+
+    def _keys(self, layout: Any, scene: bpy.types.Scene) -> None:
+        followed = scene.bespoke.followed_keys
+        if not followed and not shape_keys.names(shape_keys.bodies(scene)):
+            return
+        column = layout.column(align=True)
+        for index, item in enumerate(followed):
+            row = column.row(align=True)
+            row.label(text=f"Follows {item.name}", icon="SHAPEKEY_DATA")
+            row.operator("bespoke.ignore_key", text="", icon="X").index = index
+        if len(followed) < len(shape_keys.names(shape_keys.bodies(scene))):
+            column.operator_menu_enum("bespoke.follow_key", "key", icon="SHAPEKEY_DATA")
 
     def _run(self, layout: Any) -> None:
         run = dress.running()

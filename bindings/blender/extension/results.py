@@ -6,7 +6,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import meshes, rigs, work
+from . import meshes, rigs, shape_keys, work
 from .inputs import Inputs, cloth, garment_mesh
 from .meshes import Array, SceneError
 
@@ -45,6 +45,8 @@ def write(context: bpy.types.Context, inputs: Inputs, index: int, outcome: work.
     try:
         for thing, worn in zip(things, [outcome, *outcome.followers], strict=True):
             made.append(_object(context, inputs, thing, worn, names))
+        for name, offsets in outcome.answers:
+            shape_keys.follow(made[0], name, offsets, [mesh.object for mesh in inputs.target_bodies])
     except BaseException:
         # Nothing half-made stays.
         for result in made:

@@ -9,6 +9,7 @@ import bpy
 import mathutils
 import numpy as np
 
+from . import humanoid
 from .meshes import Array, Mesh, SceneError, rest_matrix
 
 
@@ -19,7 +20,7 @@ def frame(armature: bpy.types.Object) -> mathutils.Matrix:
 
 
 def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
-    """All bones in the rest pose, in the order of the armature."""
+    """All bones in the rest pose, in the order of the armature, named as in VRM where that is known."""
     if armature.mode == "EDIT":
         armature.update_from_editmode()
     bones = armature.data.bones
@@ -29,9 +30,10 @@ def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
     if abs(place.determinant()) < 1e-12:
         raise SceneError(f"{armature.name}: the armature is scaled to nothing; give it a scale")
     number = {bone.name: k for k, bone in enumerate(bones)}
+    called = humanoid.names(armature)
     return [
         bespoke.Joint(
-            bone.name,
+            called.get(bone.name, bone.name),
             number[bone.parent.name] if bone.parent is not None else None,
             np.array(place @ bone.matrix_local, np.float64),
         )

@@ -73,6 +73,8 @@ class Task:
     """Garments that the target wears already, from the inside outwards: vertices and triangles."""
     pairs: list[tuple[int, int]]
     options: bespoke.Options
+    target_morphs: list[tuple[str, Array]] = dataclasses.field(default_factory=list)
+    """What the garments are to follow: names, and offsets of all vertices of the target."""
     influences: int = 4
     asks_for_covered: bool = False
 
@@ -92,6 +94,8 @@ class Outcome(Worn):
     """What became of one garment."""
 
     followers: list[Worn] = dataclasses.field(default_factory=list)
+    answers: list[tuple[str, Array]] = dataclasses.field(default_factory=list)
+    """How it follows the target's morphs; one that it cannot follow is left out, and told by a finding."""
     added: tuple[bespoke.AddedJoint, ...] = ()
     covered: Array | None = None
     """Triangles of the body that nobody sees now, where they were asked for."""
@@ -137,6 +141,8 @@ def filled(task: Task, garment: Garment, layers: Sequence[tuple[Array, Array]]) 
         session.add_rigid_group(group)
     for name, offsets in garment.morphs:
         session.add_garment_morph(offsets, name)
+    for name, offsets in task.target_morphs:
+        session.add_target_morph(offsets, name)
     for follower in garment.followers:
         session.add_follower(follower.vertices, follower.triangles)
     for vertices, triangles in layers:
@@ -192,6 +198,8 @@ class Run:
         self._over = threading.Event()
         self._lock = threading.Lock()
         self._session: Session | None = None
+        self._answers = False
+        self._told = 0.0
         self._thread = threading.Thread(target=self._guarded, name="bespoke run", daemon=True)
 
     def start(self) -> None:
@@ -234,8 +242,18 @@ class Run:
             return 1.0, STAGES[Stage.DONE]
         with self._lock:
             now = self._session.read_progress() if self._session is not None else None
-        part, stage = (0.0, STAGES[Stage.SETUP]) if now is None else (share(now), STAGES.get(now.stage, ""))
-        return (done + part) / count, f"{self.task.garments[done].name}: {stage}"
+        part, stage = (0.0, STAGES[Stage.SETUP]) if now is None else (self._share(now), STAGES.get(now.stage, ""))
+        self._told = max(self._told, (done + part) / count)
+        return self._told, f"{self.task.garments[done].name}: {stage}"
+
+    def _share(self, now: Progress) -> float:
+        own = share(now)
+        if not self.task.target_morphs:
+            return own
+        # To follow takes about as long again, with stages that begin anew.
+        if not self._answers:
+            return own / 2.0
+        return 0.5 + (own / 2.0 if now.stage in (Stage.REPOSE, Stage.FIT) else 0.0)
 
     def _guarded(self) -> None:
         try:
@@ -281,7 +299,7 @@ class Run:
 
     def _watch(self, session: Session | None) -> None:
         with self._lock:
-            self._session = session
+            self._session, self._answers = session, False
             if session is not None and self._cancelled.is_set():
                 session.cancel()
 
@@ -297,6 +315,8 @@ class Run:
             if not np.array_equal(session.read_pose_transforms(), identity):
                 # In the pose of the design it is no garment on the armature as it is.
                 return
+        if outcome.failure is None and self.task.target_morphs:
+            self._follow(session, outcome)
         if self.task.target.influences is not None:
             bones, weights, _ = session.read_garment_skin_influences(self.task.influences)
             outcome.skin = (bones, weights)
@@ -308,6 +328,22 @@ class Run:
         outcome.findings = session.read_diagnostics()
         outcome.report = session.read_report()
         outcome.vertices = session.read_garment_vertices()
+
+    def _follow(self, session: Session, outcome: Outcome) -> None:
+        self._answers = True
+        try:
+            session.solve_target_morphs()
+        except bespoke.CancelledError:
+            raise
+        except bespoke.BespokeError as failure:
+            # The result is good as it is.
+            outcome.failure = failure
+        for k, (name, _) in enumerate(self.task.target_morphs):
+            try:
+                outcome.answers.append((name, session.read_target_morph(k)))
+            except bespoke.BespokeError as failure:
+                if failure.status != bespoke.Status.INVALID_STATE:
+                    raise
 
     def _follower(self, session: Session, number: int, design: Follower) -> Worn:
         worn = Worn(vertices=session.read_follower_vertices(number))
