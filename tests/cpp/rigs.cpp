@@ -7,7 +7,7 @@ namespace {
 
 using namespace bespoke;
 
-struct Vertex {
+struct Weighted {
     std::uint16_t joints[2];
     float weights[2];
 };
@@ -115,7 +115,7 @@ void key_poses() {
     ACCEPTED(session.clear_key_poses());
 }
 
-void refusals() {
+void rigs_refused() {
     Session session = Session::create().value();
     REFUSED(session.set_source_rig({}), Status::invalid_skeleton, "source rig");
     REFUSED(session.read_added_joints(), Status::invalid_state, "result");
@@ -151,11 +151,11 @@ void skeletons_and_skins() {
                                     joint("", 0, scene.joints[2])};
     ACCEPTED(session.set_source_rig(joints));
     CHECK(session.read_joint_map().value().size() == 3);
-    std::vector<Vertex> vertices(scene.garment.points.size());
-    for (Vertex &v : vertices) v = {{0, 1}, {0.5f, 0.5f}};
-    ACCEPTED(session.set_garment_skin_influences({vertices, &Vertex::joints}, {vertices, &Vertex::weights}, 3));
-    ACCEPTED(session.set_source_skin_influences({vertices, &Vertex::joints}, {vertices, &Vertex::weights}, 3));
-    ACCEPTED(session.set_garment_skin_influences({vertices, &Vertex::joints}, {vertices, &Vertex::weights}, 4));
+    std::vector<Weighted> vertices(scene.garment.points.size());
+    for (Weighted &v : vertices) v = {{0, 1}, {0.5f, 0.5f}};
+    ACCEPTED(session.set_garment_skin_influences({vertices, &Weighted::joints}, {vertices, &Weighted::weights}, 3));
+    ACCEPTED(session.set_source_skin_influences({vertices, &Weighted::joints}, {vertices, &Weighted::weights}, 3));
+    ACCEPTED(session.set_garment_skin_influences({vertices, &Weighted::joints}, {vertices, &Weighted::weights}, 4));
     REFUSED(session.prepare(), Status::invalid_weights, "garment skin weights");
     // The skeleton takes the rig's place, as before.
     ACCEPTED(session.set_source_skeleton(scene.joints, scene.bones));
@@ -166,7 +166,7 @@ void skeletons_and_skins() {
 
 void rigs() {
     maps();
-    refusals();
+    rigs_refused();
     skeletons_and_skins();
     outfits();
     key_poses();

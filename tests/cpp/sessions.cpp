@@ -205,12 +205,12 @@ void what_is_read() {
 
     // Into the caller's memory, with room to spare, beside other things; into new memory, in another shape.
     const auto expected = session.read_garment_vertices().value();
-    struct Vertex {
+    struct Corner {
         std::uint32_t colour;
         float position[3];
     };
-    std::vector<Vertex> structs(vertices + 1, {7, {9, 9, 9}});
-    CHECK(session.read_garment_vertices({structs, &Vertex::position}).value() == vertices);
+    std::vector<Corner> structs(vertices + 1, {7, {9, 9, 9}});
+    CHECK(session.read_garment_vertices({structs, &Corner::position}).value() == vertices);
     for (std::size_t v = 0; v < vertices; v++) {
         CHECK(structs[v].colour == 7 && std::memcmp(structs[v].position, &expected[v], sizeof expected[v]) == 0);
     }
@@ -347,7 +347,7 @@ void shared() {
 }
 
 /// While a C function is inside of a session: others are busy, and a destructor takes nothing away.
-void busy() {
+void one_at_a_time() {
     Scene scene;
     scene.garment = Tube(0.3, 0.5, 60, 80);
     std::optional<Session> session = session_with(scene);
@@ -378,5 +378,5 @@ void sessions() {
     diagnostics();
     several_threads();
     shared();
-    busy();
+    one_at_a_time();
 }
