@@ -283,26 +283,34 @@ lint: dependencies
 	sh bindings/godot/lint.sh
 	RUSTDOCFLAGS='-D warnings' cargo doc --release --workspace --lib --no-deps
 
-# The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
-# so that nothing is built twice. What is shipped is made meanwhile: each of the two has long parts for one core.
-.PHONY: test
-test: dependencies
-	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
+# What the tests try that is neither the workspace's nor needed by them all. apt is through before anything here asks it where
+# its mirror is.
+.PHONY: tested-apart
+tested-apart: dependencies
 	sh .ci/dependencies node npm || true
 	$(if $(SHIPS),sh .ci/dependencies $(MINGW) wine || true)
 	$(MAKE) python-environment
 	$(MAKE) hosts-fetched & fetched=$$!; \
-	$(if $(SHIPS),$(MAKE) dist host-tbb tested-windows & shipped=$$!,shipped=); \
+	$(if $(SHIPS),$(MAKE) dist host-tbb tested-windows,true); ended=$$?; wait $$fetched; exit $$ended
+
+# The header is compared, and compiled as C99 and C++17, by the tests of the C API. They are built like the library,
+# so that nothing is built twice. What is shipped is made meanwhile: each of the two has long parts for one core. So have the
+# tests, beside which Blender's run and write into a file.
+.PHONY: test
+test: dependencies
+	sh .ci/dependencies cmake pkg-config clang mcs mono $(if $(SHIPS),pip3)
+	$(MAKE) tested-apart & apart=$$!; \
 	$(MAKE) lint build/retarget && cargo test --release --workspace --no-run; built=$$?; \
-	[ $$built -eq 0 ] || { kill $$shipped $$fetched 2>/dev/null; exit $$built; }; wait $$fetched; wait $$shipped
+	[ $$built -eq 0 ] || { kill $$apart 2>/dev/null; exit $$built; }; wait $$apart
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/wheel/wheel.sh $(PYTHON)/bin/python $(SHIPPED) build/wheel)
 	$(MAKE) godot-environment
 	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh packaging/blender/environment.sh $(BLENDER) $(BPY) || [ $$? -eq 3 ])
+	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
+	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY) >build/blender-tests.txt 2>&1 & blender=$$!,blender=); \
 	[ ! -d $(BLENDER) ] || export BESPOKE_BLENDER=$(CURDIR)/$(BLENDER)/bin/python; \
 	[ ! -d $(WINDOWS) ] || export BESPOKE_WINDOWS=$(CURDIR)/$(WINDOWS); BESPOKE_RETARGET=$(CURDIR)/build/retarget \
-		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace
-	[ -f $(SAMPLE)/heavy/skin.txt ] || cargo run --release -p closet -- $(SAMPLE)
-	$(if $(SHIPS),[ ! -d $(PYTHON) ] || sh tests/blender/test.sh build/wheel $(SAMPLE) $(BPY))
+		$(if $(SHIPS),BESPOKE_WHEEL=$(CURDIR)/build/wheel BESPOKE_DIST=$(CURDIR)/$(ARCHIVE) BESPOKE_TBB=$(CURDIR)/build/tbb) cargo test --release --workspace; \
+	tested=$$?; [ -z "$$blender" ] || { wait $$blender || tested=$$?; cat build/blender-tests.txt; }; exit $$tested
 	$(MAKE) install DESTDIR='$(CURDIR)/build/stage'
 	$(MAKE) uninstall DESTDIR='$(CURDIR)/build/stage'
 	[ -z "$$(find build/stage ! -type d)" ]
