@@ -13,6 +13,10 @@ from . import humanoid
 from .meshes import Array, Mesh, SceneError, rest_matrix
 
 
+# How Rigify begins the names of bones that move the body, and of those that it was made of.
+_DEFORMS, _ORIGINAL = "DEF-", "ORG-"
+
+
 def frame(armature: bpy.types.Object) -> mathutils.Matrix:
     """From the world to the space in which a character is handed over: the world's axes and unit, around its armature,
     so that numbers stay small wherever it stands."""
@@ -31,14 +35,43 @@ def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
         raise SceneError(f"{armature.name}: the armature is scaled to nothing; give it a scale")
     number = {bone.name: k for k, bone in enumerate(bones)}
     called = humanoid.names(armature)
+    parents = _parents(bones)
     return [
         bespoke.Joint(
             called.get(bone.name, bone.name),
-            number[bone.parent.name] if bone.parent is not None else None,
+            number[parents[bone.name].name] if parents[bone.name] is not None else None,
             np.array(place @ bone.matrix_local, np.float64),
         )
         for bone in bones
     ]
+
+
+def _parents(bones: bpy.types.ArmatureBones) -> dict[str, bpy.types.Bone | None]:
+    """What each bone hangs on. In rigs that Rigify makes, bones that move the body hang on such that move bones, and so shoulders on
+    no bone of the trunk that is seen: the one that moves the body in the place of that counts."""
+    found = {bone.name: bone.parent for bone in bones}
+    for bone in bones:
+        if bone.name.startswith(_DEFORMS):
+            found[bone.name] = _above(bones, bone) or bone.parent
+    for name in found:
+        seen = set()
+        while name is not None and name not in seen:
+            seen.add(name)
+            name = found[name].name if found[name] is not None else None
+        if name is not None:
+            # In a circle: somebody else's names.
+            return {bone.name: bone.parent for bone in bones}
+    return found
+
+
+def _above(bones: bpy.types.ArmatureBones, bone: bpy.types.Bone) -> bpy.types.Bone | None:
+    above = bone.parent
+    while above is not None and not above.use_deform:
+        instead = bones.get(_DEFORMS + above.name.removeprefix(_ORIGINAL))
+        if instead is not None and instead != bone:
+            return instead
+        above = above.parent
+    return above
 
 
 def influences(meshes: Sequence[Mesh], armature: bpy.types.Object) -> tuple[Array, Array] | None:
