@@ -56,6 +56,16 @@ pub fn project(name: &str) -> Option<Project> {
 }
 
 impl Project {
+    /// As it is before anybody has opened it, with the add-on switched off.
+    pub fn forget(&self) {
+        fs::remove_dir_all(self.folder.join(".godot")).expect("what the engine remembers");
+        let project = self.folder.join("project.godot");
+        let text = fs::read_to_string(&project).expect("there is a project");
+        let without = text.replace("\"res://addons/bespoke/plugin.cfg\", ", "");
+        assert!(without != text, "the add-on is not switched on");
+        fs::write(&project, without).expect("a file");
+    }
+
     /// Where tests read and write.
     pub fn data(&self) -> PathBuf {
         self.folder.join("data")

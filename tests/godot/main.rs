@@ -117,6 +117,15 @@ fn dock() {
     ends_well("the dock", &output, "ran the dock");
 }
 
+/// A user's first start: a project that was never opened before, in which the add-on is copied and switched on.
+#[test]
+fn first_start() {
+    let Some(project) = project("first") else { return };
+    project.forget();
+    let output = project.run(240, &["--headless", "--editor", "--", "first"]);
+    ends_well("the first start", &output, "ran the first start");
+}
+
 /// A game that was exported finds the library, and dresses.
 #[test]
 fn exported_game() {
@@ -132,6 +141,26 @@ fn exported_game() {
     // The engine's system has no shell, which it complains of as it begins.
     let is_good = output.status.success() && said.contains("dressed in game.x86_64");
     assert!(is_good && !complained.contains("FAILED") && !complained.contains("SCRIPT ERROR"), "{said}\n{complained}");
+}
+
+/// What the class has, by its help, is tried somewhere.
+#[test]
+fn every_method_and_signal_is_tried() {
+    let help = fs::read_to_string(root().join("bindings/godot/doc_classes/BespokeRetarget.xml")).expect("the help");
+    let folder = root().join("tests/godot/project");
+    let tests =
+        FILES.iter().map(|name| fs::read_to_string(folder.join(format!("{name}.gd"))).expect("a file of tests"));
+    let tests = tests.collect::<Vec<_>>().join("\n");
+    let mut count = 0;
+    for kind in ["method", "signal", "member"] {
+        for rest in help.split(&format!("<{kind} name=\"")).skip(1) {
+            let name = rest.split('"').next().expect("a name");
+            let uses = [format!(".{name}("), format!(".{name}."), format!(".{name} ")];
+            assert!(uses.iter().any(|used| tests.contains(used)), "no test tries {kind} {name}");
+            count += 1;
+        }
+    }
+    assert!(count > 50, "the help has {count} methods, signals and properties");
 }
 
 #[test]

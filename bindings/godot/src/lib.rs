@@ -2,8 +2,8 @@
 //!
 //! What a script sets (`inputs`) and the meshes and skeletons of a scene become plain arrays (`scene`, `mesh`, `figure`, `painted`), a
 //! session works on them in a thread of its own (`session`, `job`, `running`), and its result becomes a mesh with a skin again
-//! (`result`). Classes of the engine that are not compiled in
-//! are called by name (`engine`).
+//! (`result`), and animations of its blend shapes tracks for it (`tracks`). Classes of the engine that are not compiled in are called
+//! by name (`engine`).
 
 #[rustfmt::skip]
 mod constants;
@@ -24,6 +24,7 @@ mod retarget;
 mod running;
 mod scene;
 mod session;
+mod tracks;
 mod turned;
 #[allow(missing_docs)]
 #[rustfmt::skip]

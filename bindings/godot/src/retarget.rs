@@ -11,6 +11,7 @@ use crate::options;
 use crate::result;
 use crate::running::{Done, Event, Running, emit, share};
 use crate::session::{Failure, Result};
+use crate::tracks;
 use crate::words::{WORDS, Word};
 
 /// Puts a garment that was made for one character on another, with no triangle through another.
@@ -383,6 +384,18 @@ impl BespokeRetarget {
             }
             (_, None) => {
                 self.fail(no_result());
+            }
+        }
+    }
+
+    #[func]
+    fn add_blend_shape_tracks(&mut self, player: Option<Gd<Node>>, garment: Option<Gd<Node3D>>) -> i64 {
+        let result = self.done.result.as_ref().ok_or_else(no_result);
+        match result.and_then(|result| tracks::add(player, garment, &result.scene)) {
+            Ok(added) => added,
+            Err(failure) => {
+                self.fail(failure);
+                0
             }
         }
     }

@@ -84,6 +84,39 @@ func test_answered_blend_shapes() -> void:
 	holds(far > 0.01 and far < 0.06, "the answer moves by %f" % far)
 	var node: MeshInstance3D = retarget.dress()
 	same(node.get_blend_shape_value(0), 0.75, "the value of the body's shape")
+	_animations(retarget, body, node)
+
+
+## Animations of the body's shape move that of the garment, too.
+func _animations(retarget: BespokeRetarget, body: MeshInstance3D, worn: MeshInstance3D) -> void:
+	var scene := get_child(1)
+	var player := AnimationPlayer.new()
+	scene.add_child(player)
+	var grows := Animation.new()
+	var track := grows.add_track(Animation.TYPE_BLEND_SHAPE)
+	grows.track_set_path(track, "%s:heavy" % scene.get_path_to(body))
+	grows.blend_shape_track_insert_key(track, 0.0, 0.0)
+	grows.blend_shape_track_insert_key(track, 1.0, 0.5)
+	var other := grows.add_track(Animation.TYPE_VALUE)
+	grows.track_set_path(other, "%s:transparency" % scene.get_path_to(body))
+	grows.track_insert_key(other, 0.0, 0.25)
+	var library := AnimationLibrary.new()
+	library.add_animation("grows", grows)
+	player.add_animation_library("", library)
+	same(retarget.add_blend_shape_tracks(player, worn), 1, "tracks that were added")
+	same(grows.track_get_path(2), NodePath("%s:heavy" % scene.get_path_to(worn)), "the track of the garment")
+	same(retarget.add_blend_shape_tracks(player, worn), 0, "tracks that were added again")
+	player.play("grows")
+	player.seek(1.0, true)
+	same([body.get_blend_shape_value(0), worn.get_blend_shape_value(0)], [0.5, 0.5], "the values")
+	same(retarget.add_blend_shape_tracks(worn, worn), 0, "tracks of no player")
+	refused(retarget, retarget.get_status(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["no AnimationPlayer"])
+	same(retarget.add_blend_shape_tracks(player, player.get_parent()), 0, "tracks of no mesh")
+	refused(retarget, retarget.get_status(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["no MeshInstance3D"])
+	var aside: MeshInstance3D = retarget.create_instance()
+	same(retarget.add_blend_shape_tracks(player, aside), 0, "tracks of a node aside")
+	refused(retarget, retarget.get_status(), BespokeRetarget.STATUS_INVALID_ARGUMENT, ["add the garment to it first"])
+	aside.free()
 
 
 ## A mesh beside the garment, out of some of its triangles, a little outside.

@@ -7,6 +7,7 @@ const NodePicker := preload("node_picker.gd")
 const JointTable := preload("joint_table.gd")
 const Options := preload("options.gd")
 const Painted := preload("painted.gd")
+const Followed := preload("followed.gd")
 const Findings := preload("findings.gd")
 const Wearing := preload("wearing.gd")
 
@@ -23,11 +24,14 @@ var undo_redo: EditorUndoRedoManager
 var garment := NodePicker.new("Garment", "The mesh to put on: a MeshInstance3D.", true)
 var source := NodePicker.new(
 	"Made for", "The body that the garment was made for: its mesh, its skeleton, or the whole character. Best to have.")
-var avatar := NodePicker.new("To be worn by", "The body to dress: its mesh, its skeleton, or the whole character.")
+var avatar := NodePicker.new(
+	"To be worn by",
+	"The body to dress: its mesh, its skeleton, or the whole character. What it was dressed in before, and shows, is worn below.")
 var along := NodePicker.new(
 	"Goes along", "Trims, badges, levels of detail of the garment: a mesh, or all meshes below a node. They follow it without being fitted.")
 var options := Options.new()
 var painted := Painted.new()
+var followed := Followed.new()
 var joints := JointTable.new()
 var findings := Findings.new()
 var dress := Button.new()
@@ -50,6 +54,7 @@ func _init() -> void:
 	column.add_child(HSeparator.new())
 	column.add_child(options)
 	column.add_child(painted)
+	column.add_child(followed)
 	column.add_child(joints)
 	joints.changed.connect(_mended)
 	joints.asked.connect(show_joints)
@@ -116,7 +121,7 @@ func show_joints() -> void:
 
 func _retarget() -> BespokeRetarget:
 	var one := BespokeRetarget.new()
-	var worn: MeshInstance3D = garment.node as MeshInstance3D
+	var worn := garment.mesh()
 	one.set_garment(worn)
 	var followers := along.meshes([worn])
 	if not followers.is_empty():
@@ -126,14 +131,19 @@ func _retarget() -> BespokeRetarget:
 	if not bodies.is_empty():
 		one.set_source_body(bodies, source.skeleton())
 	one.set_avatar(avatar.meshes([worn]), avatar.skeleton())
+	for layer in Wearing.worn_below(worn, avatar.skeleton()):
+		one.add_layer(layer)
 	one.set_joint_pairs(joints.pairs)
 	options.apply(one)
 	painted.apply(one)
+	followed.apply(one)
 	return one
 
 
 func _inputs_changed() -> void:
-	painted.show_channels(garment.node.mesh if garment.node is MeshInstance3D else null)
+	var worn := garment.mesh()
+	painted.show_channels(worn.mesh if worn else null)
+	followed.show_shapes(avatar.meshes([worn]))
 	joints.clear()
 	findings.clear()
 	_say("")
@@ -158,7 +168,7 @@ func _finished() -> void:
 	else:
 		_say(retarget.get_message(), &"warning_color")
 	findings.show_findings(retarget.get_findings(), retarget.get_status())
-	Wearing.new().put_on(retarget, garment.node, avatar.skeleton(), undo_redo)
+	Wearing.new().put_on(retarget, garment.mesh(), avatar.skeleton(), undo_redo)
 
 
 func _failed(status: int, message: String, found: Array) -> void:

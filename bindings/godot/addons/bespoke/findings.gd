@@ -3,8 +3,8 @@ extends VBoxContainer
 ## What the library has to say. One that is chosen is shown in the viewport, and its node is selected.
 
 const Marks := preload("marks.gd")
-## More of them help nobody.
-const MOST := 200
+## More triangles of one kind help nobody.
+const MOST := 400
 const ICONS := {
 	BespokeRetarget.SEVERITY_NOTE: &"NodeInfo",
 	BespokeRetarget.SEVERITY_WARNING: &"StatusWarning",
@@ -54,9 +54,7 @@ func clear() -> void:
 
 
 func show_findings(found: Array, status: int) -> void:
-	_findings = found.duplicate()
-	_findings.sort_custom(func(a: Dictionary, b: Dictionary) -> bool: return a.severity > b.severity)
-	_findings = _findings.slice(0, MOST)
+	_findings = _together(found)
 	_status = status
 	list.clear()
 	for one: Dictionary in _findings:
@@ -64,9 +62,28 @@ func show_findings(found: Array, status: int) -> void:
 		var icon: Texture2D
 		if has_theme_icon(ICONS[one.severity], &"EditorIcons"):
 			icon = get_theme_icon(ICONS[one.severity], &"EditorIcons")
-		list.add_item(kind.replace("_", " ").to_lower().capitalize(), icon)
+		var title := kind.replace("_", " ").to_lower().capitalize()
+		list.add_item(title if one.count == 1 else "%s (%d)" % [title, one.count], icon)
 		list.set_item_tooltip(list.item_count - 1, one.message)
 	_show()
+
+
+## Those of one kind as one, with the sentence of the first, the worst first.
+func _together(found: Array) -> Array:
+	var all := {}
+	for one: Dictionary in found:
+		var key := [-one.severity, one.kind]
+		if not all.has(key):
+			all[key] = one.duplicate()
+			all[key].elements = []
+			all[key].count = 0
+		all[key].count += 1
+		all[key].elements.append_array(one.elements)
+	var rows := all.values()
+	rows.sort_custom(func(a: Dictionary, b: Dictionary) -> bool: return a.severity > b.severity)
+	for one: Dictionary in rows:
+		one.elements = one.elements.slice(0, MOST)
+	return rows
 
 
 func _show() -> void:

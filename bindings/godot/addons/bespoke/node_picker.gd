@@ -14,7 +14,7 @@ func _init(title: String, about: String, only_mesh := false) -> void:
 	_only_mesh = only_mesh
 	var label := Label.new()
 	label.text = title
-	label.custom_minimum_size.x = 105
+	label.custom_minimum_size.x = 115 * EditorInterface.get_editor_scale()
 	add_child(label)
 	button.size_flags_horizontal = SIZE_EXPAND_FILL
 	button.clip_text = true
@@ -49,6 +49,11 @@ func forget_what_is_gone() -> void:
 	if not is_instance_valid(node) or not node.is_inside_tree():
 		node = null
 		_show()
+
+
+## The chosen node, where it is a mesh and still there.
+func mesh() -> MeshInstance3D:
+	return node as MeshInstance3D if is_instance_valid(node) else null
 
 
 ## The meshes that are meant, without those that are listed: the chosen one, or all that are shown below it. Garments that were

@@ -38,7 +38,7 @@ func _add(column: Control, title: String, option: Dictionary) -> void:
 	var row := HBoxContainer.new()
 	var label := Label.new()
 	label.text = title.capitalize()
-	label.custom_minimum_size.x = 105
+	label.custom_minimum_size.x = 115 * EditorInterface.get_editor_scale()
 	row.add_child(label)
 	var control: Control
 	if option.default is bool:

@@ -22,7 +22,7 @@ func _init() -> void:
 		var row := HBoxContainer.new()
 		var label := Label.new()
 		label.text = what.capitalize()
-		label.custom_minimum_size.x = 105
+		label.custom_minimum_size.x = 115 * EditorInterface.get_editor_scale()
 		label.tooltip_text = TEXTS[what]
 		label.mouse_filter = MOUSE_FILTER_STOP
 		row.add_child(label)

@@ -4,6 +4,21 @@ extends RefCounted
 
 ## Marks what was put on by us, with the garment that it is.
 const MARK := &"bespoke_garment"
+## Marks what goes along with one.
+const ALONG := &"bespoke_goes_along"
+
+
+## What a skeleton wears and shows, in the order in which it was put on, but for what the garment takes the place of.
+static func worn_below(garment: Node3D, skeleton: Skeleton3D) -> Array[MeshInstance3D]:
+	var worn: Array[MeshInstance3D] = []
+	if not is_instance_valid(garment) or not is_instance_valid(skeleton):
+		return worn
+	for child in skeleton.get_children():
+		if not child is MeshInstance3D or not child.has_meta(MARK) or child.has_meta(ALONG):
+			continue
+		if child.visible and child != garment and child.get_meta(MARK) != str(garment.name):
+			worn.append(child)
+	return worn
 
 
 ## Puts the result under the skeleton, with what goes along. An earlier one of the same garment there goes.
@@ -16,8 +31,10 @@ func put_on(retarget: BespokeRetarget, garment: Node3D, skeleton: Skeleton3D, un
 	var root := skeleton.get_tree().edited_scene_root if skeleton.is_part_of_edited_scene() else skeleton.owner
 	var name := str(garment.name) if is_instance_valid(garment) else "Garment"
 	worn[0].name = name
-	for instance in worn:
-		instance.set_meta(MARK, name)
+	for k in worn.size():
+		worn[k].set_meta(MARK, name)
+		if k > 0:
+			worn[k].set_meta(ALONG, true)
 	undo_redo.create_action("Dress in " + name, UndoRedo.MERGE_DISABLE, root)
 	for child in skeleton.get_children():
 		if child.has_meta(MARK) and child.get_meta(MARK) == name:
