@@ -172,21 +172,19 @@ namespace Bespoke.Unity
                 List<KeyValuePair<float[], int[]>> layers = new List<KeyValuePair<float[], int[]>>();
                 for (int k = 0; k < task.Garments.Count; k++)
                 {
-                    Outcome outcome = new Outcome();
+                    Outcome outcome;
                     try
                     {
-                        using (Session session = Filled(k, layers))
+                        outcome = Tried(k, layers, false);
+                        if (outcome.Positions == null && HasBody(k) && MayHelp(outcome.Failure))
                         {
-                            Dress(session, k, outcome);
+                            Outcome other = Tried(k, layers, true);
+                            outcome = other.Positions == null ? outcome : other;
                         }
                     }
                     catch (OperationCanceledException)
                     {
                         return;
-                    }
-                    catch (BespokeException failure)
-                    {
-                        outcome.Failure = failure;
                     }
                     outcomes.Add(outcome);
                     if (outcome.Positions != null)
@@ -215,12 +213,42 @@ namespace Bespoke.Unity
         {
             using (Session session = new Session())
             {
-                SetFigures(session, task, garment);
+                SetFigures(session, task, garment, false);
                 return session.ReadJointMap();
             }
         }
 
-        private Session Filled(int garment, List<KeyValuePair<float[], int[]>> layers)
+        // Whether the body with the garment on does better, as where the skin passes through it, like a head through its
+        // hat.
+        private static bool MayHelp(BespokeException failure)
+        {
+            return failure != null
+                && (failure.Status == Status.NotEnclosed || failure.Status == Status.InflationStalled);
+        }
+
+        private bool HasBody(int garment)
+        {
+            return task.Garments[garment].Parts.Length > 1 + task.FollowersOf(garment);
+        }
+
+        private Outcome Tried(int garment, List<KeyValuePair<float[], int[]>> layers, bool isWhole)
+        {
+            Outcome outcome = new Outcome();
+            try
+            {
+                using (Session session = Filled(garment, layers, isWhole))
+                {
+                    Dress(session, garment, outcome);
+                }
+            }
+            catch (BespokeException failure)
+            {
+                outcome.Failure = failure;
+            }
+            return outcome;
+        }
+
+        private Session Filled(int garment, List<KeyValuePair<float[], int[]>> layers, bool isWhole)
         {
             Session session = new Session();
             try
@@ -231,7 +259,7 @@ namespace Bespoke.Unity
                 made.Trusted = task.Garments[garment].Parts[0].HasSkin;
                 session.SetSourceCoordinateSystem(made);
                 session.SetTargetCoordinateSystem(CoordinateSystem.Unity);
-                SetFigures(session, task, garment);
+                SetFigures(session, task, garment, isWhole);
                 SkinnedPart cloth = task.Garments[garment].Parts[0];
                 session.SetGarment(cloth.Positions, cloth.Triangles);
                 Influences skin = Influences.Of(cloth);
@@ -262,14 +290,16 @@ namespace Bespoke.Unity
             }
         }
 
-        private static void SetFigures(Session session, FittingTask task, int garment)
+        // isWhole: the body that the garment was made for has it on.
+        private static void SetFigures(Session session, FittingTask task, int garment, bool isWhole)
         {
             Figure made = task.Garments[garment];
             session.SetSourceRig(made.Rig());
             int body = 1 + task.FollowersOf(garment);
             if (made.Parts.Length > body)
             {
-                made.Joined(body, out float[] points, out int[] corners, out Influences own);
+                made.Joined(
+                    body, isWhole ? made.Parts[0] : null, out float[] points, out int[] corners, out Influences own);
                 session.SetSourceAvatar(points, corners);
                 if (own != null)
                 {
