@@ -12,10 +12,11 @@ It goes by the editor's Geometry Script plugin, and by the package `bespoke`, wh
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 import posixpath
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import unreal
 
@@ -43,6 +44,9 @@ STAGES = {
     bespoke.Stage.CANCELLED: "stopped",
 }
 
+
+# Refusals that the body with the garment on may not meet with.
+_WITH_IT_ON = (bespoke.Status.NOT_ENCLOSED, bespoke.Status.INFLATION_STALLED)
 
 # The assets that `dress` has made last.
 _last: list[str] = []
@@ -145,8 +149,7 @@ def dress(
         for path in garments:
             asset = _load(path)
             garment = read(asset)
-            with _filled(garment, source, target, layers, settings, pairs) as session:
-                _run(session, garment.name, task)
+            with _fitted(garment, source, target, layers, settings, pairs, task) as session:
                 made.append(_write(session, asset, garment, target_asset, target, folder))
                 layers.append((session.read_garment_vertices(), garment.triangles))
             # Geometry Script can read and write no morph targets.
@@ -252,6 +255,54 @@ def _filled(
     return session
 
 
+@contextlib.contextmanager
+def _fitted(
+    garment: Figure,
+    source: Figure | None,
+    target: Figure,
+    layers: Sequence[tuple[np.ndarray, np.ndarray]],
+    options: bespoke.Options,
+    pairs: Sequence[tuple[str, str | None]],
+    task: unreal.ScopedSlowTask,
+) -> Iterator[bespoke.Session]:
+    """A session that has run. Where the body that the garment was made for passes through it, as a head through its hat, that
+    body with the garment on is the measure for how close they lie."""
+    told = _Told(garment.name, task)
+    with _filled(garment, source, target, layers, options, pairs) as session:
+        try:
+            _run(session, told)
+        except bespoke.BespokeError as refusal:
+            if source is None or refusal.status not in _WITH_IT_ON:
+                raise
+            refused = refusal
+        else:
+            yield session
+            return
+    with _filled(garment, _with_on(source, garment), target, layers, options, pairs) as session:
+        try:
+            _run(session, told)
+        except bespoke.BespokeError:
+            raise refused from None
+        yield session
+
+
+def _with_on(made_for: Figure, garment: Figure) -> Figure:
+    """The body with the garment on it."""
+    joints, weights = _on_rig(garment, made_for)
+    width = max(made_for.joints.shape[1], joints.shape[1])
+
+    def wide(rows: np.ndarray) -> np.ndarray:
+        return np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
+
+    return dataclasses.replace(
+        made_for,
+        vertices=np.concatenate([made_for.vertices, garment.vertices]),
+        triangles=np.concatenate([made_for.triangles, garment.triangles + len(made_for.vertices)]),
+        joints=np.concatenate([wide(made_for.joints), wide(joints)]),
+        weights=np.concatenate([wide(made_for.weights), wide(weights)]),
+    )
+
+
 def _on_rig(garment: Figure, made_for: Figure) -> tuple[np.ndarray, np.ndarray]:
     """Its skin on the bones of the body, by their names; what that lacks goes with the bone above."""
     if garment is made_for:
@@ -289,19 +340,25 @@ def share(progress: bespoke.Progress) -> float:
     return {bespoke.Stage.VERIFY: 0.97, bespoke.Stage.DONE: 1.0}.get(stage, 0.0)
 
 
-def _run(session: bespoke.Session, name: str, task: unreal.ScopedSlowTask) -> None:
-    done = 0.0
+class _Told:
+    """What the dialog says of one garment; it never goes back."""
 
-    def show(progress: bespoke.Progress) -> None:
-        nonlocal done
-        now = max(done, share(progress))
-        task.enter_progress_frame(now - done, f"{name}: {STAGES.get(progress.stage, '')}")
-        done = now
-        if task.should_cancel():
-            raise BespokeStopped(name)
+    def __init__(self, name: str, task: unreal.ScopedSlowTask) -> None:
+        self.name = name
+        self._task, self._done = task, 0.0
 
+    def __call__(self, progress: bespoke.Progress) -> None:
+        now = max(self._done, share(progress))
+        self._task.enter_progress_frame(now - self._done, f"{self.name}: {STAGES.get(progress.stage, '')}")
+        self._done = now
+        if self._task.should_cancel():
+            raise BespokeStopped(self.name)
+
+
+def _run(session: bespoke.Session, told: _Told) -> None:
+    name = told.name
     try:
-        session.run(show)
+        session.run(told)
     except bespoke.ImplausibleResultError as implausible:
         # It is verified, but not as designed. In the pose of the design it would be no garment on the wearer's bones.
         identity = np.broadcast_to(np.eye(4), session.read_pose_transforms().shape)
