@@ -3,6 +3,7 @@ extends VBoxContainer
 ## What the library has to say. One that is chosen is shown in the viewport, and its node is selected.
 
 const Marks := preload("marks.gd")
+const Help := preload("help.gd")
 ## More triangles of one kind help nobody.
 const MOST := 400
 const ICONS := {
@@ -20,6 +21,8 @@ var _help := AcceptDialog.new()
 var _help_text := RichTextLabel.new()
 var _findings: Array = []
 var _status := 0
+## The one that is chosen; empty for none.
+var _selected := {}
 
 
 func _init() -> void:
@@ -47,6 +50,7 @@ func _init() -> void:
 
 func clear() -> void:
 	_findings = []
+	_selected = {}
 	_status = 0
 	list.clear()
 	_unmark()
@@ -55,6 +59,7 @@ func clear() -> void:
 
 func show_findings(found: Array, status: int) -> void:
 	_findings = _together(found)
+	_selected = {}
 	_status = status
 	list.clear()
 	for one: Dictionary in _findings:
@@ -90,14 +95,16 @@ func _show() -> void:
 	_title.text = "Findings (%d)" % _findings.size() if _findings else ""
 	list.visible = not _findings.is_empty()
 	_text.visible = false
-	what_to_do.visible = not BespokeRetarget.get_help_anchor(_status).is_empty() and _status != BespokeRetarget.STATUS_OK
+	what_to_do.visible = not _anchor().is_empty()
 	visible = list.visible or what_to_do.visible
 
 
 func _chosen(index: int) -> void:
 	var finding: Dictionary = _findings[index]
+	_selected = finding
 	_text.text = finding.message
 	_text.visible = true
+	what_to_do.visible = not _anchor().is_empty()
 	_unmark()
 	marks = Marks.of(finding.elements)
 	var selection := EditorInterface.get_selection()
@@ -115,24 +122,11 @@ func _unmark() -> void:
 	marks = []
 
 
+## The section about what is chosen, or about the whole run.
+func _anchor() -> String:
+	return Help.of_finding(_selected, _status) if _selected else Help.of_status(_status)
+
+
 func _show_help() -> void:
-	_help_text.text = help(_status)
+	_help_text.text = Help.text(_anchor(), _selected.get("message", ""))
 	_help.popup_centered()
-
-
-## The section of docs/troubleshooting.md about a status.
-static func help(status: int) -> String:
-	var anchor := BespokeRetarget.get_help_anchor(status)
-	var wanted := anchor.get_slice("#", 1)
-	var lines := PackedStringArray()
-	var is_in := false
-	for line in FileAccess.get_file_as_string("res://addons/bespoke/docs/" + anchor.get_slice("#", 0)).split("\n"):
-		if line.begins_with("## "):
-			is_in = line.trim_prefix("## ").to_lower() == wanted
-		elif is_in:
-			lines.append(line)
-	var text := "\n".join(lines).strip_edges().replace("[", "[lb]")
-	# Lines of a paragraph belong together; lists and quotes begin anew.
-	text = RegEx.create_from_string("\\n(?=[^\\n>\\-0-9 ])|\\n +").sub(text.replace("\n\n", "\u2029"), " ", true)
-	text = text.replace("\u2029", "\n\n").replace("> ", "")
-	return RegEx.create_from_string("`([^`]*)`").sub(text, "[code]$1[/code]", true)

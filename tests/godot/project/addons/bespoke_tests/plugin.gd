@@ -348,8 +348,33 @@ func _finding(dock: Control, vest: MeshInstance3D) -> void:
 		_holds(mark.mesh.surface_get_array_len(0) == 6 * pairs, "it marks %d corners" % mark.mesh.surface_get_array_len(0))
 		_holds(mark.owner == null, "the marks would be saved")
 	_holds(EditorInterface.get_selection().get_selected_nodes() == ([vest] as Array[Node]), "the garment is not selected")
-	vest.mesh = design
+	_holds(dock.findings.what_to_do.visible, "no help for an error")
 	dock.options.controls.strict.button_pressed = false
+	_help(dock)
+	vest.mesh = design
+
+
+## What to do about findings that are no errors.
+func _help(dock: Control) -> void:
+	var findings: Control = dock.findings
+	var half := "target morph 0 (\"fat\"): the garment's answer is good at weight 1, but halfway 3 pairs of triangles intersect; divide the morph into smaller ones"
+	var rows := [[BespokeRetarget.KIND_MORPH_INTERSECTS, BespokeRetarget.SEVERITY_WARNING, half, "cuts a corner"],
+		[BespokeRetarget.KIND_SELF_INTERSECTION, BespokeRetarget.SEVERITY_WARNING, "", "strict"],
+		[BespokeRetarget.KIND_SPLIT_VERTICES, BespokeRetarget.SEVERITY_NOTE, "", ""]]
+	var found := rows.map(func(row: Array) -> Dictionary:
+		return {"kind": row[0], "severity": row[1], "message": row[2], "elements": []})
+	findings.show_findings(found, BespokeRetarget.STATUS_OK)
+	_holds(not findings.what_to_do.visible, "help for nothing")
+	for k in findings.list.item_count:
+		findings.list.item_selected.emit(k)
+		var row: Array = rows.filter(func(one: Array) -> bool: return one[0] == findings._findings[k].kind)[0]
+		_holds(findings.what_to_do.visible == (row[3] != ""), "help for a note, or none")
+		if row[3]:
+			findings.what_to_do.pressed.emit()
+			_holds(findings._help_text.text.contains(row[3]), "the help: " + findings._help_text.text)
+			_holds(not findings._help_text.text.contains("JOINTS_UNSURE"), "all warnings are shown")
+			findings._help.hide()
+	findings.clear()
 
 
 func _picture(file: String) -> void:
