@@ -37,7 +37,9 @@ def _objects(scene: bpy.types.Scene, items: bpy.types.CollectionProperty) -> lis
 
 def _armature(scene: bpy.types.Scene, chosen: bpy.types.Object | None, whose: str) -> bpy.types.Object:
     if chosen is None or chosen.name not in scene.objects:
-        raise SceneError(f"{whose}: no armature is chosen; characters without one cannot be dressed")
+        raise SceneError(
+            f"{whose}: no armature is chosen; choose that of the character, which cannot be dressed without one"
+        )
     return chosen
 
 
