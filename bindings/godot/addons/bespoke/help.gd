@@ -16,13 +16,13 @@ static func of_status(status: int) -> String:
 
 
 ## The section about a finding of a run that ended with a status; empty where there is nothing to read.
-static func of_finding(finding: Dictionary, status: int) -> String:
-	if finding.severity == BespokeRetarget.SEVERITY_ERROR and status != BespokeRetarget.STATUS_OK:
+static func of_finding(one: Dictionary, status: int) -> String:
+	if one.severity == BespokeRetarget.SEVERITY_ERROR and status != BespokeRetarget.STATUS_OK:
 		return of_status(status)
-	var kind := BespokeRetarget.get_constant_name("KIND", finding.kind).replace("KIND_", "STATUS_")
+	var kind := BespokeRetarget.get_constant_name("KIND", one.kind).replace("KIND_", "STATUS_")
 	if ClassDB.class_has_integer_constant(&"BespokeRetarget", kind):
 		return of_status(ClassDB.class_get_integer_constant(&"BespokeRetarget", kind))
-	return WARNINGS if finding.severity == BespokeRetarget.SEVERITY_WARNING else ""
+	return WARNINGS if one.severity == BespokeRetarget.SEVERITY_WARNING else ""
 
 
 ## A section with marks for a RichTextLabel. Of the warnings, what is about this message.
