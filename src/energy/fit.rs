@@ -15,12 +15,15 @@
 //! ```
 //!
 //! The Hessian is Gauss-Newton's, `2 grad D grad D^T`: positive semidefinite.
+//!
+//! Samples that a value was computed from are kept with their gradients, for the derivatives at the same place.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::kept_samples::{FieldSample, KeptSamples};
 use super::{Configuration, Energy, Row, Sink};
 use crate::error::{Error, ErrorKind, Result};
 use crate::memory::bytes;
@@ -92,11 +95,12 @@ impl Clearance {
 }
 
 /// The fit term over the faces of a garment.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Fit {
     field: Arc<Field>,
     elements: Vec<Element>,
     samples: Vec<Sample>,
+    kept: KeptSamples,
 }
 
 impl Fit {
@@ -122,7 +126,8 @@ impl Fit {
                 Sample { weight: area * omega * density, clearance: Clearance::NONE }
             }));
         }
-        Self { field, elements, samples }
+        let kept = KeptSamples::new(elements.iter().map(|element| element.rule.len()));
+        Self { field, elements, samples, kept }
     }
 
     /// Positions of the samples for the garment vertices `x`: to measure, on the source body, the designed clearance of
@@ -158,7 +163,17 @@ impl Fit {
     }
 
     fn samples_of(&self, element: &Element) -> &[Sample] {
-        &self.samples[element.first as usize..][..element.rule.len()]
+        &self.samples[element.own()]
+    }
+
+    /// Distances and gradients at the samples of an element, whose corners are `corners`.
+    #[inline]
+    fn sample(&self, element: &Element, corners: [DVec3; 3], out: &mut [FieldSample]) {
+        let mut points = [DVec3::ZERO; MAX_SAMPLES];
+        for (point, (b, _)) in points.iter_mut().zip(element.rule) {
+            *point = interpolate(corners, b);
+        }
+        self.field.values_gradients(&points[..element.rule.len()], &mut out[..element.rule.len()]);
     }
 }
 
@@ -166,15 +181,10 @@ impl Fit {
 const MAX_SAMPLES: usize = DEGREE_4.len();
 
 impl Element {
-    /// Positions of its samples; they fill the first entries of the array.
+    /// Its samples among those of all elements.
     #[inline]
-    fn points(&self, x: &[DVec3]) -> [DVec3; MAX_SAMPLES] {
-        let corners = self.corners(x);
-        let mut points = [DVec3::ZERO; MAX_SAMPLES];
-        for (point, (b, _)) in points.iter_mut().zip(self.rule) {
-            *point = interpolate(corners, b);
-        }
-        points
+    fn own(&self) -> Range<usize> {
+        self.first as usize..self.first as usize + self.rule.len()
     }
 
     #[inline]
@@ -198,41 +208,61 @@ impl Energy for Fit {
     }
 
     fn memory(&self) -> u64 {
-        bytes(&self.elements) + bytes(&self.samples)
+        bytes(&self.elements) + bytes(&self.samples) + self.kept.memory()
     }
 
     fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
-        let cost = |element: &Element| {
-            let samples = self.samples_of(element);
-            let mut distances = [0.0; MAX_SAMPLES];
-            self.field.values(&element.points(at.x)[..samples.len()], &mut distances);
-            let one = |(sample, distance): (&Sample, &f64)| {
-                let residual = sample.clearance.residual(*distance);
-                sample.weight * residual * residual
-            };
-            samples.iter().zip(&distances).map(one).sum::<f64>()
-        };
-        self.elements[range].iter().map(cost).sum()
+        let mut total = 0.0;
+        for (block, part, first) in KeptSamples::parts(range) {
+            let mut kept = self.kept.write(block);
+            for (k, element) in self.elements[part.clone()].iter().enumerate() {
+                let corners = element.corners(at.x);
+                let mut own = [(0.0, DVec3::ZERO); MAX_SAMPLES];
+                let found = match &mut kept {
+                    Some(kept) => kept.replace(part.start - first + k, corners, element.own()),
+                    None => &mut own[..element.rule.len()],
+                };
+                self.sample(element, corners, found);
+                let one = |(sample, (distance, _)): (&Sample, &FieldSample)| {
+                    let residual = sample.clearance.residual(*distance);
+                    sample.weight * residual * residual
+                };
+                total += self.samples_of(element).iter().zip(&*found).map(one).sum::<f64>();
+            }
+        }
+        total
     }
 
     fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
-        for element in &self.elements[range] {
-            let samples = self.samples_of(element);
-            let mut distances = [(0.0, DVec3::ZERO); MAX_SAMPLES];
-            self.field.values_gradients(&element.points(at.x)[..samples.len()], &mut distances);
-            let mut rows = [Row::default(); MAX_SAMPLES];
-            let mut count = 0;
-            for (((b, _), sample), (distance, slope)) in element.rule.iter().zip(samples).zip(distances) {
-                let residual = sample.clearance.residual(distance);
-                if residual != 0.0 {
-                    let components = [b[0] * slope, b[1] * slope, b[2] * slope, DVec3::ZERO];
-                    let h = 2.0 * sample.weight;
-                    rows[count] = Row { components, t: 0.0, g: h * residual, h };
-                    count += 1;
+        for (block, part, first) in KeptSamples::parts(range) {
+            let kept = self.kept.read(block);
+            for (k, element) in self.elements[part.clone()].iter().enumerate() {
+                let corners = element.corners(at.x);
+                let mut own = [(0.0, DVec3::ZERO); MAX_SAMPLES];
+                let found = kept.as_ref().and_then(|kept| kept.get(part.start - first + k, corners, element.own()));
+                let found = match found {
+                    Some(found) => found,
+                    None => {
+                        self.sample(element, corners, &mut own);
+                        &own
+                    }
+                };
+                let mut rows = [Row::default(); MAX_SAMPLES];
+                let mut count = 0;
+                for (((b, _), sample), &(distance, slope)) in
+                    element.rule.iter().zip(self.samples_of(element)).zip(found)
+                {
+                    let residual = sample.clearance.residual(distance);
+                    if residual != 0.0 {
+                        let components = [b[0] * slope, b[1] * slope, b[2] * slope, DVec3::ZERO];
+                        let h = 2.0 * sample.weight;
+                        rows[count] = Row { components, t: 0.0, g: h * residual, h };
+                        count += 1;
+                    }
                 }
-            }
-            if count > 0 {
-                sink.low_rank(&element.vertices, &rows[..count]);
+                if count > 0 {
+                    sink.low_rank(&element.vertices, &rows[..count]);
+                }
             }
         }
     }

@@ -12,6 +12,7 @@ mod curve_window;
 pub mod distortion;
 pub mod fit;
 pub mod inflation;
+mod kept_samples;
 pub mod pin;
 pub mod position;
 pub mod rigid;

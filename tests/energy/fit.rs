@@ -89,6 +89,41 @@ fn derivatives_agree_with_finite_differences() {
     check_hessian(&Fit::new(field, &triangles, &[0.2, 0.1], &[1.0; 4]), &x, 1.0, 1e-4, 1e-5);
 }
 
+/// Samples are kept for the derivatives at the same place, in blocks of elements; what is asked for does not depend on it.
+#[test]
+fn what_was_asked_before_changes_no_bit() {
+    let field = field(0.05);
+    let mut random = Random::new(4);
+    let (columns, rows) = (12u32, 5u32);
+    let mut at = || -> Vec<DVec3> {
+        let point = |n: u32| DVec3::new(0.05 * f64::from(n % columns), 0.05 * f64::from(n / columns), 0.2);
+        (0..columns * rows).map(|n| point(n) + 0.01 * random.vector()).collect()
+    };
+    let (x, y) = (at(), at());
+    let corner = |n: u32| n / (columns - 1) * columns + n % (columns - 1);
+    let triangles: Vec<[u32; 3]> = (0..(columns - 1) * (rows - 1))
+        .map(corner)
+        .flat_map(|v| [[v, v + 1, v + columns], [v + 1, v + columns + 1, v + columns]])
+        .collect();
+    // Both rules.
+    let areas: Vec<f64> = (0..triangles.len()).map(|n| if n % 3 == 0 { 0.3 } else { 1e-4 }).collect();
+    let new = || Fit::new(field.clone(), &triangles, &areas, &vec![1.0; x.len()]);
+    let (fresh_value, fresh) = (value(&new(), &y), dense(&new(), &y, 1.0));
+    let fit = new();
+    value(&fit, &x);
+    // A part of it, across the blocks, elsewhere.
+    fit.value(Configuration { x: &y, t: 1.0 }, 20..70);
+    let check = |when: &str| {
+        let found = dense(&fit, &y, 1.0);
+        assert!(found.gradient == fresh.gradient && found.hessian == fresh.hessian, "{when}");
+    };
+    check("half of it kept");
+    assert_eq!(value(&fit, &y).to_bits(), fresh_value.to_bits());
+    check("all of it kept");
+    value(&fit, &x);
+    check("kept elsewhere");
+}
+
 #[test]
 fn inside_and_within_the_clearance_cost_nothing() {
     let field = field(0.05);
