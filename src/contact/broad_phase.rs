@@ -22,7 +22,7 @@ const TASKS: usize = 128;
 const CHUNK: usize = 2048;
 
 /// A list of more pairs than this is given back once it was merged: those of a long step are many times those of the next.
-const KEPT: usize = 1 << 14;
+const KEPT: usize = 1 << 12;
 
 /// What one task of a traversal finds, with its scratch.
 #[derive(Default)]
