@@ -15,7 +15,7 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::panics::with_panic_log;
 use crate::sdf::{Field, FieldOptions};
 
-/// The distance field, built beside the inflation. Dropping it stops the build.
+/// The distance field, built beside the inflation. Dropping it stops a build that is under way, with all else of the job.
 pub(super) struct FieldTask {
     /// Taken when it is waited for.
     work: Option<Work>,
@@ -65,10 +65,19 @@ impl FieldTask {
     }
 }
 
+impl FieldTask {
+    /// Does without the field: a build under way ends by itself, and what else the job does goes on.
+    pub(super) fn leave(mut self) {
+        if let Some(Work::UnderWay(handle)) = self.work.take() {
+            drop(handle.join());
+        }
+    }
+}
+
 impl Drop for FieldTask {
     fn drop(&mut self) {
-        self.stop.request();
         if let Some(Work::UnderWay(handle)) = self.work.take() {
+            self.stop.request();
             // Neither its result nor its error is needed any more.
             drop(handle.join());
         }

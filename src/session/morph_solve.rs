@@ -55,17 +55,12 @@ pub(super) struct MorphSolve {
     pub(super) progress: Arc<Mutex<Progress>>,
 }
 
-/// The avatar in another shape, with the garment on it.
-pub(super) struct Arrived {
+/// The avatar in another shape.
+pub(super) struct Reshaped {
     /// In the normalised space.
     pub(super) avatar: TriangleMesh,
     /// What of it the garment is fitted to.
     pub(super) fitted: Arc<TriangleMesh>,
-    /// Its distance.
-    pub(super) field: Arc<Field>,
-    pub(super) state: State,
-    /// With the contacts in which the garment is.
-    pub(super) objective: Objective,
 }
 
 /// What came of it.
@@ -88,11 +83,15 @@ impl MorphSolve {
             return Ok(Outcome::Solved { offsets: vec![DVec3::ZERO; problem.weld.to_welded.len()], between: None });
         }
         let body = Arc::new(self.body(offsets, 1.0));
-        let Arrived { avatar: normalised, field, mut state, mut objective, .. } = match self.carry(&body)? {
+        let Reshaped { avatar, fitted } = self.reshaped(&body)?;
+        let (mut state, mut objective) = match self.carry(&avatar)? {
             Ok(arrived) => arrived,
             Err(weight) => return Ok(Outcome::Stalled { weight }),
         };
-        let mut fit = problem.fit_objective_on(&normalised, field, &state.x, &self.options, &self.cancel)?;
+        self.cancel.check()?;
+        let options = FieldOptions { voxel: self.options.voxel_size, threads: self.threads as u32 };
+        let field = self.shared.field(&fitted, options, &self.cancel)?;
+        let mut fit = problem.fit_objective_on(&avatar, field, &state.x, &self.options, &self.cancel)?;
         fit.release_carried();
         fit.contact.inherit_state(&objective.contact);
         objective = fit;
@@ -113,30 +112,32 @@ impl MorphSolve {
         Ok(Outcome::Stalled { weight: 1.0 })
     }
 
-    /// Takes the avatar to `body` and the garment with it: one piece, since every vertex moves straight. The share of the way up to
-    /// which the garment lets it where it does not go to the end.
+    /// The avatar as `body` has it.
     ///
     /// # Errors
     /// As [`Self::run`].
-    pub(super) fn carry(&self, body: &Body) -> Result<std::result::Result<Arrived, f64>> {
+    pub(super) fn reshaped(&self, body: &Body) -> Result<Reshaped> {
         let avatar = self.normalised(body);
         self.check(&avatar)?;
-        let mut state = State { x: self.snapshot.x.clone(), t: 0.0 };
-        let (objective, arrived) = self.go(&avatar, &mut state)?;
-        if !arrived {
-            return Ok(Err(state.t));
-        }
-        self.cancel.check()?;
-        let fitted = Arc::new(match body.with_mesh(avatar.clone()).fitted() {
+        let fitted = match body.with_mesh(avatar.clone()).fitted() {
             None => avatar.clone(),
             Some(mut fitted) => {
                 collapse_unused(&mut fitted);
                 fitted
             }
-        });
-        let options = FieldOptions { voxel: self.options.voxel_size, threads: self.threads as u32 };
-        let field = self.shared.field(&fitted, options, &self.cancel)?;
-        Ok(Ok(Arrived { avatar, fitted, field, state, objective }))
+        };
+        Ok(Reshaped { avatar, fitted: Arc::new(fitted) })
+    }
+
+    /// Takes the body to `avatar`, and the garment along: where it is then, with the contacts in which it is; or how far the
+    /// garment lets the body go, as a share of the way.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub(super) fn carry(&self, avatar: &TriangleMesh) -> Result<std::result::Result<(State, Objective), f64>> {
+        let mut state = State { x: self.snapshot.x.clone(), t: 0.0 };
+        let (objective, arrived) = self.go(avatar, &mut state)?;
+        Ok(if arrived { Ok((state, objective)) } else { Err(state.t) })
     }
 
     /// The body with this much of the morph, in its caller's coordinates. Layers go along with the body beneath.

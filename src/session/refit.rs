@@ -6,8 +6,9 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::Session;
+use super::field_task::FieldTask;
 use super::inputs::Inputs;
-use super::morph_solve::{Arrived, MorphSolve, shaped};
+use super::morph_solve::{MorphSolve, Reshaped, shaped};
 use super::run::{Run, Step};
 use super::snapshot::Snapshot;
 use crate::control::Stage;
@@ -17,6 +18,7 @@ use crate::options::Options;
 use crate::report::StageReport;
 use crate::solver::newton::State;
 use crate::stage::fit::FitStage;
+use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
 
 impl Session {
@@ -141,7 +143,6 @@ impl Run {
         if shape == self.shape {
             return Ok(false);
         }
-        let clock = Instant::now();
         let own = self.own_shape.clone().unwrap_or_else(|| self.body.clone());
         let mut offsets = vec![DVec3::ZERO; own.avatar_size()[0]];
         for (morph, &weight) in inputs.target_morphs.iter().zip(&shape) {
@@ -162,9 +163,19 @@ impl Run {
             shared: self.context.shared.clone(),
             progress: Arc::default(),
         };
-        let arrived = match solve.carry(&body) {
+        let too_far = |error: Error| match error.kind {
+            ErrorKind::InvalidArgument => {
+                Error { message: format!("target morph weights: {}", error.message), ..error }
+            }
+            _ => error,
+        };
+        let Reshaped { avatar, fitted } = solve.reshaped(&body).map_err(too_far)?;
+        let voxel = self.options.voxel_size;
+        let field = FieldTask::start(fitted.clone(), voxel, self.report.threads, &self.context);
+        let (state, objective) = match solve.carry(&avatar) {
             Ok(Ok(arrived)) => arrived,
             Ok(Err(share)) => {
+                field.leave();
                 return Err(Error::new(
                     ErrorKind::InflationStalled,
                     format!(
@@ -174,57 +185,74 @@ impl Run {
                     ),
                 ));
             }
-            Err(error) if error.kind == ErrorKind::InvalidArgument => {
-                return Err(Error { message: format!("target morph weights: {}", error.message), ..error });
+            Err(error) => {
+                field.leave();
+                return Err(too_far(error));
             }
-            Err(error) => return Err(error),
         };
-        let Arrived { avatar, fitted, field, state, objective } = arrived;
         self.problem = Arc::new(Problem { avatar: Arc::new(avatar), fitted, ..Problem::clone(&self.problem) });
         self.own_shape = Some(own);
         (self.body, self.shape) = (body, shape);
         self.state = State { x: state.x, t: 1.0 };
         self.objective = objective;
-        self.distance = Some((field, clock.elapsed().as_secs_f64()));
+        self.newton.forget_values();
+        (self.field, self.distance) = (field, None);
         Ok(true)
     }
 
-    /// Sets up the fit with what `inputs` ask for now, from the present state.
+    /// Sets up the fit with what `inputs` ask for now, from the present state. Where the avatar takes another shape for it, the fit
+    /// itself is set up by [`Self::begin_refit`]: the garment is on the body, and can be seen there, before the distance is known
+    /// that it is fitted by.
     fn refit(&mut self, inputs: &Inputs) -> Result<()> {
         let clock = Instant::now();
         self.context.stop.check()?;
-        let is_reshaped = self.take_shape(inputs)?;
-        let stop = &self.context.stop;
         let mut problem = (*self.problem).clone();
         let system = self.target_coordinate_system;
         let weld = problem.weld.clone();
         let weights = inputs.fit_weights.as_ref().map(|weights| weld.gather(weights));
         let offset = system.metres_per_unit * inputs.options.offset;
         problem.ask(&inputs.options, offset, weights.as_deref(), &inputs.welded_pins(&weld, &system)?)?;
-        let Some((field, _)) = self.distance.clone() else {
-            return Err(Error::new(ErrorKind::Internal, "a result without a distance field"));
-        };
+        let is_reshaped = self.take_shape(inputs)?;
+        (problem.avatar, problem.fitted) = (self.problem.avatar.clone(), self.problem.fitted.clone());
         self.options = Options {
             // As the inflation left it: the fit begins with it where it has to begin anew.
             inflation_barrier_weight: self.options.inflation_barrier_weight,
             ..inputs.options.clone()
         };
-        let mut objective = problem.fit_objective(field, &self.fit_began_at, &self.options, stop)?;
+        self.problem = Arc::new(problem);
+        self.report.fit = StageReport::default();
+        if is_reshaped {
+            self.step = Step::Between;
+            self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
+        } else {
+            self.fit_again(FitStage::resume, clock)?;
+        }
+        (self.report.converged, self.report.stuck) = (false, false);
+        self.report.verification = None;
+        self.report.verify_seconds = 0.0;
+        self.update_report();
+        Ok(())
+    }
+
+    /// Begins the fit of a refit on the shape that the avatar has taken.
+    ///
+    /// # Errors
+    /// As [`Self::iterate`].
+    pub(super) fn begin_refit(&mut self) -> Result<()> {
+        self.fit_again(FitStage::begin, Instant::now())
+    }
+
+    fn fit_again(&mut self, begin: fn(&mut Objective, &State, &Options) -> FitStage, clock: Instant) -> Result<()> {
+        let field = self.wait_for_field()?;
+        let mut objective = self.problem.fit_objective(field, &self.fit_began_at, &self.options, &self.context.stop)?;
         if !self.shape.is_empty() {
             // Their places are those on the avatar's own shape.
             objective.release_carried();
         }
         objective.contact.inherit_distances(&self.objective.contact);
-        self.problem = Arc::new(problem);
         self.take_up(objective)?;
-        let begin = if is_reshaped { FitStage::begin } else { FitStage::resume };
         self.step = Step::Fit(begin(&mut self.objective, &self.state, &self.options));
-        self.report.fit = StageReport::default();
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
-        (self.report.converged, self.report.stuck) = (false, false);
-        self.report.verification = None;
-        self.report.verify_seconds = 0.0;
-        self.update_report();
         Ok(())
     }
 }

@@ -56,7 +56,7 @@ pub(super) struct Run {
     pub(super) blocked: Option<(Diagnostic, Vec<DAffine3>)>,
     /// Where an earlier attempt came farthest.
     pub(super) farthest: Option<Box<(Objective, State)>>,
-    field: FieldTask,
+    pub(super) field: FieldTask,
     /// The garment as the fit began: the measure of the fit term is taken there.
     pub(super) fit_began_at: Vec<DVec3>,
     /// Pairs of garment triangles that intersected at the start.
@@ -73,7 +73,7 @@ pub(super) struct Run {
     pub(super) held: u64,
     /// Bytes of the distance field, as estimated.
     expected: u64,
-    /// The distance field and the seconds that it took, once it is there.
+    /// The distance field and the seconds that it took, once it was waited for.
     pub(super) distance: Option<(Arc<Field>, f64)>,
     /// The weights of the avatar's morphs in the shape that it has; none in its own.
     pub(super) shape: Vec<f64>,
@@ -89,7 +89,7 @@ pub(super) enum Step {
     Inflate(Inflation),
     Repose(Box<Reposing>),
     Fit(FitStage),
-    /// Nothing, while one of the others goes on.
+    /// Nothing, while one of the others goes on, and where a refit waits for the distance to another shape of the avatar.
     Between,
 }
 
@@ -195,6 +195,9 @@ impl Run {
         }
         if let Step::Repose(_) = self.step {
             return self.iterate_on_the_way(clock);
+        }
+        if let Step::Between = self.step {
+            self.begin_refit()?;
         }
         let options = &self.options;
         let (stage, ended) = match &mut self.step {
@@ -345,14 +348,9 @@ impl Run {
         if let Some(settings) = self.attempts.settings() {
             self.options.inflation_barrier_weight = settings.inflation_barrier_weight;
         }
-        let options = &self.options;
         let clock = Instant::now();
-        if self.distance.is_none() {
-            self.distance = Some(self.field.wait()?);
-        }
-        let Some((field, seconds)) = self.distance.clone() else { return Ok(()) };
-        self.report.field_seconds = seconds;
-        self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
+        let field = self.wait_for_field()?;
+        let options = &self.options;
         let stop = &self.context.stop;
         self.fit_began_at.clone_from(&self.state.x);
         let mut objective = self.problem.fit_objective(field, &self.state.x, options, stop)?;
@@ -365,6 +363,18 @@ impl Run {
         self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
         Ok(())
+    }
+
+    /// The distance field, once it is there.
+    pub(super) fn wait_for_field(&mut self) -> Result<Arc<Field>> {
+        let clock = Instant::now();
+        let (field, seconds) = match &self.distance {
+            Some(known) => known.clone(),
+            None => self.distance.insert(self.field.wait()?).clone(),
+        };
+        self.report.field_seconds = seconds;
+        self.report.field_wait_seconds = clock.elapsed().as_secs_f64();
+        Ok(field)
     }
 
     /// Goes on with `objective` in place of the one before, in whose contacts the garment is.

@@ -40,10 +40,17 @@ fn the_garment_follows_the_body_there_and_back() {
             session.set_target_morph_weight(morph, weight).unwrap();
         }
         session.refit(options.clone()).unwrap();
-        // From the beginning on that body, and no farther from the minimum.
-        let mut scratch = on(0.36);
         let mut avatar = body(0.36);
         avatar.positions = session.avatar_positions().unwrap();
+        // Before the first step of the fit, the garment can be seen on the body in its new shape, which it has come along with.
+        assert_eq!(session.stage(), Stage::Fit);
+        let carried = session.garment_positions().unwrap();
+        let count = carried.len();
+        assert_eq!(intersections(&moved(&carried, &vec![DVec3::ZERO; count]), Some(&avatar), 0).unwrap().count, 0);
+        let off = (radius(&carried) - expected).abs();
+        assert!(off < 0.05, "{weights:?}: carried to a radius of {}", radius(&carried));
+        // From the beginning on that body, and no farther from the minimum.
+        let mut scratch = on(0.36);
         scratch.set_target_avatar(avatar.clone()).unwrap();
         let garment = ends(&mut session);
         assert_eq!(session.avatar_positions().unwrap(), avatar.positions);
