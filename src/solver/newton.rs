@@ -90,6 +90,8 @@ pub struct Accepted {
     pub after: f64,
     /// Squared Newton decrement `-g^T dx` of the whole step: twice the decrease that the quadratic model predicts.
     pub decrement: f64,
+    /// The fraction of Newton's direction that was taken.
+    pub fraction: f64,
     /// Largest displacement of a vertex.
     pub displacement: f64,
     /// Whether the step was damped: then the decrement underestimates the possible decrease.
@@ -481,6 +483,7 @@ impl Newton {
                 after: found.objective,
                 decrement: -slope / kept,
                 damped,
+                fraction: found.fraction * kept,
                 displacement: found.fraction * self.dx.iter().fold(0.0_f64, |m, d| m.max(d.length())),
             }
         }))

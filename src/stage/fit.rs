@@ -9,7 +9,9 @@
 //!
 //! on which one factorisation gives the answer `dx = p0 + ds p1` of the garment to an advance of s. The pairs in contact
 //! move with the barrier and stay in contact. (Narrowed at once, the barrier loses them, and finds each again by
-//! running into it.) Newton's method at s = 1 converges to the result.
+//! running into it.) Advances are small, so that `p0`, which is Newton's step, keeps the garment near its balance: what is left at
+//! the end is to be gained under a barrier in which each contact has to be found by running into it. Newton's method at s = 1
+//! converges to the result.
 
 use crate::energy::barrier::BarrierPathRates;
 use crate::error::Result;
@@ -20,8 +22,10 @@ use crate::solver::newton::{Model as _, Newton, State};
 
 use super::objective::Objective;
 
-/// The iterations that must pass the test one after the other.
+/// The iterations that must pass the test one after the other, where contact or the line search made them short. Of those that
+/// take all of Newton's step one is enough: what it leaves is of second order.
 const CONVERGED_STEPS: u32 = 2;
+const WHOLE_STEP: f64 = 0.999;
 /// Steps without any decrease, one after the other, after which the fit is stuck: after so many, the damping that contact
 /// brings about has grown as far as it does.
 const STUCK_STEPS: u32 = 6;
@@ -31,10 +35,9 @@ const NO_OBJECTIVE: f64 = 1e-9;
 const SOFTNESS: f64 = 0.1;
 /// The path begins where the squared Newton decrement is below this fraction of the objective, or after so many steps.
 const RELAXED: f64 = 0.02;
-const MAX_RELAX_STEPS: u32 = 12;
-/// The first continuation step in s, and the largest.
-const FIRST_ADVANCE: f64 = 0.25;
-const LARGEST_ADVANCE: f64 = 0.5;
+const MAX_RELAX_STEPS: u32 = 3;
+/// The first continuation step in s, which is also the largest.
+const LARGEST_ADVANCE: f64 = 0.08;
 /// A result that is this far from the balance of other wishes, as a squared Newton decrement over the objective, goes the
 /// whole path again: under the stiff barrier at its end there is no room for so long a way.
 const FAR: f64 = 0.6;
@@ -133,7 +136,7 @@ impl FitStage {
                 let step = newton.newton_step(objective, state, false)?;
                 if *steps >= MAX_RELAX_STEPS || step.is_none_or(|s| s.decrement <= RELAXED * s.after.max(NO_OBJECTIVE))
                 {
-                    self.phase = Phase::Continue { s: 0.0, advance: FIRST_ADVANCE };
+                    self.phase = Phase::Continue { s: 0.0, advance: LARGEST_ADVANCE };
                 }
             }
             Phase::Continue { s, advance } => {
@@ -179,7 +182,8 @@ impl FitStage {
                 }
                 let passes = !step.damped && step.decrement <= options.tolerance * step.after.max(NO_OBJECTIVE);
                 *passed = if passes { *passed + 1 } else { 0 };
-                return Ok((*passed >= CONVERGED_STEPS).then_some(End::Converged));
+                let converged = *passed >= CONVERGED_STEPS || (passes && step.fraction >= WHOLE_STEP);
+                return Ok(converged.then_some(End::Converged));
             }
         }
         Ok(None)

@@ -14,7 +14,7 @@ use crate::small::session;
 /// test fails with the line to put here; on another class of processors it prints it.
 ///
 /// Linear algebra chooses its kernels by the processor, and these round differently. Nothing depends on the system.
-const PINNED: &[(&str, u64)] = &[("x86_64 avx512f", 0x8a0b_ce30_cea0_3e1c)];
+const PINNED: &[(&str, u64)] = &[("x86_64 avx512f", 0x52e4_c3f3_b319_d489)];
 
 fn processor_class() -> String {
     #[cfg(target_arch = "x86_64")]
