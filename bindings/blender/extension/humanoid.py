@@ -29,7 +29,7 @@ def names(armature: bpy.types.Object) -> dict[str, str]:
 
 
 def _kept(thing: bpy.types.Armature | bpy.types.Bone) -> Mapping[str, Any]:
-    """The properties of the add-on as they are stored. From Blender 5.0 on those of an add-on are apart from a user's."""
+    """The properties of the add-on as they are stored. From Blender 5.0 on those of add-ons are apart from a user's."""
     stored = thing.bl_system_properties_get() if hasattr(thing, "bl_system_properties_get") else thing
     group = stored.get(_GROUP) if stored is not None else None
     return group if hasattr(group, "keys") else {}

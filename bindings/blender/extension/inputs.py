@@ -222,7 +222,7 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
 def _body_to_dress(
     things: list[bpy.types.Object], frame: mathutils.Matrix, followed: list[str], depsgraph: bpy.types.Depsgraph
 ) -> tuple[list[Mesh], list[tuple[str, Array]]]:
-    """Its meshes without the shape keys that garments are to follow, and what each of these adds to the vertices of all."""
+    """Its meshes without the shape keys that garments are to follow, and what each of these adds to all vertices."""
     read: list[Mesh] = []
     of_mesh: list[dict[str, Array]] = []
     for thing in things:

@@ -47,8 +47,8 @@ def joints(armature: bpy.types.Object) -> list[bespoke.Joint]:
 
 
 def _parents(bones: bpy.types.ArmatureBones) -> dict[str, bpy.types.Bone | None]:
-    """What each bone hangs on. In rigs that Rigify makes, bones that move the body hang on such that move bones, and so shoulders on
-    no bone of the trunk that is seen: the one that moves the body in the place of that counts."""
+    """What each bone hangs on. In rigs that Rigify makes, bones that move the body hang on such that move bones, and so
+    shoulders on no bone of the trunk that moves the body: the one that does so in the place of that counts."""
     found = {bone.name: bone.parent for bone in bones}
     for bone in bones:
         if bone.name.startswith(_DEFORMS):

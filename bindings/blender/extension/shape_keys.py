@@ -1,5 +1,5 @@
-"""Shape keys of the body that is dressed, such as a heavier one: garments follow those that are chosen, with shape keys of
-their own."""
+"""Shape keys of the body that is dressed, such as a heavier one: garments follow those that are chosen, with shape keys
+of their own."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ def _aside(thing: bpy.types.Object) -> Iterator[bpy.types.Object]:
 
 
 def read(thing: bpy.types.Object, wanted: Sequence[str], frame: Any) -> tuple[Mesh, dict[str, Array]]:
-    """A mesh without these of its shape keys, and what each adds to its vertices, as `meshes.read` has them. To be called
-    within `meshes.as_modelled`."""
+    """A mesh without these of its shape keys, and what each adds to its vertices, as `meshes.read` has them. To be
+    called within `meshes.as_modelled`."""
     with _aside(thing) as aside:
         keys = aside.data.shape_keys.key_blocks
         own = [name for name in wanted if name in keys]
@@ -77,8 +77,8 @@ def read(thing: bpy.types.Object, wanted: Sequence[str], frame: Any) -> tuple[Me
             keys[name].value = 0.0
             if there.vertices.shape != plain.vertices.shape:
                 raise SceneError(
-                    f"{thing.name}: its modifiers make other vertices with the shape key {name!r} than without, so that no "
-                    "garment can follow it; apply them, or take it off the list"
+                    f"{thing.name}: its modifiers make other vertices with the shape key {name!r} than without, so that "
+                    "no garment can follow it; apply them, or take it off the list"
                 )
             offsets[name] = there.vertices - plain.vertices
         return plain, offsets
@@ -90,8 +90,8 @@ def _evaluated(thing: bpy.types.Object, aside: bpy.types.Object, frame: Any) -> 
 
 
 def follow(result: bpy.types.Object, name: str, offsets: Array, things: Sequence[bpy.types.Object]) -> None:
-    """Gives a garment the shape key with which it answers to that of a body, whose value moves it. One of the garment's own that
-    has the name takes this shape."""
+    """Gives a garment the shape key with which it answers to that of a body, whose value moves it. One of the garment's
+    own that has the name takes this shape."""
     if result.data.shape_keys is None:
         result.shape_key_add(name="Basis", from_mix=False)
     keys = result.data.shape_keys
@@ -118,11 +118,14 @@ def _menu(_self: Any, context: bpy.types.Context) -> list[tuple[str, str, str]]:
 
 
 class BESPOKE_OT_follow_key(bpy.types.Operator):
-    """Gives the garments a shape key of the same name, which moves with that of the body. Takes about as long as the fit, for each
-    of them"""
+    """Adds a shape key of the body to those that garments follow."""
 
     bl_idname = "bespoke.follow_key"
     bl_label = "Follow a Shape Key"
+    bl_description = (
+        "Gives the garments a shape key of the same name, which moves with that of the body. Takes about as long as the "
+        "fit, for each of them"
+    )
     bl_options = {"UNDO", "INTERNAL"}
 
     key: bpy.props.EnumProperty(name="Shape Key", items=_menu)
