@@ -24,6 +24,8 @@ const MOST_SEGMENTS: usize = 24;
 const FINGERS: usize = 4;
 /// A joint nearer to the trunk's axis than this share of what lies beyond it is that of a collar bone.
 const BREASTBONE: f64 = 0.12;
+/// A shoulder is nearer to that axis than this share of what lies beyond it.
+const SHOULDER: f64 = 0.6;
 /// The two bones of a limb are at least this share of the whole way to its tip.
 const LEAST_SHARE: f64 = 0.45;
 /// What a bend within one of them counts, beside the difference of their lengths.
@@ -71,6 +73,12 @@ impl<'a> Tree<'a> {
 
     fn length(&self, a: u32, b: u32) -> f64 {
         self.places[a as usize].distance(self.places[b as usize])
+    }
+
+    /// How far a joint is from the line through `from` along `up`.
+    fn aside(&self, from: u32, joint: u32, up: DVec3) -> f64 {
+        let there = self.places[joint as usize] - self.places[from as usize];
+        (there - there.dot(up) * up).length()
     }
 
     /// The longest way from `from` by way of its neighbour `to`, without `from`.
@@ -242,9 +250,10 @@ impl Person {
         let mut parts = vec![None; tree.places.len()];
         let up = self.up(tree);
         let legs = [0, 1].map(|k| segments(tree, &self.legs.pair[k].way));
+        let hips = self.hips_apart(tree, up, &legs);
         let arms = [0, 1].map(|k| {
             let way = &self.arms.pair[k].way;
-            let first = usize::from(self.begins_with_collar(tree, up, way));
+            let first = usize::from(self.begins_with_collar(tree, up, way, hips));
             segments(tree, &way[first..]).map(|at| at.map(|at| at + first))
         });
         let (left_leg, leg_sure) = self.left(tree, up, &self.legs, &legs);
@@ -282,12 +291,22 @@ impl Person {
         parts
     }
 
-    /// Whether an arm begins with a collar bone, whose joint is beside the breastbone.
-    fn begins_with_collar(&self, tree: &Tree<'_>, up: DVec3, way: &[u32]) -> bool {
+    /// How far the legs begin from the trunk's axis, in the mean.
+    fn hips_apart(&self, tree: &Tree<'_>, up: DVec3, legs: &[[Option<usize>; 3]; 2]) -> f64 {
+        let hip = |k: usize| self.legs.pair[k].way.get(legs[k][0]?).copied();
+        let apart: Vec<f64> = (0..2).filter_map(hip).map(|hip| tree.aside(self.legs.joint, hip, up)).collect();
+        apart.iter().sum::<f64>() / apart.len().max(1) as f64
+    }
+
+    /// Whether an arm begins with a collar bone, whose joint is beside the breastbone, or nearer to the trunk's axis than the `hips`:
+    /// in all people shoulders are farther apart than these. What comes next is then a shoulder and no elbow, so that most of the
+    /// arm lies beyond it.
+    fn begins_with_collar(&self, tree: &Tree<'_>, up: DVec3, way: &[u32], hips: f64) -> bool {
         let Some((&first, rest)) = way.split_first().filter(|(_, rest)| rest.len() >= 3) else { return false };
-        let from = tree.places[first as usize] - tree.places[self.arms.joint as usize];
-        let reach = tree.length(first, rest[rest.len() - 1]);
-        (from - from.dot(up) * up).length() < BREASTBONE * reach
+        let (next, tip) = (rest[0], rest[rest.len() - 1]);
+        let aside = |joint: u32| tree.aside(self.arms.joint, joint, up);
+        let is_shoulder = aside(first) < aside(next) && aside(next) < SHOULDER * tree.length(next, tip);
+        aside(first) < BREASTBONE * tree.length(first, tip) || (aside(first) < hips && is_shoulder)
     }
 
     /// Neck, head and its top, from how many joints there are, and whether the arms leave from below the shoulders, at the

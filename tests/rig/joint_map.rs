@@ -51,6 +51,46 @@ fn a_rig_without_names_is_read_by_its_structure() {
 }
 
 #[test]
+fn a_collar_bone_in_line_with_the_arm_is_none_of_its_two_bones() {
+    let silent = |places: &[([f64; 3], Option<u32>)]| Rig {
+        joints: places
+            .iter()
+            .map(|&(place, parent)| RigJoint {
+                name: String::new(),
+                parent,
+                bind: DMat4::from_translation(DVec3::from(place)),
+            })
+            .collect(),
+    };
+    // Collar bone and upper arm together are as long as the forearm, so that these two would do for an arm.
+    let mut places = vec![
+        ([0.0, 1.0, 0.0], None),
+        ([0.0, 1.3, 0.0], Some(0)),
+        ([0.0, 1.5, 0.0], Some(1)),
+        ([0.0, 1.65, 0.0], Some(2)),
+    ];
+    for x in [1.0, -1.0] {
+        let first = places.len() as u32;
+        let arm = [0.085, 0.14, 0.36, 0.64, 0.72].map(|along| [x * along, 1.42, 0.0]);
+        let leg = [[0.11, 0.95, 0.0], [0.11, 0.5, 0.0], [0.11, 0.08, 0.0], [0.11, 0.02, 0.15]];
+        for (k, place) in (0u32..).zip(arm) {
+            places.push((place, Some(if k == 0 { 1 } else { first + k - 1 })));
+        }
+        for (k, [aside, y, z]) in (0u32..).zip(leg) {
+            places.push(([x * aside, y, z], Some(if k == 0 { 0 } else { first + 4 + k })));
+        }
+    }
+    let reading = Reading::new(&silent(&places), None);
+    for (side, first) in [(Side::Left, 4), (Side::Right, 13)] {
+        let parts =
+            [BodyPart::Clavicle(side), BodyPart::UpperArm(side), BodyPart::LowerArm(side), BodyPart::Hand(side)];
+        for (joint, part) in (first..).zip(parts) {
+            assert_eq!(reading.part(joint), Some(part), "joint {joint}");
+        }
+    }
+}
+
+#[test]
 fn a_rig_that_stands_otherwise_is_read_alike() {
     let named = person(str::to_string, 1.0);
     for turn in [DMat4::from_rotation_x(1.5), DMat4::from_rotation_y(2.5), DMat4::from_rotation_z(-1.0)] {

@@ -14,8 +14,14 @@ pub struct Words {
 /// What a word says of the side.
 fn side_of(word: &str) -> Option<Side> {
     match word {
-        "left" | "l" | "lft" | "lt" | "links" | "左" => Some(Side::Left),
-        "right" | "r" | "rgt" | "rt" | "rechts" | "右" => Some(Side::Right),
+        "left" | "l" | "lft" | "lt" | "links" | "左" | "gauche" | "izquierda" | "izquierdo" | "izq" | "sinistra"
+        | "sinistro" | "esquerda" | "esquerdo" | "левая" | "левый" | "левое" | "лев" => {
+            Some(Side::Left)
+        }
+        "right" | "r" | "rgt" | "rt" | "rechts" | "右" | "droite" | "droit" | "derecha" | "derecho" | "destra"
+        | "destro" | "direita" | "direito" | "правая" | "правый" | "правое" | "прав" => {
+            Some(Side::Right)
+        }
         _ => None,
     }
 }

@@ -9,37 +9,60 @@ use super::tokens::is_number;
 /// Words that stand for a part, with how surely they do. Where one stands for several, the chain that its joint is in
 /// decides: collar, shoulder, elbow is one arm, shoulder, arm, forearm another.
 const PARTS: &[(&str, &[(Slot, f64)])] = &[
-    ("hips hip pelvis becken hüfte huefte 下半身 lowerbody lowertorso", &[(Slot::Hips, 1.0)]),
+    (
+        "hips hip pelvis becken hüfte huefte bassin cadera bacino quadril таз 骨盆 下半身 lowerbody lowertorso",
+        &[(Slot::Hips, 1.0)],
+    ),
     (
         "spine chest upperchest lowerchest torso uppertorso abdomen waist back lowerback upperback thorax ribs ribcage trunk \
-         upperbody stomach belly wirbelsäule wirbelsaeule brust 上半身 spinelower spineupper \
+         upperbody stomach belly wirbelsäule wirbelsaeule brust colonne poitrine columna pecho colonna petto coluna peito позвоночник \
+         грудь 脊柱 脊椎 上半身 spinelower spineupper \
          lowerspine upperspine abdomenlower abdomenupper chestlower chestupper",
         &[(Slot::Spine, 1.0)],
     ),
-    ("neck hals 首 necklower neckupper lowerneck upperneck", &[(Slot::Neck, 1.0)]),
-    ("head kopf skull cranium 頭", &[(Slot::Head, 1.0)]),
+    (
+        "neck hals cou cuello collo pescoço pescoco шея 首 脖子 颈 necklower neckupper lowerneck upperneck",
+        &[(Slot::Neck, 1.0)],
+    ),
+    ("head kopf skull cranium tête tete cabeza testa cabeça cabeca голова 頭 头 头部", &[(Slot::Head, 1.0)]),
     ("jaw lowerjaw jawlower kiefer unterkiefer", &[(Slot::Jaw, 1.0)]),
     ("eye eyeball auge 目", &[(Slot::Eye, 1.0)]),
-    ("clavicle clavicula clav collar collarbone scapula shoulderblade schlüsselbein", &[(Slot::Clavicle, 1.0)]),
+    (
+        "clavicle clavicula clav collar collarbone scapula shoulderblade schlüsselbein clavicule clavícula \
+         clavicola ключица 锁骨",
+        &[(Slot::Clavicle, 1.0)],
+    ),
     ("肩", &[(Slot::Clavicle, 1.0)]),
-    ("shoulder shldr schulter", &[(Slot::Clavicle, 0.6), (Slot::UpperArm, 0.6)]),
-    ("upperarm uparm upparm armupper armup humerus oberarm 腕 shoulderjoint", &[(Slot::UpperArm, 1.0)]),
-    ("arm", ARM),
-    ("forearm lowerarm lowarm loarm armlower armlow elbow unterarm ellbogen ひじ", &[(Slot::LowerArm, 1.0)]),
+    (
+        "shoulder shldr schulter épaule epaule hombro spalla ombro плечо",
+        &[(Slot::Clavicle, 0.6), (Slot::UpperArm, 0.6)],
+    ),
+    ("upperarm uparm upparm armupper armup humerus oberarm 腕 上臂 大臂 shoulderjoint", &[(Slot::UpperArm, 1.0)]),
+    ("arm bras brazo braccio braço braco рука", ARM),
+    (
+        "forearm lowerarm lowarm loarm armlower armlow elbow unterarm ellbogen ひじ avantbras coude antebrazo codo \
+         avambraccio gomito antebraço antebraco cotovelo предплечье локоть 前臂 小臂 手肘",
+        &[(Slot::LowerArm, 1.0)],
+    ),
     // Wrist and hand in one chain: the hand begins at the wrist.
-    ("wrist handgelenk 手首", &[(Slot::Hand, 1.0)]),
+    ("wrist handgelenk 手首 poignet muñeca polso запястье 手腕", &[(Slot::Hand, 1.0)]),
     ("hand", &[(Slot::Hand, 0.95)]),
     ("palm", &[(Slot::Hand, 0.9)]),
-    ("thigh upleg upperleg uppleg legupper legup femur oberschenkel hipjoint", &[(Slot::UpperLeg, 1.0)]),
-    ("足", &[(Slot::UpperLeg, 1.0)]),
-    ("leg bein", LEG),
     (
-        "lowerleg lowleg loleg leglower leglow calf shin shank knee tibia unterschenkel knie ひざ",
+        "thigh upleg upperleg uppleg legupper legup femur oberschenkel hipjoint cuisse muslo coscia coxa \
+         бедро 大腿",
+        &[(Slot::UpperLeg, 1.0)],
+    ),
+    ("足", &[(Slot::UpperLeg, 1.0)]),
+    ("leg bein jambe pierna gamba perna нога", LEG),
+    (
+        "lowerleg lowleg loleg leglower leglow calf shin shank knee tibia unterschenkel knie ひざ mollet genou \
+         pantorrilla rodilla polpaccio ginocchio panturrilha joelho голень колено 小腿 膝 膝盖",
         &[(Slot::LowerLeg, 1.0)],
     ),
-    ("ankle knöchel 足首", &[(Slot::Foot, 1.0)]),
+    ("ankle knöchel 足首 cheville tobillo caviglia tornozelo лодыжка 脚踝", &[(Slot::Foot, 1.0)]),
     ("foot fuss fuß", &[(Slot::Foot, 0.95), (Slot::Toes, 0.4)]),
-    ("toe toes ball zeh zehen つま先", &[(Slot::Toes, 1.0)]),
+    ("toe toes ball zeh zehen つま先 orteil orteils 脚趾 脚尖", &[(Slot::Toes, 1.0)]),
 ];
 
 /// What a joint of an arm can be, of which no more is said.
@@ -50,7 +73,11 @@ pub const ARM: &[(Slot, f64)] =
 pub const LEG: &[(Slot, f64)] = &[(Slot::UpperLeg, 0.6), (Slot::LowerLeg, 0.55), (Slot::Foot, 0.3), (Slot::Toes, 0.2)];
 
 /// What the same words mean in the name of a joint that has a side.
-const SIDED: &[(&str, &[(Slot, f64)])] = &[("hip hüfte huefte", &[(Slot::UpperLeg, 0.8)])];
+const SIDED: &[(&str, &[(Slot, f64)])] = &[
+    ("hip hüfte huefte", &[(Slot::UpperLeg, 0.8)]),
+    ("main mano mão mao кисть 手", &[(Slot::Hand, 0.95)]),
+    ("pied pie piede pé стопа 脚", &[(Slot::Foot, 0.95)]),
+];
 
 /// Words of joints that move others, or nothing.
 const CONTROLS: &str = "ik fk ctrl ctl control controller target tgt pole mch org trajectory locator loc gizmo effector goal \
@@ -86,11 +113,14 @@ const NOISE: &str = "node bone bones joint joints jnt jt bn bind skin sk def def
 
 /// Words of the fingers.
 const FINGERS: &[(&str, Finger)] = &[
-    ("thumb daumen 親指", Finger::Thumb),
-    ("index pointer forefinger zeigefinger 人指 人差指", Finger::Index),
-    ("middle mid mittelfinger 中指", Finger::Middle),
-    ("ring ringfinger 薬指", Finger::Ring),
-    ("pinky pinkie pink little small kleinerfinger 小指", Finger::Little),
+    ("thumb daumen pouce pulgar pollice polegar 親指 拇指", Finger::Thumb),
+    ("index pointer forefinger zeigefinger índice indice indicador указательный 人指 人差指 食指", Finger::Index),
+    ("middle mid mittelfinger majeur medio médio средний 中指", Finger::Middle),
+    ("ring ringfinger annulaire anular anulare anelar безымянный 薬指 无名指", Finger::Ring),
+    (
+        "pinky pinkie pink little small kleinerfinger auriculaire meñique menique mignolo mínimo minimo мизинец 小指",
+        Finger::Little,
+    ),
 ];
 
 /// Words of the bones of a finger, with their places.

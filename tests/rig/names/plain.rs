@@ -151,6 +151,93 @@ Becken=hips
         },
     ),
     (
+        "French",
+        List {
+            profiles: &[],
+            sides: ["gauche", "droite"],
+            text: "
+bassin=hips
+ colonne=spine > poitrine=spine
+  cou=neck > tête=head
+  clavicule_*=collar > bras_*=arm > avant_bras_*=elbow > main_*=hand
+   pouce1_*=thumb1 > pouce2_*=thumb2
+   majeur1_*=middle1 > majeur2_*=middle2
+ cuisse_*=leg > jambe_*=knee > pied_*=foot > orteils_*=toes
+",
+        },
+    ),
+    (
+        "Spanish",
+        List {
+            profiles: &[],
+            sides: ["izquierda", "derecha"],
+            text: "
+cadera=hips
+ columna=spine > pecho=spine
+  cuello=neck > cabeza=head
+  clavícula_*=collar > brazo_*=arm > antebrazo_*=elbow > mano_*=hand
+   pulgar1_*=thumb1 > pulgar2_*=thumb2
+ muslo_*=leg > pantorrilla_*=knee > pie_*=foot
+",
+        },
+    ),
+    (
+        "Italian",
+        List {
+            profiles: &[],
+            sides: ["sinistra", "destra"],
+            text: "
+bacino=hips
+ colonna=spine > petto=spine
+  collo=neck > testa=head
+  spalla_*=collar > braccio_*=arm > avambraccio_*=elbow > mano_*=hand
+ coscia_*=leg > ginocchio_*=knee > piede_*=foot
+",
+        },
+    ),
+    (
+        "Portuguese",
+        List {
+            profiles: &[],
+            sides: ["esquerda", "direita"],
+            text: "
+quadril=hips
+ coluna=spine > peito=spine
+  pescoço=neck > cabeça=head
+  clavícula_*=collar > braço_*=arm > antebraço_*=elbow > mão_*=hand
+ coxa_*=leg > joelho_*=knee > pé_*=foot
+",
+        },
+    ),
+    (
+        "Russian",
+        List {
+            profiles: &[],
+            sides: ["левая", "правая"],
+            text: "
+таз=hips
+ позвоночник=spine > грудь=spine
+  шея=neck > голова=head
+  ключица_*=collar > плечо_*=arm > предплечье_*=elbow > кисть_*=hand
+ бедро_*=leg > голень_*=knee > стопа_*=foot
+",
+        },
+    ),
+    (
+        "Chinese",
+        List {
+            profiles: &[],
+            sides: ["左", "右"],
+            text: "
+骨盆=hips
+ 脊柱=spine > 脊椎=spine
+  颈=neck > 头=head
+  锁骨_*=collar > 上臂_*=arm > 前臂_*=elbow > 手_*=hand
+ 大腿_*=leg > 小腿_*=knee > 脚_*=foot
+",
+        },
+    ),
+    (
         "second arm beside",
         List {
             profiles: &[],
