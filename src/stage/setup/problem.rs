@@ -10,7 +10,7 @@ use super::carried_pieces::{self, CarriedPiece};
 use super::carried_places::CarriedPlaces;
 use super::contact_distances::ContactDistances;
 use super::hanging_pieces::HangingPieces;
-use super::layer_skin::skin_with_layers;
+use super::layer_skin::skin_on_skeleton;
 use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
@@ -149,7 +149,7 @@ impl Problem {
         cancel.check()?;
         let Normalised { source, target, avatar, .. } = &normalised;
         let believed = inputs.skin.map(|skin| believed(skin, &avatar.avatar(), target, options.strict, diagnostics));
-        let skin = believed.as_deref().map(|skin| skin_with_layers(skin, avatar));
+        let skin = believed.as_deref().map(|skin| skin_on_skeleton(skin, avatar, target));
         let skin = skin.as_deref();
         let owners = Owners::find(&avatar.mesh, target, skin);
         diagnostics.extend(owners.unclear(avatar.avatar_positions().len(), target));

@@ -227,10 +227,13 @@ impl Dressing<'_> {
             match put_on(&job, &sources) {
                 Ok(fitted) => {
                     say_findings(args.quiet, &garment.name, &fitted.findings, fitted.flaw.is_some());
-                    layers.push(TriangleMesh {
-                        positions: fitted.positions.clone(),
-                        triangles: cloth.mesh.triangles.clone(),
-                    });
+                    // What is not where it is worn, as a shoe beside its foot, would lead the next garments astray.
+                    if !fitted.is_astray {
+                        layers.push(TriangleMesh {
+                            positions: fitted.positions.clone(),
+                            triangles: cloth.mesh.triangles.clone(),
+                        });
+                    }
                     dressed.push(Dressed { garment, fitted });
                 }
                 Err(why) => {

@@ -106,6 +106,8 @@ pub struct Fitted {
     pub caps: Vec<u32>,
     /// What is not as designed, if anything.
     pub flaw: Option<String>,
+    /// It is not where it is worn.
+    pub is_astray: bool,
     /// What the library has to say.
     pub findings: Vec<Finding>,
     /// What was measured.
@@ -158,7 +160,8 @@ impl Job<'_> {
                 skin: if moves { session.garment_skin(self.influences)? } else { unmoved(self.garment) },
                 added: if moves { session.added_joints()? } else { Vec::new() },
                 caps: caps(&session),
-                flaw,
+                is_astray: flaw.is_some(),
+                flaw: flaw.clone(),
                 findings: findings.clone(),
                 report: session.report(),
                 seconds,
