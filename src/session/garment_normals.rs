@@ -118,7 +118,7 @@ fn direction(map: &DAffine3, v: DVec3) -> DVec3 {
 }
 
 impl Snapshot {
-    /// The garment's triangles as the caller has them, over the welded vertices, as designed and now, in the normalised space.
+    /// The garment's triangles as the caller has them, over the welded vertices, as designed and now, in the normalised space before its turn.
     pub(super) fn moved_surface(&self, inputs: &Inputs) -> Result<MovedSurface> {
         let Some((garment, _)) = &inputs.garment else {
             return Err(Error::new(ErrorKind::Internal, "there is no garment in a prepared session"));
@@ -127,6 +127,7 @@ impl Snapshot {
         let welded =
             |t: &[u32; 3]| inputs.source_coordinate_system.triangle(t.map(|v| problem.weld.to_welded[v as usize]));
         let triangles = garment.triangles.iter().map(welded).collect();
-        Ok(MovedSurface::new(problem.rest.clone(), self.x_with_caps(), triangles))
+        let now = self.x_with_caps().iter().map(|&p| problem.target_normalization.turned_back(p)).collect();
+        Ok(MovedSurface::new(problem.rest.clone(), now, triangles))
     }
 }

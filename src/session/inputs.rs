@@ -480,6 +480,7 @@ impl Inputs {
                 offset: target_system.metres_per_unit * self.options.offset,
                 weld: weld.clone(),
                 coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),
+                turns: !self.options.strict && !told.trusted,
                 known_intersections: self.shared.intersections(),
             },
             &self.options,

@@ -129,6 +129,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         curves: &[],
         offset: 0.0,
         coordinate_error: 0.0,
+        turns: true,
         known_intersections: None,
     };
     Problem::new(&inputs, &Options::default(), &Cancel::new(), &mut Vec::new()).unwrap()

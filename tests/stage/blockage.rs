@@ -96,6 +96,7 @@ impl Case {
             curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
+            turns: true,
             known_intersections: None,
         };
         let options = Options::default();

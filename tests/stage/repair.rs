@@ -94,6 +94,7 @@ impl Case {
             curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
+            turns: true,
             known_intersections: None,
         };
         Problem::new(&inputs, options, &Cancel::new(), diagnostics)

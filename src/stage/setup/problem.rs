@@ -75,6 +75,8 @@ pub struct Inputs<'a> {
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's unit.
     pub coordinate_error: f64,
     /// What other sessions have found of the same garment.
+    /// The target may be turned while it is solved for.
+    pub turns: bool,
     pub known_intersections: Option<&'a KnownIntersections>,
 }
 
@@ -341,6 +343,15 @@ impl Normalised {
         let skeleton = |normalization: &Normalization, s: &Skeleton| Skeleton {
             joints: normalization.normalise_all(&s.joints),
             bones: inputs.source_skeleton.bones.clone(),
+        let target_normalization = if inputs.turns {
+            let source = Skeleton {
+                joints: source_normalization.normalise_all(&inputs.source_skeleton.joints),
+                bones: Vec::new(),
+            };
+            target_normalization.turned_to(&source, inputs.target_skeleton)
+        } else {
+            target_normalization
+        };
         };
         let mut avatar = TriangleMesh {
             positions: target_normalization.normalise_all(&inputs.avatar.mesh.positions),

@@ -57,6 +57,7 @@ impl Moment {
             curves: &[],
             offset: 0.0,
             coordinate_error: 0.0,
+            turns: true,
             known_intersections: None,
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;

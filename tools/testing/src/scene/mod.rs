@@ -200,6 +200,7 @@ impl Scene {
                 curves: &[],
                 offset: 0.0,
                 coordinate_error: 0.0,
+                turns: true,
                 known_intersections: None,
             },
             &self.options,
