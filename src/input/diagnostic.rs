@@ -276,7 +276,8 @@ pub enum Diagnostic {
         /// The triangle on whose edge the first lies.
         triangle: u32,
     },
-    /// A piece of the garment is around no bone, and is carried along with the body beside it.
+    /// A piece of the garment is around no bone, or closed around one without an opening, and is carried along with the body
+    /// beside it.
     CarriedPiece {
         /// How many vertices the piece has.
         vertices: usize,
@@ -290,6 +291,8 @@ pub enum Diagnostic {
         from_body: bool,
         /// It keeps its shape.
         stiff: bool,
+        /// It is closed around the bone.
+        closed: bool,
     },
     /// Two garment triangles intersect before anything has moved.
     SelfIntersection {

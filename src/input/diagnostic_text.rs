@@ -82,13 +82,14 @@ impl Display for Diagnostic {
                      two sides keep together, but may part by a hair; split these edges where the vertices are"
                 )
             }
-            Self::CarriedPiece { vertices, triangle, bone, distance, from_body, stiff } => {
+            Self::CarriedPiece { vertices, triangle, bone, distance, from_body, stiff, closed } => {
                 let [a, b] = bone.joints;
                 let from = if *from_body { "the source avatar" } else { "that bone" };
+                let around = if *closed { "is closed around a bone, without cuff, hem or collar" } else { "is around no bone" };
                 let keeps = if *stiff { "keeps its shape" } else { "gives way" };
                 write!(
                     f,
-                    "garment: the piece of {vertices} vertices with triangle {triangle} is around no bone; it is carried by \
+                    "garment: the piece of {vertices} vertices with triangle {triangle} {around}; it is carried by \
                      the body at the bone between joints {a} and {b}, {distance:.1e} from {from} (the skeleton is 2 long), \
                      and {keeps}"
                 )

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::{MAX_COORDINATE, bad_coordinate};
 use crate::error::{Error, ErrorKind, Result};
+use crate::geometry::closest_point::closest_on_segment;
 
 /// The largest number of joints accepted: the table of paths between joints grows with its square.
 pub const MAX_JOINTS: usize = 4096;
@@ -145,6 +146,15 @@ impl Skeleton {
         let [a, b] = self.bones[bone as usize].map(|j| self.joints[j as usize]);
         // Exact at both joints, so that locations on different bones that are one joint coincide.
         if parameter == 1.0 { b } else { a + parameter * (b - a) }
+    }
+
+    /// The bone nearest to a point, and its distance; none without bones.
+    pub fn nearest_bone(&self, p: DVec3) -> Option<(u32, f64)> {
+        let distance = |ends: &[u32; 2]| {
+            let [a, b] = ends.map(|joint| self.joints[joint as usize]);
+            closest_on_segment(p, a, b - a).distance(p)
+        };
+        (0u32..).zip(self.bones.iter().map(distance)).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 

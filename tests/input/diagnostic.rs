@@ -155,6 +155,7 @@ fn every_sentence_is_made_of_its_data() {
                 distance: 0.02,
                 from_body: true,
                 stiff: true,
+                closed: false,
             },
             "garment: the piece of 7 vertices with triangle 40 is around no bone; it is carried by the body at the bone \
              between joints 5 and 7, 2.0e-2 from the source avatar (the skeleton is 2 long), and keeps its shape"

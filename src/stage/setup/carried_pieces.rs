@@ -15,7 +15,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::loose_pieces::LoosePieces;
-use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
+use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
 use crate::geometry::piece::Piece;
 use crate::geometry::section::Gap;
@@ -71,6 +71,8 @@ pub struct CarriedPiece {
     pub distance: f64,
     /// It keeps its shape.
     pub stiff: bool,
+    /// It is closed around that bone.
+    pub closed: bool,
 }
 
 /// `garment` with the triangles of `part` alone.
@@ -196,8 +198,8 @@ fn carry(
     if !(SIZES[0]..=SIZES[1]).contains(&size) {
         return None;
     }
-    let from_bones = part.vertices.iter().filter_map(|&v| nearest_bone(source, garment.positions[v as usize]));
-    let (from_bone, bone) = from_bones.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let from_bones = part.vertices.iter().filter_map(|&v| source.nearest_bone(garment.positions[v as usize]));
+    let (bone, from_bone) = from_bones.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let from_body = source_body.map(|body| {
         let distances = part.vertices.iter().map(|&v| body.distance(garment.positions[v as usize]));
         distances.fold(f64::INFINITY, f64::min)
@@ -218,16 +220,8 @@ fn carry(
         bone,
         distance: from_body.unwrap_or(from_bone),
         stiff: size <= SMALL || is_open || shells.first().is_some_and(|shell| shell.is_thicker(thick)),
+        closed: false,
     })
-}
-
-/// The distance of `p` from the nearest bone, and that bone.
-fn nearest_bone(source: &Skeleton, p: DVec3) -> Option<(f64, u32)> {
-    let distance = |ends: &[u32; 2]| {
-        let [a, b] = ends.map(|joint| source.joints[joint as usize]);
-        closest_on_segment(p, a, b - a).distance(p)
-    };
-    source.bones.iter().map(distance).zip(0..).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// A connected surface with its topology.

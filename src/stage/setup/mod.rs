@@ -4,6 +4,7 @@ pub mod bone_map;
 pub mod cap_motion;
 pub mod carried_pieces;
 pub mod carried_places;
+pub mod closed_pieces;
 pub mod contact_distances;
 pub mod curves;
 pub mod fit_region;

@@ -8,6 +8,7 @@ use super::bone_map::BoneMap;
 use super::cap_motion::CapMotion;
 use super::carried_pieces::{self, CarriedPiece};
 use super::carried_places::CarriedPlaces;
+use super::closed_pieces;
 use super::contact_distances::ContactDistances;
 use super::hanging_pieces::HangingPieces;
 use super::layer_skin::skin_on_skeleton;
@@ -74,9 +75,9 @@ pub struct Inputs<'a> {
     pub offset: f64,
     /// The most that a coordinate of the result is moved where it is rounded to be read, in the target's unit.
     pub coordinate_error: f64,
-    /// What other sessions have found of the same garment.
     /// The target may be turned while it is solved for.
     pub turns: bool,
+    /// What other sessions have found of the same garment.
     pub known_intersections: Option<&'a KnownIntersections>,
 }
 
@@ -202,7 +203,8 @@ impl Problem {
         let hanging = HangingPieces::find(&garment.positions, &garment.triangles, source, &loose);
         loose.holds.extend(hanging.holds);
         loose.hanging = hanging.pieces;
-        let pieces = carried_pieces::find(garment, &loose, &segments, source, source_surface);
+        let mut pieces = carried_pieces::find(garment, &loose, &segments, source, source_surface);
+        pieces.extend(closed_pieces::find(garment, &loose, &pieces, source, source_surface));
         if !carried_pieces::is_whole(garment, &pieces) {
             enclosure::check(garment, &segments)?;
         }
@@ -239,6 +241,7 @@ impl Problem {
             distance: piece.distance,
             from_body: source_surface.is_some(),
             stiff: piece.stiff,
+            closed: piece.closed,
         });
         // What hangs on another piece has its place from that, and the place of what is carried has its clearance already.
         let placed =
@@ -340,9 +343,6 @@ impl Normalised {
         let source_normalization = Normalization::of(inputs.source_skeleton, "source skeleton")?;
         let target_normalization = Normalization::of(inputs.target_skeleton, "target skeleton")?;
         let offset = normalised_offset(inputs.offset, &target_normalization, options)?;
-        let skeleton = |normalization: &Normalization, s: &Skeleton| Skeleton {
-            joints: normalization.normalise_all(&s.joints),
-            bones: inputs.source_skeleton.bones.clone(),
         let target_normalization = if inputs.turns {
             let source = Skeleton {
                 joints: source_normalization.normalise_all(&inputs.source_skeleton.joints),
@@ -352,6 +352,9 @@ impl Normalised {
         } else {
             target_normalization
         };
+        let skeleton = |normalization: &Normalization, s: &Skeleton| Skeleton {
+            joints: normalization.normalise_all(&s.joints),
+            bones: inputs.source_skeleton.bones.clone(),
         };
         let mut avatar = TriangleMesh {
             positions: target_normalization.normalise_all(&inputs.avatar.mesh.positions),
