@@ -109,7 +109,7 @@ pub fn triangle_pairs_of(surface: &Surface, pairs: &[(PairType, [u32; 4])]) -> V
 /// triangle in descending order; of two edges, each has its lower end first and the lower edge leads. The order of the last
 /// two distinguishes the two types.
 #[inline]
-fn canonical(pair_type: PairType, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
+pub fn canonical(pair_type: PairType, [a, b, c, d]: [u32; 4]) -> [u32; 4] {
     match pair_type {
         PairType::PointTriangle => {
             let mut corners = [b, c, d];

@@ -92,6 +92,16 @@ impl Surface {
         &self.joined
     }
 
+    /// For each vertex, those to which an edge leads from it.
+    pub fn neighbours(&self) -> Vec<Vec<u32>> {
+        let mut neighbours = vec![Vec::new(); self.vertex_count];
+        for &[a, b] in &self.edges {
+            neighbours[a as usize].push(b);
+            neighbours[b as usize].push(a);
+        }
+        neighbours
+    }
+
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
         bytes(&self.triangles) + bytes(&self.edges) + bytes(&self.joined) + bytes(&self.ownership)

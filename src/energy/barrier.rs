@@ -14,6 +14,7 @@
 //! that which closes gaps, `-g q q^T / 2`. The other half would take its definiteness, and with one half alone the garment is
 //! too stiff to slide: it converges more slowly where contact does not make the steps short.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -22,6 +23,7 @@ use rayon::prelude::*;
 
 use super::{Configuration, Direction, Energy, Sink};
 use crate::contact::distance::Separation;
+use crate::contact::exempt_pairs::canonical;
 use crate::contact::{Bodies, CandidateSet, CollisionGroup, PairType, curvature, mollifier};
 use crate::maths;
 
@@ -139,6 +141,8 @@ pub struct Barrier {
     is_curved: bool,
     /// Vertices whose distances at rest say nothing; empty for none.
     intersects_at_rest: Vec<bool>,
+    /// Pairs that touch at rest, as [`canonical`] has them: their distances there say nothing either.
+    touching_at_rest: HashSet<[u32; 4]>,
 }
 
 impl Barrier {
@@ -151,6 +155,7 @@ impl Barrier {
             path: None,
             is_curved: false,
             intersects_at_rest: Vec::new(),
+            touching_at_rest: HashSet::new(),
         }
     }
 
@@ -191,6 +196,12 @@ impl Barrier {
         self.intersects_at_rest = intersects_at_rest;
     }
 
+    /// Marks pairs of the garment with itself that touch at rest, as [`canonical`] has them. They have the d-hat of their group:
+    /// a share of no distance would leave them where any step that slides or turns them is cut to nothing.
+    pub fn set_touching_at_rest(&mut self, touching_at_rest: HashSet<[u32; 4]>) {
+        self.touching_at_rest = touching_at_rest;
+    }
+
     /// d-hat of a pair.
     #[inline]
     fn dhat(&self, close: &ClosePair) -> f64 {
@@ -203,6 +214,10 @@ impl Barrier {
             return dhat;
         }
         let at_rest = close.pair_type.separation(&close.pair.map(|i| self.bodies.rest(i))).squared.sqrt();
+        if !self.touching_at_rest.is_empty() && self.touching_at_rest.contains(&canonical(close.pair_type, close.pair))
+        {
+            return dhat;
+        }
         (self.settings.rest_share * at_rest).max(LEAST_DHAT * self.settings.min_separation).min(dhat)
     }
 

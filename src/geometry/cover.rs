@@ -11,10 +11,19 @@ use crate::maths;
 
 /// Directions in which a point looks.
 pub const DIRECTIONS: usize = 64;
+/// The cosine of the half-angle of [`cover_towards`].
+const CONE: f64 = 0.64;
 
 /// The share of [`DIRECTIONS`], spread evenly, in which `surface` is seen from `p`.
 pub fn cover(surface: &ClosestPoint, p: DVec3) -> f64 {
     (0..DIRECTIONS).filter(|&k| surface.meets_ray(p, direction(k, DIRECTIONS))).count() as f64 / DIRECTIONS as f64
+}
+
+/// The share of directions within some 50 degrees of `axis`, a unit vector, in which `surface` is seen from `p`.
+pub fn cover_towards(surface: &ClosestPoint, p: DVec3, axis: DVec3) -> f64 {
+    let within = (0..2 * DIRECTIONS).map(|k| direction(k, 2 * DIRECTIONS)).filter(|d| d.dot(axis) > CONE);
+    let (all, seen) = within.fold((0, 0), |(all, seen), d| (all + 1, seen + u32::from(surface.meets_ray(p, d))));
+    f64::from(seen) / f64::from(all.max(1))
 }
 
 /// Direction `k` of `count` that are spread evenly: points on a spiral around the sphere, in rings of equal area.

@@ -109,6 +109,11 @@ impl Body {
         })
     }
 
+    /// Triangles of the mesh that the garment is not fitted to, ascending.
+    pub fn collision_only(&self) -> &[u32] {
+        &self.collision_only
+    }
+
     /// The mesh without the triangles that the garment is not fitted to; none where there are no such triangles.
     pub fn fitted(&self) -> Option<TriangleMesh> {
         if self.collision_only.is_empty() {

@@ -173,6 +173,15 @@ pub enum LimbPlace {
         /// The share of the part around the bone that is.
         share: f64,
     },
+    /// No limb of its own, but a part that sticks out of the body, shut up in the garment without room for it in the design.
+    Swallowed {
+        /// A triangle of the avatar that is inside.
+        triangle: u32,
+        /// How many times farther from the bone it reaches than the garment does in the design.
+        times: f64,
+        /// Nobody would wear it.
+        is_gross: bool,
+    },
 }
 
 /// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.
@@ -559,6 +568,13 @@ pub enum Diagnostic {
         scale: f64,
         /// Nobody would wear it.
         is_gross: bool,
+    },
+    /// The cloth is drawn out in one place and has shrunk in another, so that nobody would wear it.
+    ClothDistorted {
+        /// How many times as large all but a twentieth of it is at least, and at most.
+        scales: [f64; 2],
+        /// A triangle of each size.
+        triangles: [u32; 2],
     },
     /// The fit ended short of its tolerance.
     NotConverged {

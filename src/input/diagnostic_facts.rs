@@ -42,7 +42,7 @@ impl Diagnostic {
             Self::Untangled { .. } => DiagnosticKind::Untangled,
             Self::OpeningCap { .. } => DiagnosticKind::OpeningCap,
             Self::LimbMisplaced { .. } => DiagnosticKind::LimbMisplaced,
-            Self::PieceResized { .. } => DiagnosticKind::PieceResized,
+            Self::PieceResized { .. } | Self::ClothDistorted { .. } => DiagnosticKind::PieceResized,
             Self::NotConverged { .. } => DiagnosticKind::NotConverged,
             Self::UnitMismatch { .. } => DiagnosticKind::UnitMismatch,
             Self::FacingMismatch { .. } => DiagnosticKind::FacingMismatch,
@@ -87,6 +87,7 @@ impl Diagnostic {
             | Self::BonesUnclear { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
+            | Self::LimbMisplaced { place: LimbPlace::Swallowed { is_gross: false, .. }, .. }
             | Self::PieceResized { is_gross: false, .. }
             | Self::NotConverged { .. }
             | Self::UnitMismatch { gross: false, .. }
@@ -101,6 +102,7 @@ impl Diagnostic {
             | Self::InflationSqueezed { .. }
             | Self::LimbMisplaced { .. }
             | Self::PieceResized { is_gross: true, .. }
+            | Self::ClothDistorted { .. }
             | Self::UnitMismatch { gross: true, .. }
             | Self::FacingMismatch { gross: true, .. }
             | Self::SidesSwapped { sure: true, .. } => Severity::Error,
@@ -130,6 +132,7 @@ impl Diagnostic {
             Self::LoosePiece { triangle: t, host, .. } => [t, host].map(triangle).into(),
             Self::SelfIntersection { triangles, .. }
             | Self::ResultSelfIntersection { triangles }
+            | Self::ClothDistorted { triangles, .. }
             | Self::Untangled { first: triangles, .. } => triangles.map(triangle).into(),
             Self::BoneMoved { bone, ref triangles, .. } | Self::OpeningCap { bone, ref triangles } => {
                 std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
@@ -156,9 +159,9 @@ impl Diagnostic {
             Self::LimbMisplaced { bone, place } => {
                 let element = match place {
                     LimbPlace::OutOfOpening { vertex: v } => vertex(v),
-                    LimbPlace::Inside { triangle, .. } | LimbPlace::Beside { triangle, .. } => {
-                        Element::triangle(Subject::TargetAvatar, triangle)
-                    }
+                    LimbPlace::Inside { triangle, .. }
+                    | LimbPlace::Beside { triangle, .. }
+                    | LimbPlace::Swallowed { triangle, .. } => Element::triangle(Subject::TargetAvatar, triangle),
                 };
                 vec![bone.element(), element]
             }

@@ -393,6 +393,12 @@ impl Display for Diagnostic {
                 "result: the piece of {triangles} triangles with garment triangle {triangle} is {scale:.2} times as large as it \
                  should be beside the garment around it or the bodies; join it to what it hangs on, or make it a rigid group"
             ),
+            Self::ClothDistorted { scales: [smaller, larger], triangles: [shrunk, drawn_out] } => write!(
+                f,
+                "result: some of the cloth, such as garment triangle {shrunk}, is {smaller:.2} times as large as in the design and \
+                 some, such as triangle {drawn_out}, {larger:.1} times; compare unit and place of the garment with its skeleton, and \
+                 of the avatar with its own"
+            ),
             Self::NotConverged { iterations, stuck: true } => write!(
                 f,
                 "result: the fit ended after {iterations} iterations where no step brings the garment nearer to the body or its \
@@ -429,7 +435,8 @@ impl Display for Diagnostic {
                 } else {
                     write!(
                         f,
-                        "{subject}: it lies across the {against}, as where one is y-up and the other z-up; turn it by {turn}"
+                        "{subject}: it lies across the {against}, as where one is y-up and the other z-up, or faces sideways; turn it \
+                         by {turn}"
                     )
                 }
             }
@@ -495,6 +502,12 @@ fn misplaced(f: &mut Formatter<'_>, bone: Bone, place: LimbPlace) -> Result {
              avatar triangle {triangle}); {cause}",
             100.0 * share
         ),
+        LimbPlace::Swallowed { triangle, times, .. } => write!(
+            f,
+            "result: a part that sticks out of the body near {name}, such as avatar triangle {triangle}, is shut up in the garment, \
+             {times:.1} times as far from the bone as there is room in the design; as a horn, a tail or a wing it needs a bone and an \
+             opening, or leave it out with set_avatar_parts"
+        ),
     }
 }
 
@@ -516,7 +529,9 @@ fn several(like: &Diagnostic) -> &'static str {
         Diagnostic::RigidGroupBent { .. } => "rigid groups end bent",
         Diagnostic::ForeignPart { .. } => "pieces of the avatar seem to be no part of the body",
         Diagnostic::LimbMisplaced { .. } => "limbs are elsewhere than in the design",
-        Diagnostic::PieceResized { .. } => "pieces of the garment became larger or smaller than they should",
+        Diagnostic::PieceResized { .. } | Diagnostic::ClothDistorted { .. } => {
+            "pieces of the garment became larger or smaller than they should"
+        }
         _ => "of this kind",
     }
 }

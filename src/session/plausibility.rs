@@ -6,7 +6,7 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::{Bone, Diagnostic, LimbPlace};
-use crate::stage::plausibility::{Findings, Misplacement, Outcome, compare};
+use crate::stage::plausibility::{Distorted, Findings, Misplacement, Outcome, compare};
 
 impl Session {
     /// Adds to the diagnostics how the result differs from the design.
@@ -43,7 +43,9 @@ impl Snapshot {
         };
         let [source, target] = &problem.skeletons;
         let (design, result) = (mesh(&problem.rest), mesh(&self.x));
-        let findings = compare(&Outcome { design: &design, result: &result, source, target, body: &body }, cancel)?;
+        let collision_only = self.body.collision_only();
+        let outcome = Outcome { design: &design, result: &result, source, target, body: &body, collision_only };
+        let findings = compare(&outcome, cancel)?;
         Ok((self.diagnostics_of(&findings), findings.is_gross()))
     }
 
@@ -63,6 +65,9 @@ impl Snapshot {
                 Misplacement::Beside { bone, triangle, share } => {
                     (bone, LimbPlace::Beside { triangle: avatar(triangle), share })
                 }
+                Misplacement::Swallowed { bone, triangle, times, is_gross } => {
+                    (bone, LimbPlace::Swallowed { triangle: avatar(triangle), times, is_gross })
+                }
             };
             Diagnostic::LimbMisplaced { bone: bone(index), place }
         });
@@ -72,6 +77,10 @@ impl Snapshot {
             scale: piece.scale,
             is_gross: piece.is_gross,
         });
+        diagnostics.extend(findings.distorted.map(|Distorted { scales, triangles }| Diagnostic::ClothDistorted {
+            scales,
+            triangles: triangles.map(|t| problem.weld.triangle_of[t as usize]),
+        }));
         diagnostics
     }
 }

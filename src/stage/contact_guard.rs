@@ -1,14 +1,17 @@
 //! What keeps garment and avatar apart: the barrier and the pairs that it sees, continuous collision detection for every
 //! step, the pairs that are exempt since they intersected at the start, and the minimum separation.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec3;
 
 use super::setup::contact_distances::{ContactDistances, TOUCHING};
-use crate::contact::exempt_pairs::triangle_pairs_of;
-use crate::contact::{Bodies, BroadPhase, CollisionGroup, Configuration, ExemptPairs, Motion, Step, ccd};
+use crate::contact::exempt_pairs::{canonical, triangle_pairs_of};
+use crate::contact::{
+    Bodies, BroadPhase, CandidateSet, CollisionGroup, Configuration, ExemptPairs, Motion, PairType, Step, ccd,
+};
 use crate::control::{Cancel, Cancelled};
 use crate::energy::barrier::{Activity, Barrier, BarrierPathRates, BarrierSettings};
 use crate::error::Result;
@@ -23,6 +26,10 @@ const SEPARATION_SHARE: f64 = 0.25;
 
 /// Parts of the garment that are near to each other at rest repel each other below this share of their distance there.
 const REST_SHARE: f64 = 0.95;
+/// Parts that are nearer than this at rest touch there, but for the rounding of coordinates that came in 32 bits; unless so few
+/// edges lead from one to the other, as in slivers.
+const TOUCHING_AT_REST: f64 = 1e-6;
+const HANGS_TOGETHER: usize = 3;
 
 /// The part of a step that is searched first, in multiples of the feasible fraction of the step before, and at least.
 const SEARCH_AHEAD: f64 = 2.5;
@@ -123,6 +130,44 @@ impl ContactGuard {
             triangles.flat_map(|&t| surface.triangles[t as usize]).for_each(|v| intersects_at_rest[v as usize] = true);
         }
         self.barrier.set_intersecting_at_rest(intersects_at_rest);
+        let touching = self.touching_at_rest();
+        self.barrier.set_touching_at_rest(touching);
+    }
+
+    /// The pairs of garment primitives that touch at rest though the surface does not lead from one to the other there, as where a
+    /// patch stands on the cloth with a corner.
+    fn touching_at_rest(&mut self) -> HashSet<[u32; 4]> {
+        let rest = Configuration { x: &self.bodies.garment.rest, t: 0.0 };
+        self.motion.set(&self.bodies, rest, None);
+        let mut near = CandidateSet::default();
+        self.broad_phase.candidates(&self.bodies, &self.motion, 1.0, TOUCHING_AT_REST, TOUCHING_AT_REST, &mut near);
+        let pairs = [PairType::PointTriangle, PairType::EdgeEdge].map(|pair_type| {
+            let touches = |pair: &&[u32; 4]| {
+                pair_type.separation(&self.bodies.positions(**pair, rest)).squared <= TOUCHING_AT_REST.powi(2)
+            };
+            let near = near.of(pair_type, CollisionGroup::Garment).iter().filter(touches).copied();
+            (pair_type, near.collect::<Vec<_>>())
+        });
+        let mut touching = HashSet::new();
+        if pairs.iter().all(|(_, pairs)| pairs.is_empty()) {
+            return touching;
+        }
+        let neighbours = self.bodies.garment.surface.neighbours();
+        for (pair_type, pairs) in pairs {
+            for pair in pairs {
+                let (one, other) = pair.split_at(pair_type.first_count());
+                let mut around = one.to_vec();
+                for _ in 0..HANGS_TOGETHER {
+                    around.extend(around.clone().iter().flat_map(|&v| &neighbours[v as usize]));
+                    around.sort_unstable();
+                    around.dedup();
+                }
+                if !other.iter().any(|v| around.binary_search(v).is_ok()) {
+                    touching.insert(canonical(pair_type, pair));
+                }
+            }
+        }
+        touching
     }
 
     /// Goes on from `previous`, the contact of the same garment: with its exempt pairs and its minimum separation.

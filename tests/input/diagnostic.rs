@@ -369,6 +369,12 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::ClothDistorted { scales: [0.083, 7.94], triangles: [5, 48] },
+            "result: some of the cloth, such as garment triangle 5, is 0.08 times as large as in the design and some, such as \
+             triangle 48, 7.9 times; compare unit and place of the garment with its skeleton, and of the avatar with its own"
+                .into(),
+        ),
+        (
             Diagnostic::NotConverged { iterations: 9, stuck: true },
             "result: the fit ended after 9 iterations where no step brings the garment nearer to the body or its own shape, \
              short of its tolerance, for contact holds it; another dhat or barrier_weight may free it"
@@ -470,6 +476,15 @@ fn a_misplaced_limb_names_its_bone_and_where_it_is() {
         assert!(said.contains("bone 4 (joints 5-7)") && said.contains(words) && said.contains("compare"), "{said}");
         assert_eq!(found.elements(), [bone, element]);
         assert_eq!((found.kind(), found.severity()), (DiagnosticKind::LimbMisplaced, Severity::Error));
+    }
+    for is_gross in [true, false] {
+        let place = LimbPlace::Swallowed { triangle: 8, times: 3.14, is_gross };
+        let found = Diagnostic::LimbMisplaced { bone: BONE, place };
+        let said = found.to_string();
+        assert!(said.contains("near bone 4 (joints 5-7), such as avatar triangle 8, is shut up"), "{said}");
+        assert!(said.contains("3.1 times as far from the bone") && said.contains("set_avatar_parts"), "{said}");
+        assert_eq!(found.elements(), [bone, avatar(8)]);
+        assert_eq!(found.severity(), if is_gross { Severity::Error } else { Severity::Warning });
     }
 }
 

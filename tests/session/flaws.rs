@@ -160,3 +160,45 @@ fn bow_ties_take_little_more_than_what_is_whole() {
     assert!(session.verify(Precision::F64).unwrap().is_clean());
     assert!(!is_adjusted(&session) && iterations(&session) <= 2 * whole, "{} {whole}", iterations(&session));
 }
+
+/// With patches that stand on the cloth with one corner each, in the middle of a triangle or of an edge.
+fn with_patches(mut garment: TriangleMesh, count: usize, on_edges: bool) -> TriangleMesh {
+    let mut random = Random::new(3);
+    let triangles = garment.triangles.len();
+    for _ in 0..count {
+        let t = (random.unit() * triangles as f64) as usize;
+        let [a, b, c] = garment.triangles[t].map(|v| garment.positions[v as usize]);
+        let middle = if on_edges { 0.5 * (a + b) } else { (a + b + c) / 3.0 };
+        let normal = (b - a).cross(c - a).normalize();
+        let out = normal * normal.dot(middle - DVec3::new(0.2 * middle.z.max(0.0), 0.0, middle.z)).signum();
+        let (side, up) = ((b - a).normalize(), out.cross(b - a).normalize());
+        let k = garment.positions.len() as u32;
+        let above = middle + 0.02 * out;
+        garment.positions.extend([middle, above + 0.03 * side, above + 0.03 * (side + up), above + 0.03 * up]);
+        garment.triangles.extend([[k, k + 1, k + 2], [k, k + 2, k + 3]]);
+    }
+    garment
+}
+
+/// What touches at rest has no distance of which a share could be kept.
+#[test]
+fn patches_that_touch_at_a_corner_take_little_more_than_what_is_whole() {
+    let whole = iterations(&dressed(&fine()));
+    for (count, on_edges, precision) in [
+        (1, false, Precision::F32),
+        (40, false, Precision::F64),
+        (40, true, Precision::F32),
+        (120, false, Precision::F32),
+    ] {
+        let mut garment = with_patches(fine(), count, on_edges);
+        if precision == Precision::F32 {
+            garment.positions.iter_mut().for_each(|p| *p = p.as_vec3().as_dvec3());
+        }
+        let mut session = session(1.0, DVec3::ZERO);
+        session.set_garment(garment, precision).unwrap();
+        assert_eq!(session.run().unwrap(), Stage::Done);
+        println!("{count} patches, on edges {on_edges}: {} iterations, whole {whole}", iterations(&session));
+        assert!(session.verify(precision).unwrap().is_clean());
+        assert!(!is_adjusted(&session) && iterations(&session) <= 4 * whole, "{} {whole}", iterations(&session));
+    }
+}

@@ -56,7 +56,7 @@ fn sleeve(sides: u32, count: u32) -> TriangleMesh {
 
 fn findings(design: &TriangleMesh, result: &TriangleMesh) -> Findings {
     let skeleton = skeleton();
-    let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body: &arm() };
+    let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body: &arm(), collision_only: &[] };
     compare(&outcome, &Cancel::new()).expect("nobody cancels")
 }
 
@@ -197,4 +197,104 @@ fn cover_falls_from_the_middle_of_a_sleeve_to_beyond_its_cuff() {
     let tree = ClosestPoint::new(&sleeve(20, 1));
     let at = |x: f64| cover(&tree, DVec3::X * x);
     assert!(at(0.5) > 0.9 && (0.35..0.65).contains(&at(0.95)) && at(1.4) < 0.1 && at(5.0) == 0.0);
+}
+
+/// The sleeve that was modelled bent at x = 0.65, so that the bone of the forearm leaves it through the cloth.
+fn bent_sleeve() -> TriangleMesh {
+    let (sin, cos) = 70_f64.to_radians().sin_cos();
+    moved(&sleeve(24, 40), |p| {
+        let x = (p.x - 0.65).max(0.0);
+        DVec3::new(
+            p.x - x + x * cos - if x > 0.0 { p.y * sin } else { 0.0 },
+            if x > 0.0 { p.y * cos } else { p.y } + x * sin,
+            p.z,
+        )
+    })
+}
+
+#[test]
+fn a_hand_that_is_shut_up_in_a_bent_sleeve_is_found() {
+    let design = bent_sleeve();
+    let straight = sleeve(24, 40);
+    let longer = |by: f64, narrow: f64| {
+        moved(&straight, |p| {
+            let x = 0.05 + (p.x - 0.05) * by;
+            let narrow = if x > 1.32 { narrow } else { 1.0 };
+            DVec3::new(x, narrow * p.y, narrow * p.z)
+        })
+    };
+    let found = findings(&design, &longer(1.5, 0.02));
+    assert!(found.is_gross(), "{found:?}");
+    assert!(matches!(found.misplaced[..], [Misplacement::Inside { bone: 2, share, .. }] if share > 0.9), "{found:?}");
+    // The hand comes out of the cuff.
+    assert_eq!(findings(&design, &longer(1.0, 1.0)), Findings::default());
+}
+
+/// The arm with a horn on its forearm, a piece of its own, `length` long and `radius` thick.
+fn with_horn(length: f64, radius: f64) -> TriangleMesh {
+    let mut body = arm();
+    let horn = tube(&rings(0.0, length, 20, radius), 12, true);
+    let first = body.positions.len() as u32;
+    body.positions.extend(horn.positions.iter().map(|p| DVec3::new(0.5 + p.y, p.x, p.z)));
+    body.triangles.extend(horn.triangles.iter().map(|t| t.map(|v| first + v)));
+    body
+}
+
+/// `cloth` drawn out above the horn.
+fn tented(cloth: &TriangleMesh, height: f64) -> TriangleMesh {
+    moved(cloth, |p| {
+        let away = DVec3::new(p.x - 0.5, 0.0, p.z).length();
+        if p.y > 0.0 && away < 0.12 { DVec3::new(p.x, p.y.max(height), p.z) } else { p }
+    })
+}
+
+#[test]
+fn a_horn_that_is_shut_up_in_the_sleeve_is_found() {
+    let design = sleeve(60, 90);
+    let skeleton = skeleton();
+    let found = |design: &TriangleMesh, result: &TriangleMesh, body: &TriangleMesh, collision_only: &[u32]| {
+        let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body, collision_only };
+        compare(&outcome, &Cancel::new()).expect("nobody cancels")
+    };
+    let first = arm().triangles.len() as u32;
+    for (length, radius, is_gross) in [(0.75, 0.03, true), (0.75, 0.0015, false)] {
+        let body = with_horn(length, radius);
+        let findings = found(&design, &tented(&design, length + 0.03), &body, &[]);
+        assert!(
+            matches!(findings.misplaced[..], [Misplacement::Swallowed { bone: 1 | 2, triangle, times, is_gross: gross }]
+                if triangle >= first && times > 3.7 && gross == is_gross),
+            "{length}: {findings:?}"
+        );
+        assert_eq!(findings.is_gross(), is_gross);
+        // There is room for it in the design, or it was said that the garment is not meant to fit it.
+        let tent = tented(&design, 0.9 * length);
+        assert_eq!(found(&tent, &tented(&design, length + 0.03), &body, &[]), Findings::default());
+        let horn: Vec<u32> = (first..body.triangles.len() as u32).collect();
+        assert_eq!(found(&design, &tented(&design, length + 0.03), &body, &horn), Findings::default());
+        // It goes through a hole in the sleeve.
+        let mut open = design.clone();
+        open.triangles.retain(|t| {
+            let middle = t.iter().map(|&v| open.positions[v as usize]).sum::<DVec3>() / 3.0;
+            middle.y < 0.0 || DVec3::new(middle.x - 0.5, 0.0, middle.z).length() > 0.05
+        });
+        assert_eq!(found(&open, &open, &body, &[]), Findings::default());
+    }
+    // A body three times as thick widens the sleeve as a whole.
+    let thick = |mesh: &TriangleMesh| moved(mesh, |p| DVec3::new(p.x, 3.0 * p.y, 3.0 * p.z));
+    assert_eq!(found(&design, &thick(&design), &thick(&arm()), &[]), Findings::default());
+}
+
+#[test]
+fn cloth_that_is_drawn_out_here_and_shrunk_there_is_found() {
+    let design = sleeve(20, 40);
+    let scale = |least: f64, most: f64| {
+        moved(&design, |p| {
+            let times = least + (most - least) * ((p.x - 0.05) / 0.9).powi(2);
+            DVec3::new(0.05 + (p.x - 0.05) * times, p.y * times, p.z * times)
+        })
+    };
+    let found = findings(&design, &scale(0.1, 8.0)).distorted.expect("it is distorted");
+    assert!(found.scales[1] > 15.0 * found.scales[0] && found.triangles[0] < found.triangles[1], "{found:?}");
+    assert_eq!(findings(&design, &scale(0.8, 3.0)).distorted, None);
+    assert_eq!(findings(&design, &scale(9.0, 9.0)).distorted, None);
 }

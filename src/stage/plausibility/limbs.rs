@@ -7,11 +7,12 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::nearest::{Part, parts_of_bones};
+use super::opening::{Opening, nothing_goes_through};
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::control::{Cancel, Cancelled};
-use crate::geometry::closest_point::{ClosestPoint, ray_triangle};
+use crate::geometry::closest_point::{ClosestPoint, closest_on_segment, ray_triangle};
 use crate::geometry::cover::cover;
-use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::BoneGraph;
 
 /// Points of the body that are looked at, in all and at the least and the most for one bone.
@@ -26,6 +27,8 @@ const INSIDE: f64 = 0.85;
 const SHUT_UP: f64 = 0.8;
 /// The part of the body around a bone is beside the garment where this share is of what was inside.
 const BESIDE: f64 = 0.9;
+/// A limb may go through an opening that is longer around than this share of its last bone: a cuff, and no buttonhole.
+const WIDE: f64 = 0.3;
 /// What was outside, or inside, is judged from so many points on, and where it is this share of the part: a cuff may cover a
 /// little more or less.
 const JUDGED: usize = 6;
@@ -53,18 +56,22 @@ impl Sample {
 pub(super) fn misplaced(
     outcome: &Outcome<'_>,
     graph: &BoneGraph,
+    openings: &[Opening],
     cancel: &Cancel,
 ) -> Result<Vec<Misplacement>, Cancelled> {
     let trees = [outcome.design, outcome.result].map(ClosestPoint::new);
     let segments = outcome.source.lengthened(LEAF_REACH);
     let mut found = Vec::new();
-    for (bone, parts) in (0u32..).zip(parts_of_bones(outcome.body, outcome, graph)) {
+    for (bone, parts) in (0u32..).zip(parts_of_bones(outcome.body, outcome.target, graph)) {
         cancel.check()?;
         let samples = samples(bone, &parts, outcome, &trees);
         let [first, last] = outcome.source.bones[bone as usize].map(|j| graph.is_leaf(j));
         // Along the bone towards the end, which has parameter 1 there.
         let ends = [(last, 1.0, 0.0), (first, -1.0, 1.0)].into_iter().filter(|(is_end, ..)| *is_end);
-        let ends = ends.filter(|_| !leaves_through_cloth(bone, &segments, outcome, graph));
+        let ends = ends.filter(|_| {
+            !leaves_through_cloth(bone, &segments, outcome, graph)
+                || is_beside_empty_opening(bone, &segments, outcome, graph, openings)
+        });
         found.extend(ends.filter_map(|(_, sign, offset)| shut_up(bone, &samples, |s| sign * s + offset)));
         let inner = || samples.iter().filter(|s| (0.0..=1.0).contains(&s.parameter));
         let beside = share_of(inner(), |s| s.is_inside(0), |s| s.is_outside(1));
@@ -73,6 +80,31 @@ pub(super) fn misplaced(
         }
     }
     Ok(found)
+}
+
+/// Whether an opening of the design is where the limb ends, though the bone passes beside it, and nothing goes through it in the
+/// result: the cuff of a sleeve whose skeleton is in another pose.
+fn is_beside_empty_opening(
+    bone: u32,
+    segments: &[[DVec3; 2]],
+    outcome: &Outcome<'_>,
+    graph: &BoneGraph,
+    openings: &[Opening],
+) -> bool {
+    let of_limb: Vec<u32> =
+        outcome.source.bones[bone as usize].iter().flat_map(|&j| graph.bones_at(j)).copied().collect();
+    let distance = |p: DVec3, &bone: &u32| {
+        let [a, b] = segments[bone as usize];
+        p.distance_squared(closest_on_segment(p, a, b - a))
+    };
+    openings.iter().any(|opening| {
+        let disc = opening.disc(outcome.design);
+        let nearest =
+            (0..segments.len() as u32).min_by(|a, b| distance(disc.middle, a).total_cmp(&distance(disc.middle, b)));
+        nearest.is_some_and(|nearest| of_limb.contains(&nearest))
+            && disc.length > WIDE * outcome.source.point_at(bone, 0.0).distance(outcome.source.point_at(bone, 1.0))
+            && nothing_goes_through(opening, outcome)
+    })
 }
 
 /// Whether the last bone of a limb, with what goes on beyond it, or a bone that it hangs on passes through the cloth of the
@@ -112,46 +144,22 @@ fn share_of<'a>(
     enough.then(|| (first, changed().count() as f64 / judged.len() as f64))
 }
 
-/// A triangle of the body at a bone: its index, its area, and the parameter.
-type Part = (u32, f64, f64);
-
-/// For each bone, the triangles of the body that are nearest to it.
-fn parts_of_bones(body: &TriangleMesh, outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Vec<Part>> {
-    let skeleton = outcome.target;
-    let nearest = |t: u32| {
-        let middle = body.centre(t);
-        let at = |bone: u32| {
-            let parameter = graph.project(skeleton, bone, middle);
-            (middle.distance_squared(skeleton.point_at(bone, parameter)), bone, parameter)
-        };
-        (0..skeleton.bones.len() as u32).map(at).min_by(|a, b| a.0.total_cmp(&b.0))
-    };
-    let located: Vec<_> = (0..body.triangles.len() as u32).into_par_iter().map(nearest).collect();
-    let mut parts = vec![Vec::new(); skeleton.bones.len()];
-    for ((t, area), at) in (0u32..).zip(body.areas()).zip(located) {
-        if let Some((_, bone, parameter)) = at {
-            parts[bone as usize].push((t, area, parameter));
-        }
-    }
-    parts
-}
-
 /// Points of the parts at a bone, each for an equal share of their area.
 fn samples(bone: u32, parts: &[Part], outcome: &Outcome<'_>, trees: &[ClosestPoint; 2]) -> Vec<Sample> {
     let count = (SAMPLES / outcome.source.bones.len()).clamp(FEWEST, MOST);
-    let whole: f64 = parts.iter().map(|part| part.1).sum();
+    let whole: f64 = parts.iter().map(|part| part.area).sum();
     // Along the bone, so that each stretch of it has its share.
     let mut order: Vec<&Part> = parts.iter().collect();
-    order.sort_by(|a, b| a.2.total_cmp(&b.2).then(a.0.cmp(&b.0)));
+    order.sort_by(|a, b| a.parameter.total_cmp(&b.parameter).then(a.triangle.cmp(&b.triangle)));
     let (mut sum, mut taken) = (0.0, Vec::new());
     for part in order {
-        sum += part.1;
+        sum += part.area;
         // Halves, so that the first and the last stand for as much as the others.
         while taken.len() < count && sum * count as f64 >= (taken.len() as f64 + 0.5) * whole && whole > 0.0 {
             taken.push(part);
         }
     }
-    let sample = |&&(triangle, _, parameter): &&Part| {
+    let sample = |&&Part { triangle, parameter, .. }: &&Part| {
         let on_body = outcome.body.centre(triangle);
         let on_source = outcome.source.point_at(bone, parameter);
         Sample { triangle, parameter, cover: [cover(&trees[0], on_source), cover(&trees[1], on_body)] }

@@ -5,9 +5,12 @@
 //! in how many directions a point of the body sees the garment, and the area of a piece. Nothing here uses contact or
 //! solver, nor the skin weights: what the run believed is not asked.
 
+mod distorted;
 mod limbs;
+mod nearest;
 mod opening;
 mod pieces;
+mod swallowed;
 
 use crate::control::{Cancel, Cancelled};
 use crate::geometry::mesh::{Topology, TriangleMesh};
@@ -33,6 +36,8 @@ pub struct Outcome<'a> {
     pub target: &'a Skeleton,
     /// The body without what it wears already.
     pub body: &'a TriangleMesh,
+    /// Triangles of the body that the garment is not meant to fit, ascending.
+    pub collision_only: &'a [u32],
 }
 
 /// Where a limb is that should be elsewhere.
@@ -63,6 +68,26 @@ pub enum Misplacement {
         /// The share of the part that is.
         share: f64,
     },
+    /// A part of the body that sticks out of it, without a bone of its own, is shut up in the garment, which has no room for it in
+    /// the design.
+    Swallowed {
+        /// The bone that it is nearest to.
+        bone: u32,
+        /// A triangle of the part.
+        triangle: u32,
+        /// How many times farther from the bone it reaches than the garment does there in the design, beside how far the
+        /// garment is from the bone as a whole.
+        times: f64,
+        /// Whether nobody would wear the result.
+        is_gross: bool,
+    },
+}
+
+impl Misplacement {
+    /// Whether nobody would wear the result.
+    pub fn is_gross(&self) -> bool {
+        !matches!(self, Self::Swallowed { is_gross: false, .. })
+    }
 }
 
 /// A piece of the garment whose size is far from that of what it hangs on.
@@ -78,19 +103,32 @@ pub struct Resized {
     pub is_gross: bool,
 }
 
+/// Cloth that became much larger in one place than in another, in a result that nobody would wear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distorted {
+    /// How many times as large, as lengths, all but a twentieth of the cloth is at least, and at most.
+    pub scales: [f64; 2],
+    /// A triangle of each size.
+    pub triangles: [u32; 2],
+}
+
 /// How a result differs from its design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Limbs that are elsewhere than in the design; with any of these, the result is not plausible.
+    /// Limbs that are elsewhere than in the design; where any is gross the result is not plausible.
     pub misplaced: Vec<Misplacement>,
     /// Pieces of another size, where any is gross the result is not plausible.
     pub resized: Vec<Resized>,
+    /// The cloth as a whole, where it is distorted so much that the result is not plausible.
+    pub distorted: Option<Distorted>,
 }
 
 impl Findings {
     /// Whether nobody would wear the result.
     pub fn is_gross(&self) -> bool {
-        !self.misplaced.is_empty() || self.resized.iter().any(|piece| piece.is_gross)
+        self.misplaced.iter().any(Misplacement::is_gross)
+            || self.resized.iter().any(|piece| piece.is_gross)
+            || self.distorted.is_some()
     }
 }
 
@@ -105,7 +143,10 @@ pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cance
     cancel.check()?;
     let mut misplaced = opening::empty_openings(outcome, &openings);
     cancel.check()?;
-    misplaced.extend(limbs::misplaced(outcome, &graph, cancel)?);
+    misplaced.extend(limbs::misplaced(outcome, &graph, &openings, cancel)?);
     cancel.check()?;
-    Ok(Findings { misplaced, resized: pieces::resized(outcome, &openings) })
+    misplaced.extend(swallowed::swallowed(outcome, &graph, cancel)?);
+    cancel.check()?;
+    let resized = pieces::resized(outcome, &openings);
+    Ok(Findings { misplaced, resized, distorted: distorted::distorted(outcome) })
 }

@@ -19,7 +19,8 @@ const NOTHING: [f64; 2] = [0.02, 0.1];
 pub struct Disc {
     /// Triangles from the middle to each edge.
     fan: Vec<[DVec3; 3]>,
-    middle: DVec3,
+    /// The mean along the curve.
+    pub middle: DVec3,
     /// Half the sum of the cross products along the curve: the largest area under which it is seen, and along the line of
     /// sight.
     pub area: DVec3,
@@ -98,6 +99,13 @@ pub(super) struct Opening {
     pub(super) bone: Option<u32>,
 }
 
+impl Opening {
+    /// The surface that it spans in `garment`.
+    pub(super) fn disc(&self, garment: &TriangleMesh) -> Disc {
+        Disc::new(&points(garment, &self.vertices))
+    }
+}
+
 /// All openings of the design.
 pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology) -> Vec<Opening> {
     let loops: Vec<&[u32]> = topology.loops.iter().map(|boundary| boundary.vertices.as_slice()).collect();
@@ -127,14 +135,7 @@ pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec
     let around: Vec<(&Opening, u32)> = openings.iter().filter_map(|opening| Some((opening, opening.bone?))).collect();
     let loops: Vec<&[u32]> = around.iter().map(|(opening, _)| opening.vertices.as_slice()).collect();
     let now = windings_of_loops(outcome.result, &loops, &outcome.target.lengthened(LEAF_REACH));
-    let is_empty = |opening: &Opening, winding: Winding| {
-        if winding.linked {
-            return false;
-        }
-        let disc = Disc::new(&points(outcome.result, &opening.vertices));
-        let section = disc.section(outcome.body);
-        section.area.length() < NOTHING[0] * disc.area.length() && section.length < NOTHING[1] * disc.length
-    };
+    let is_empty = |opening: &Opening, winding: Winding| !winding.linked && nothing_goes_through(opening, outcome);
     around
         .into_iter()
         .zip(now)
@@ -142,6 +143,13 @@ pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec
             is_empty(opening, winding).then(|| Misplacement::OutOfOpening { bone, vertex: opening.vertices[0] })
         })
         .collect()
+}
+
+/// Whether no part of the body goes through the opening in the result.
+pub(super) fn nothing_goes_through(opening: &Opening, outcome: &Outcome<'_>) -> bool {
+    let disc = opening.disc(outcome.result);
+    let section = disc.section(outcome.body);
+    section.area.length() < NOTHING[0] * disc.area.length() && section.length < NOTHING[1] * disc.length
 }
 
 fn points(mesh: &TriangleMesh, vertices: &[u32]) -> Vec<DVec3> {

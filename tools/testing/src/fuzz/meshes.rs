@@ -10,15 +10,20 @@ use glam::DVec3;
 
 use super::array::Array;
 use super::caller::Caller;
+use super::reported::Reported;
 use super::shape::{Shape, bones, joints};
 use super::source::Source;
 
 pub fn run(bytes: &[u8]) -> bool {
     let mut source = Source::new(bytes);
-    let scene = Scene::new(&mut source);
+    let mut scene = Scene::new(&mut source);
     let caller = Caller::new();
     let iterations = source.between(1, 40) as u32;
     caller.set_options(iterations, source.within(0.04, 0.2), source.between(1, 2) as u32);
+    let budget = source.below(4) as u32;
+    let Scene { garment, body, joints, skin, .. } = &mut scene;
+    let mut reported = Reported { garment, body, joints, skin };
+    (0..3).for_each(|_| reported.afflict(&mut source));
     if !scene.hand_over(&caller) {
         return false;
     }
@@ -28,12 +33,13 @@ pub fn run(bytes: &[u8]) -> bool {
         assert_eq!(caller.stage(), BespokeStage::Setup as u32, "a session that could not prepare still takes inputs");
         return false;
     }
-    let budget = source.below(4) as u32;
     let mut stage = caller.stage();
     while stage != BespokeStage::Done as u32 {
         // SAFETY: the session is alive, there is room for a stage.
         let status = caller.after("step", unsafe { bespoke_session_step(caller.session, budget, 0, &mut stage) });
-        if status != BespokeStatus::Ok {
+        if status == BespokeStatus::ImplausibleResult {
+            assert_eq!(stage, BespokeStage::Done as u32, "{}", caller.message());
+        } else if status != BespokeStatus::Ok {
             assert_eq!(stage, BespokeStage::Failed as u32, "{}", caller.message());
             return false;
         }
@@ -49,6 +55,8 @@ struct Scene {
     joints: [Vec<f64>; 2],
     bones: Vec<u32>,
     source_body: Option<Shape>,
+    /// Rows of skin weights of the body, a row a joint; empty for none.
+    skin: Vec<f64>,
     is_double: bool,
     padding: usize,
 }
@@ -118,6 +126,7 @@ impl Scene {
             joints: skeletons,
             bones: bones(joint_count),
             source_body,
+            skin: Vec::new(),
             is_double: source.one_in(2),
             padding: source.below(3) * 4,
         }
@@ -145,6 +154,19 @@ impl Scene {
                 .source_body
                 .as_ref()
                 .is_none_or(|shape| mesh("set_source_avatar", bespoke_session_set_source_avatar, shape))
+            && self.hand_over_skin(caller)
+    }
+
+    /// Sets the skin weights; false where they are refused.
+    fn hand_over_skin(&self, caller: &Caller) -> bool {
+        if self.skin.is_empty() {
+            return true;
+        }
+        let vertices = self.body.vertex_count();
+        let rows = Array::floats(&self.skin, vertices, 0, self.is_double);
+        // SAFETY: the session is alive and the view tells the truth.
+        let status = unsafe { bespoke_session_set_target_skin_weights(caller.session, &rows.view(), vertices) };
+        caller.after("set_target_skin_weights", status) == BespokeStatus::Ok
     }
 
     /// The numbers as they were stored.

@@ -12,6 +12,7 @@ mod follow;
 mod key_poses;
 mod meshes;
 mod outfit;
+mod reported;
 mod rigs;
 mod shape;
 mod source;
