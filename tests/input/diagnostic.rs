@@ -478,7 +478,7 @@ fn a_misplaced_limb_names_its_bone_and_where_it_is() {
         assert_eq!((found.kind(), found.severity()), (DiagnosticKind::LimbMisplaced, Severity::Error));
     }
     for is_gross in [true, false] {
-        let place = LimbPlace::Swallowed { triangle: 8, times: 3.14, is_gross };
+        let place = LimbPlace::Swallowed { triangle: 8, times: 3.08, is_gross };
         let found = Diagnostic::LimbMisplaced { bone: BONE, place };
         let said = found.to_string();
         assert!(said.contains("near bone 4 (joints 5-7), such as avatar triangle 8, is shut up"), "{said}");

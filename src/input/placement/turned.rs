@@ -14,7 +14,7 @@ use crate::input::skeleton::Skeleton;
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 const MOST_BONES: usize = 40;
 /// A point is inside where the garment covers it more than this.
-const INSIDE: f64 = 0.85;
+const INSIDE: f64 = 0.7;
 /// So many points are inside as it is: what is around no bone, such as a backpack, lies beside them in its own way.
 const LEAST: usize = 2;
 /// By how many times more points have to be inside, and how many more.

@@ -4,7 +4,7 @@ use super::shape::Shape;
 use super::source::Source;
 
 /// Kinds that [`Reported::afflict`] knows.
-const KINDS: usize = 11;
+const KINDS: usize = 10;
 /// Ratios of units.
 const UNITS: [f64; 6] = [100.0, 39.370_1, 2.54, 1000.0, 0.01, 0.3048];
 
@@ -15,6 +15,8 @@ pub struct Reported<'a> {
     pub joints: &'a mut [Vec<f64>; 2],
     /// Rows of skin weights of the body, a row a joint; empty for none.
     pub skin: &'a mut Vec<f64>,
+    /// Whether the garment got T-junctions, whose sides stay together and so touch.
+    pub has_junctions: &'a mut bool,
 }
 
 impl Reported<'_> {
@@ -22,7 +24,10 @@ impl Reported<'_> {
     pub fn afflict(&mut self, source: &mut Source) {
         match source.below(KINDS + 1) {
             1 => self.garment.join(&piece(source)),
-            2 => split_edge(self.garment, source),
+            2 => {
+                *self.has_junctions = true;
+                split_edge(self.garment, source);
+            }
             3 => touching_patch(self.garment, source),
             4 => {
                 let factor = UNITS[source.below(UNITS.len())];
@@ -39,7 +44,6 @@ impl Reported<'_> {
             8 => bow_ties(self.garment, 1 + source.below(4)),
             9 => self.body.join(&floor(source)),
             10 => self.body.join(&horn(source)),
-            11 => split_seam(self.garment, source),
             _ => {}
         }
     }
@@ -143,14 +147,4 @@ fn thin_out(shape: &mut Shape, every: usize) {
 fn bow_ties(shape: &mut Shape, width: usize) {
     let kept = shape.triangles.chunks(3).enumerate().filter(|(t, _)| (t / 2 / width).is_multiple_of(2));
     shape.triangles = kept.flat_map(|(_, corners)| corners.to_vec()).collect();
-}
-
-/// A triangle with corners of its own, almost where they were.
-fn split_seam(shape: &mut Shape, source: &mut Source) {
-    let Some((t, corners)) = triangle(shape, source) else { return };
-    for (k, v) in corners.into_iter().enumerate() {
-        let p = point(shape, v);
-        shape.triangles[3 * t + k] = shape.vertex_count() as u32;
-        shape.points.extend(p.map(|x| x + 2e-5 * source.signed()));
-    }
 }
