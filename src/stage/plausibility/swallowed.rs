@@ -21,8 +21,9 @@ const FARTHER: f64 = 1.5;
 const TOLD: f64 = 3.7;
 /// It is told from this area under cloth on, as of a lock of hair, and is gross from that of a short tail on.
 const AREAS: [f64; 2] = [0.0025, 0.01];
-/// How far along the bone the garment's reach counts, in lengths of the bone.
+/// How far along the bone the garment's reach counts, in lengths of the bone, and into how many stretches it is divided for that.
 const WINDOW: f64 = 0.2;
+const STRETCHES: usize = 64;
 /// Cloth is beyond a point where it is in this share of the directions away from the bone.
 const COVERED: f64 = 0.75;
 /// Points of one part that are looked at.
@@ -94,7 +95,7 @@ fn far(outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Far> {
     let cloth = parts_of_bones(design, source, graph);
     let flesh = parts_of_bones(body, target, graph);
     let mut all = Vec::new();
-    for (bone, (mut cloth, flesh)) in (0u32..).zip(cloth.into_iter().zip(flesh)) {
+    for (bone, (cloth, flesh)) in (0u32..).zip(cloth.into_iter().zip(flesh)) {
         let in_result = |part: &Part| {
             let middle = result.centre(part.triangle);
             middle.distance(target.point_at(bone, graph.project(target, bone, middle)))
@@ -104,14 +105,23 @@ fn far(outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Far> {
         if designed <= 0.0 || now <= 0.0 {
             continue;
         }
-        cloth.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
         // Beyond the cloth, such as beside a vest's armhole, that at its end counts.
-        let ends = [cloth.first(), cloth.last()].map(|part| part.map_or(0.0, |part| part.parameter));
+        let parameters = || cloth.iter().map(|part| part.parameter);
+        let (first, last) =
+            (parameters().fold(f64::INFINITY, f64::min), parameters().fold(f64::NEG_INFINITY, f64::max));
+        let stretch = |parameter: f64| {
+            let share = (parameter.clamp(first, last) - first) / (last - first).max(f64::MIN_POSITIVE);
+            ((share * STRETCHES as f64) as usize).min(STRETCHES - 1)
+        };
+        let mut farthest = [0.0; STRETCHES];
+        for part in &cloth {
+            let farthest: &mut f64 = &mut farthest[stretch(part.parameter)];
+            *farthest = farthest.max(part.distance);
+        }
         let room = |parameter: f64| {
-            let parameter = parameter.clamp(ends[0], ends[1]);
-            let first = cloth.partition_point(|part| part.parameter < parameter - WINDOW);
-            let near = cloth[first..].iter().take_while(|part| part.parameter <= parameter + WINDOW);
-            near.map(|part| part.distance).fold(0.0, f64::max)
+            let parameter = parameter.clamp(first, last);
+            let near = &farthest[stretch(parameter - WINDOW)..=stretch(parameter + WINDOW)];
+            near.iter().copied().fold(0.0, f64::max)
         };
         for Part { triangle, area, parameter, distance } in flesh {
             let (room, reach) = (room(parameter) / designed, distance / now);
