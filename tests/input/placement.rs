@@ -383,9 +383,7 @@ fn small_parts_name_the_unit_or_say_that_two_suit() {
 /// A sweater whose sleeves point forward lies around the trunk all the same.
 #[test]
 fn garments_that_are_turned_by_a_right_angle_are_named() {
-    for (pair, good) in
-        dressed(&[Garment::Sweater, Garment::Trousers, Garment::Jumpsuit, Garment::Coat], &[Avatar::Slim])
-    {
+    for (pair, good) in dressed(&[Garment::Sweater], &[Avatar::Slim]) {
         let bare = Inputs { source_avatar: None, skin: None, ..good.clone() };
         for (inputs, sign) in [(&good, 1.0), (&bare, -1.0)] {
             let mut turned = inputs.clone();
