@@ -20,7 +20,7 @@ pub enum DiagnosticKind {
     UnusedVertex,
     /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
     LoosePiece,
-    /// A piece of the garment that is around no bone, and is carried by the body beside it.
+    /// A piece of the garment that is around no bone, or closed around one, and is carried by the body beside it.
     CarriedPiece,
     /// Two garment triangles that pass through each other, or touch, before anything has moved.
     SelfIntersection,

@@ -77,7 +77,7 @@ impl Session {
     /// `InvalidState` before `prepare`, `InvalidArgument` where the mesh is not the garment's or a number is not finite.
     pub fn garment_normals(&self, mesh: &RenderMesh) -> Result<(Vec<DVec3>, Vec<DVec4>)> {
         let snapshot = self.readable()?;
-        let surface = snapshot.moved_surface(&self.inputs)?;
+        let surface = snapshot.surface_before_turn(&self.inputs)?;
         let garment = snapshot.problem.weld.to_welded.len();
         let count = mesh.vertex_count(garment)?;
         let own;
@@ -118,7 +118,7 @@ fn direction(map: &DAffine3, v: DVec3) -> DVec3 {
 }
 
 impl Snapshot {
-    /// The garment's triangles as the caller has them, over the welded vertices, as designed and now, in the normalised space before its turn.
+    /// The garment's triangles as the caller has them, over the welded vertices, as designed and now, in the normalised space.
     pub(super) fn moved_surface(&self, inputs: &Inputs) -> Result<MovedSurface> {
         let Some((garment, _)) = &inputs.garment else {
             return Err(Error::new(ErrorKind::Internal, "there is no garment in a prepared session"));
@@ -127,7 +127,13 @@ impl Snapshot {
         let welded =
             |t: &[u32; 3]| inputs.source_coordinate_system.triangle(t.map(|v| problem.weld.to_welded[v as usize]));
         let triangles = garment.triangles.iter().map(welded).collect();
-        let now = self.x_with_caps().iter().map(|&p| problem.target_normalization.turned_back(p)).collect();
-        Ok(MovedSurface::new(problem.rest.clone(), now, triangles))
+        Ok(MovedSurface::new(problem.rest.clone(), self.x_with_caps(), triangles))
+    }
+
+    /// The same before the turn of that space: for directions that go to the caller.
+    pub(super) fn surface_before_turn(&self, inputs: &Inputs) -> Result<MovedSurface> {
+        let MovedSurface { rest, now, triangles, .. } = self.moved_surface(inputs)?;
+        let now = now.iter().map(|&p| self.problem.target_normalization.turned_back(p)).collect();
+        Ok(MovedSurface::new(rest, now, triangles))
     }
 }

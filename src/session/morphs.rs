@@ -48,7 +48,7 @@ impl Session {
                 format!("{GARMENT_MORPH} {index}: there are {count}; they are added before prepare and count from 0"),
             ));
         };
-        let motions = snapshot.moved_surface(&self.inputs)?.vertex_motions();
+        let motions = snapshot.surface_before_turn(&self.inputs)?.vertex_motions();
         let problem = &snapshot.problem;
         let forth = self.inputs.source_coordinate_system.affine_to_internal();
         let back = snapshot.coordinate_system().affine_to_internal().inverse();

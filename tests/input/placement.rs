@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use bespoke::error::{ErrorKind, Result};
+use bespoke::error::Result;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::{AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{Diagnostic, Severity, Subject};
@@ -376,30 +376,6 @@ fn small_parts_name_the_unit_or_say_that_two_suit() {
             let is_right = |factor: &f64| (factor * unit - 1.0).abs() < 1e-4;
             assert!(is_right(&mend.factor) || mend.or.iter().any(is_right), "{name} times {unit}: {mend:?}");
             assert_eq!(mend.is_gross(), (unit != 1.0).then_some(true), "{name} times {unit}: {mend:?}");
-        }
-    }
-}
-
-/// A sweater whose sleeves point forward lies around the trunk all the same.
-#[test]
-fn garments_that_are_turned_by_a_right_angle_are_named() {
-    for (pair, good) in dressed(&[Garment::Sweater], &[Avatar::Slim]) {
-        let bare = Inputs { source_avatar: None, skin: None, ..good.clone() };
-        for (inputs, sign) in [(&good, 1.0), (&bare, -1.0)] {
-            let mut turned = inputs.clone();
-            turned.garment.positions.iter_mut().for_each(|p| *p = DVec3::new(-sign * p.y, sign * p.x, p.z));
-            let (outcome, found) = turned.check(false);
-            let error = outcome.expect_err(&pair);
-            assert!(
-                error.kind == ErrorKind::NotEnclosed && error.message.contains("turn it by"),
-                "{pair}: {}",
-                error.message
-            );
-            assert!(
-                matches!(found[..], [Diagnostic::FacingMismatch { subject: Subject::Garment, turn, .. }]
-                    if turn.degrees() == 90.0 && turn.apply(DVec3::new(0.0, sign, 0.0)) == DVec3::X),
-                "{pair}: {found:?}"
-            );
         }
     }
 }

@@ -4,11 +4,12 @@ use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::{Diagnostic, Subject};
+use bespoke::input::morph::Morph;
 use bespoke::input::skin::SkinWeights;
 use bespoke::session::{Precision, Session};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
-use crate::small::{session, sleeve, tube};
+use crate::small::{arm, session, sleeve, tube};
 
 /// The sleeve on a thicker arm than it was made for.
 fn on_a_thick_arm() -> (Session, usize) {
@@ -63,6 +64,27 @@ fn followers_go_along_and_meet_nothing() {
     session.clear_followers().unwrap();
     session.run().unwrap();
     assert_eq!(session.follower_positions(0).unwrap_err().kind, ErrorKind::InvalidArgument);
+}
+
+/// On a target that lies, what lies on the garment does so there.
+#[test]
+fn followers_turn_with_the_target() {
+    let (mut session, _) = on_a_thick_arm();
+    let turn = DQuat::from_rotation_x(0.6);
+    let (mut body, mut skeleton) = (tube(-1.1, 1.15, |_, _| 0.5, 14, 18, true), arm(1.0, DVec3::ZERO));
+    body.positions.iter_mut().chain(&mut skeleton.joints).for_each(|p| *p = turn * *p);
+    session.set_target_avatar(body).unwrap();
+    session.set_target_skeleton(skeleton).unwrap();
+    session.add_follower(sleeve(), Precision::F64).unwrap();
+    session.add_garment_morph(Morph { name: "up".into(), offsets: vec![DVec3::Z; sleeve().positions.len()] }).unwrap();
+    assert_eq!(session.run().unwrap(), Stage::Done);
+    let (garment, axis) = (session.garment_positions().unwrap(), turn * DVec3::Z);
+    for (p, q) in session.follower_positions(0).unwrap().iter().zip(&garment) {
+        assert!(p.distance(*q) < 1e-12);
+    }
+    let offsets = session.garment_morph(0).unwrap();
+    let mean = offsets.iter().sum::<DVec3>() / offsets.len() as f64;
+    assert!(mean.normalize().dot(axis) > 0.98, "{mean} {axis}");
 }
 
 /// The smallest distance between the points of two sets.

@@ -322,9 +322,10 @@ namespace Bespoke
         ForeignPart = 20,
 
         /// <summary>
-        /// A piece of the garment that is around no bone, such as a cape or a badge, and is carried along with the body
-        /// beside it. A triangle of it is named and the bone nearest to it; the distance is that from the source
-        /// avatar, or from the bone where there is none.
+        /// A piece of the garment that is around no bone, such as a cape or a badge, or closed around one without any
+        /// opening, as a hat with a filling is, and is carried along with the body beside it. A triangle of it is named
+        /// and the bone nearest to it; the distance is that from the source avatar, or from the bone where there is
+        /// none.
         /// </summary>
         CarriedPiece = 22,
 

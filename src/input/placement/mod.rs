@@ -9,7 +9,6 @@ pub mod front;
 pub mod mirror;
 pub mod scene;
 pub mod size;
-pub mod turned;
 
 use alignment::Alignment;
 use front::Front;
@@ -59,15 +58,7 @@ fn units(scene: &Scene<'_>) -> Vec<Diagnostic> {
         (Some(body), Some(mend)) => body.thickness(mend),
         _ => body.thickness(&of_body),
     };
-    let around = Surroundings::of_garment(scene.garment, source, thickness);
-    let mut of_garment = around.mend();
-    if of_garment.factor == 1.0
-        && of_garment.is_gross() != Some(true)
-        && !scene.source_coordinate_system.trusted
-        && let Some(turn) = turned::turn(scene.garment, source, &around)
-    {
-        of_garment = Mend { factor: 1.0, or: Vec::new(), turn, gain: f64::INFINITY };
-    }
+    let of_garment = Surroundings::of_garment(scene.garment, source, thickness).mend();
     let mut found = Vec::new();
     let mut add = |mend: Mend, subject, against, system: &CoordinateSystem| {
         let turn = system.turn_from_internal(mend.turn);

@@ -31,8 +31,6 @@ const MOST_BONES: usize = 200;
 const BODY_EXTENTS: [f64; 2] = [0.5, 8.0];
 /// How many times farther from the bones than the body's own surface, or nearer, a garment lies as a rule, and at most.
 const LOOSENESS: [f64; 2] = [2.0, 6.0];
-/// A garment is no longer than the skeleton as a rule, but for a train or a veil: the most.
-const LONGEST: f64 = 1.3;
 /// What a factor costs that leaves the first of these ranges for the second, for each e-fold.
 const LOOSE: f64 = 0.3;
 /// Ratios that cost no more than this above the best suit as well: of what is small or around few bones, the right one is
@@ -48,8 +46,6 @@ const BESIDE: usize = 2;
 /// A body of which this share is no farther from the bones than that, in sizes of the skeleton, is not so many times too large:
 /// what lies far away is something else, such as a second body.
 const AROUND: (f64, f64, f64) = (0.25, 0.3, 10.0);
-/// A turn lies nearer where it costs so much less.
-const NEARER: f64 = 0.05;
 /// What another reading has to be better by, as a factor, to be told, and to be refused.
 const TOLD: f64 = 1.9;
 const REFUSED: f64 = 2.5;
@@ -190,8 +186,7 @@ impl Surroundings {
             Expected::Garment(thickness) => {
                 let looseness = distance / self.extents[1] / thickness;
                 let [rule, most] = LOOSENESS.map(|x| beyond(looseness, [1.0 / x, x]));
-                let extent = factor * self.extents[0] / self.extents[1];
-                LOOSE * rule + most + beyond(extent, [0.0, LONGEST])
+                LOOSE * rule + most
             }
         };
         maths::ln(distance / (factor * self.radius)) + unlikely
@@ -236,13 +231,6 @@ impl Surroundings {
         }
         let or = if factor == 1.0 { Vec::new() } else { self.others(factor, turn, cost) };
         Mend { factor, or, turn, gain: maths::exp(now - cost) }
-    }
-
-    /// The turns, the smallest first, after which the mesh lies nearer to the bones.
-    pub fn nearer_turns(&self) -> Vec<AxisTurn> {
-        let now = self.cost(1.0, AxisTurn::IDENTITY);
-        let is_nearer = |turn: &AxisTurn| self.cost(1.0, *turn) < now - NEARER;
-        AxisTurn::rotations().into_iter().filter(is_nearer).collect()
     }
 
     /// The mesh with its mean in the middle of the bones, its size and axes as they are.

@@ -51,6 +51,20 @@ impl Caller {
         unsafe { read(self.session, bespoke_session_read_garment_vertices, is_double) }
     }
 
+    /// The first triangles of the parts of the avatar that are left out, as long as they are among the first findings.
+    pub fn left_out(&self) -> Vec<u32> {
+        // SAFETY: all fields are numbers, for which zero is a value.
+        let mut list: [BespokeDiagnostic; 32] = unsafe { std::mem::zeroed() };
+        list[0].struct_size = size_of::<BespokeDiagnostic>() as u32;
+        let mut count = 0;
+        // SAFETY: the session is alive, and there is room for as many as said.
+        let status =
+            unsafe { bespoke_session_read_diagnostics(self.session, list.as_mut_ptr(), list.len(), &mut count) };
+        known("read_diagnostics", status, BespokeStatus::Ok);
+        let is_foreign = |diagnostic: &&BespokeDiagnostic| diagnostic.kind == BespokeDiagnosticKind::ForeignPart as u32;
+        list.iter().filter(is_foreign).map(|diagnostic| diagnostic.elements[0].index).collect()
+    }
+
     /// Options under which a run takes milliseconds, and all triangles of the garment are kept off the body.
     pub fn set_options(&self, max_iterations: u32, voxel: f64, threads: u32) {
         let options = BespokeOptions { max_iterations, voxel_size: voxel, threads, keep_caps: 1, ..no_options() };
