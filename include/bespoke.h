@@ -350,8 +350,8 @@ enum BespokeDiagnosticKind
   /// The distance is the longest side of its bounding box.
   BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
   /// A piece of the garment that is around no bone, such as a cape or a badge, or closed around one without any opening, as a
-  /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to it; the distance is that from the source avatar, or from the
-  /// bone where there is none.
+  /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to
+  /// it; the distance is that from the source avatar, or from the bone where there is none.
   BESPOKE_DIAGNOSTIC_KIND_CARRIED_PIECE = 22,
   /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
   BESPOKE_DIAGNOSTIC_KIND_SETTINGS_ADJUSTED = 26,

@@ -96,8 +96,8 @@ pub enum BespokeDiagnosticKind {
     /// The distance is the longest side of its bounding box.
     ForeignPart = 20,
     /// A piece of the garment that is around no bone, such as a cape or a badge, or closed around one without any opening, as a
-    /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to it; the distance is that from the source avatar, or from the
-    /// bone where there is none.
+    /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to
+    /// it; the distance is that from the source avatar, or from the bone where there is none.
     CarriedPiece = 22,
     /// The inflation stalled with the caller's settings of the contact, and was done with others, which are named.
     SettingsAdjusted = 26,

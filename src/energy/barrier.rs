@@ -213,11 +213,11 @@ impl Barrier {
         {
             return dhat;
         }
-        let at_rest = close.pair_type.separation(&close.pair.map(|i| self.bodies.rest(i))).squared.sqrt();
         if !self.touching_at_rest.is_empty() && self.touching_at_rest.contains(&canonical(close.pair_type, close.pair))
         {
             return dhat;
         }
+        let at_rest = close.pair_type.separation(&close.pair.map(|i| self.bodies.rest(i))).squared.sqrt();
         (self.settings.rest_share * at_rest).max(LEAST_DHAT * self.settings.min_separation).min(dhat)
     }
 
