@@ -60,13 +60,15 @@ impl Reading {
     fn read_structure(&mut self, rig: &Rig, parents: &[Option<u32>], skin: Option<&SkinWeights>) {
         let places: Vec<_> = (0..rig.joints.len() as u32).map(|joint| rig.place(joint)).collect();
         let mut used = vec![true; places.len()];
-        if let Some(skin) = skin {
+        let moved = skin.map(moved_by).filter(|moved| moved.iter().any(|&sum| sum > 0.0));
+        if let Some(skin) = skin.filter(|_| moved.is_some()) {
             used = moves(skin, parents);
         }
         for (joint, named) in self.named.iter().enumerate() {
             used[joint] &= !matches!(named, Named::Control | Named::Prop);
         }
-        let Some(found) = structure::read(&places, parents, &used) else { return };
+        let joints = structure::Joints { places: &places, parents, used: &used, moved: moved.as_deref() };
+        let Some(found) = structure::read(&joints) else { return };
         for (joint, part) in found.into_iter().enumerate() {
             if let Some((part, sure)) = part {
                 self.named[joint] = Named::Part(part);
@@ -123,4 +125,13 @@ pub fn moves(skin: &SkinWeights, parents: &[Option<u32>]) -> Vec<bool> {
         }
     }
     moves
+}
+
+/// The sum of the weights of each joint.
+fn moved_by(skin: &SkinWeights) -> Vec<f64> {
+    let mut moved = vec![0.0; skin.joint_count()];
+    for vertex in 0..skin.vertex_count() {
+        skin.weights(vertex).iter().for_each(|&(joint, weight)| moved[joint as usize] += weight);
+    }
+    moved
 }

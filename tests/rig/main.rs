@@ -8,6 +8,7 @@ mod names;
 mod own_joints;
 mod pose_path;
 mod posing;
+mod structure;
 mod weights;
 mod weights_random;
 mod words;

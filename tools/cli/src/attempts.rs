@@ -4,6 +4,8 @@
 //! through each other for it.
 
 use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::input::rig::Rig;
+use bespoke::input::skin::SkinWeights;
 use bespoke::rig::body_part::BodyPart;
 use bespoke::rig::landmark::Landmark;
 use bespoke::rig::places::owners;
@@ -69,18 +71,19 @@ fn told(mut fitted: Fitted, said: &str, through: &str, pairs: u64, refused: &Ref
 
 /// The roles with the head taking no part, and the head alone; none where the garment is worn on it, or there is none.
 fn without_head(job: &Job) -> Option<(Vec<PartRole>, TriangleMesh)> {
-    let is_head = |rig| {
-        let reading = Reading::new(rig, None);
+    let is_head = |rig: &Rig, skin: Option<&SkinWeights>| {
+        let reading = Reading::new(rig, skin);
         let owners = owners(rig, &reading, &rig.parents_first("rig").ok()?);
         let of_head = |joint: usize| {
             owners[joint] == Some(Landmark::HeadTop) && reading.part(joint as u32) != Some(BodyPart::Neck)
         };
         Some((0..rig.joints.len()).map(of_head).collect::<Vec<_>>())
     };
-    let moves = |skin: &bespoke::input::skin::SkinWeights, joints: &[bool], vertex: usize| {
+    let moves = |skin: &SkinWeights, joints: &[bool], vertex: usize| {
         skin.dominant_joint(vertex).is_some_and(|joint| joints[joint as usize])
     };
-    let (of_source, of_target) = (is_head(job.source_rig)?, is_head(job.target_rig)?);
+    let (of_source, of_target) =
+        (is_head(job.source_rig, job.source.map(|body| &body.skin))?, is_head(job.target_rig, Some(&job.avatar.skin))?);
     let cloth = &job.garment.mesh.positions;
     let worn = (0..cloth.len()).filter(|&v| moves(&job.garment.skin, &of_source, v)).count();
     if !job.has_skin || worn as f64 > ON_HEAD * cloth.len() as f64 {

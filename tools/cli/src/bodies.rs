@@ -3,7 +3,6 @@
 use bespoke::geometry::mesh::{TriangleMesh, triangle_area};
 use bespoke::input::skin::SkinWeights;
 use bespoke::rig::body_part::BodyPart;
-use bespoke::rig::reading::Reading;
 use bespoke::session::PartRole;
 
 use crate::figure::{Figure, Part};
@@ -115,7 +114,7 @@ fn add_areas(part: &Part, areas: &mut [f64]) {
 
 /// Whether hair hangs below the head. glTF's y is up.
 fn hangs(figure: &Figure) -> bool {
-    let reading = Reading::new(&figure.rig, None);
+    let reading = figure.reading();
     let Some(head) = reading.joint_of(BodyPart::Head).map(|joint| figure.rig.place(joint).y) else { return false };
     let top = figure.of(Kind::Body).flat_map(|part| &part.positions).map(|p| p.y).fold(head, f64::max);
     figure.of(Kind::Hair).flat_map(|part| &part.positions).any(|p| p.y < head - HANGS * (top - head))

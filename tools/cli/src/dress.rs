@@ -6,7 +6,6 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::rig::joint_map::{CallersPair, JointMap};
-use bespoke::rig::reading::Reading;
 
 use crate::args::{Dress, ObjFiles};
 use crate::attempts::put_on;
@@ -278,7 +277,7 @@ impl Dressing<'_> {
         notes: &[String],
     ) -> Result<DressReport> {
         let (source, target) = (self.made_for.rig(), &self.avatar.figure.rig);
-        let readings = [Reading::new(source, None), Reading::new(target, None)];
+        let readings = [self.made_for.joints_of().reading(), self.avatar.figure.reading()];
         let map = JointMap::new(source, target, readings, self.pairs).map_err(|e| Failure::no_result(e.message))?;
         let done = dressed.iter().map(|d| GarmentLine::dressed(&d.garment.name, &d.fitted));
         let not = refused.iter().map(|(g, why)| GarmentLine::refused(&g.name, &why.failure, &why.findings));

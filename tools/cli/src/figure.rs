@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::input::rig::{Rig, RigJoint};
 use bespoke::input::skeleton::Skeleton;
+use bespoke::input::skin::SkinWeights;
+use bespoke::rig::reading::Reading;
 use bespoke_gltf::{Document, Instance, Primitive, Scene};
 use glam::{DMat4, DVec3};
 
@@ -176,6 +178,14 @@ impl Figure {
     /// Whether the vertices of its parts have weights on its joints.
     pub fn has_skin(&self) -> bool {
         !self.rig.joints.is_empty() && self.obj.as_ref().is_none_or(|source| source.has_skin)
+    }
+
+    /// What its joints are, by their names and else by their places and what they move.
+    pub fn reading(&self) -> Reading {
+        let worn = self.parts.iter().filter(|part| part.sorted.kind != Kind::Prop);
+        let rows = worn.flat_map(|part| &part.influences).cloned();
+        let skin = self.has_skin().then(|| SkinWeights::from_rows(self.rig.joints.len(), rows));
+        Reading::new(&self.rig, skin.as_ref())
     }
 
     /// Its joints where they have no names.

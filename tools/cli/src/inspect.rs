@@ -2,7 +2,6 @@
 
 use bespoke::input::diagnostic::Severity;
 use bespoke::rig::joint_map::JointMap;
-use bespoke::rig::reading::Reading;
 use serde::Serialize;
 
 use crate::args::Inspect;
@@ -80,7 +79,7 @@ pub fn run(args: &Inspect) -> Result<u8> {
     let against = args.against.as_ref().map(|file| Figure::open(file, Role::Avatar, &Choice::default())).transpose()?;
     let joint_map = match &against {
         Some(other) => {
-            let readings = [Reading::new(&figure.rig, None), Reading::new(&other.rig, None)];
+            let readings = [figure.reading(), other.reading()];
             let map =
                 JointMap::new(&figure.rig, &other.rig, readings, &[]).map_err(|e| Failure::no_result(e.message))?;
             Some(report::joint_map(&map, &figure.rig, &other.rig))
@@ -109,7 +108,7 @@ fn rig_line(figure: &Figure) -> RigLine {
     if figure.rig.joints.is_empty() {
         return RigLine { profile: None, joints: Vec::new() };
     }
-    let reading = Reading::new(&figure.rig, None);
+    let reading = figure.reading();
     let joint = |(index, joint): (usize, &bespoke::input::rig::RigJoint)| RigJointLine {
         name: joint.name.clone(),
         parent: joint.parent,
