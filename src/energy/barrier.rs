@@ -452,4 +452,13 @@ impl Energy for Barrier {
     /// None: contacts change with every step. Assembly reports pairs of vertices missing from the pattern, which is then
     /// extended by them.
     fn stencils(&self, _: &mut dyn FnMut(&[u32])) {}
+
+    /// The candidates of the garment with itself. Those with the avatar have one vertex of the garment, or vertices of one edge or
+    /// triangle, which the garment's other terms have in the pattern.
+    fn passing_stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        let ranges = self.candidates.ranges(0..self.candidates.len());
+        for range in ranges.filter(|range| range.group != CollisionGroup::Avatar) {
+            range.pairs.iter().for_each(|pair| visit(pair));
+        }
+    }
 }

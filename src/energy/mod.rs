@@ -95,4 +95,8 @@ pub trait Energy: Sync {
     /// Calls `visit` with the garment vertices of every element that may have a Hessian: the sparsity
     /// pattern is the union of their cliques.
     fn stencils(&self, visit: &mut dyn FnMut(&[u32]));
+
+    /// Calls `visit` with the garment vertices of elements beyond [`Self::stencils`] that have a Hessian now or may have one soon:
+    /// where the pattern has to grow, it grows by all of these.
+    fn passing_stencils(&self, _visit: &mut dyn FnMut(&[u32])) {}
 }

@@ -217,9 +217,13 @@ impl Newton {
     /// # Errors
     /// `Internal` where the Hessian cannot be made positive definite or memory runs out, `MemoryLimit`, `Cancelled`.
     pub fn linearise(&mut self, terms: &[Term<'_>], at: Configuration<'_>, border: bool) -> Result<()> {
-        let missing = self.assemble(terms, at)?;
+        let mut missing = self.assemble(terms, at)?;
         if !missing.is_empty() {
+            // Not by these alone: each growth costs an analysis and a second assembly.
             let clock = Instant::now();
+            for term in terms.iter().filter(|term| term.weight != 0.0) {
+                term.energy.passing_stencils(&mut |vertices| missing.add_clique(vertices));
+            }
             self.pattern = self.pattern.extended(missing);
             self.analyse()?;
             self.counters.profile.analysis += clock.elapsed();

@@ -391,6 +391,10 @@ fn pattern_and_statistics_follow_what_is_active_and_ranges_add_up() {
     let at = Configuration { x: &x, t: 1.0 };
     // Assembly finds the pairs of a contact by its derivatives, not from the stencils.
     barrier.stencils(&mut |_| panic!("contacts have no stencils"));
+    // Where the pattern grows, it grows by all the candidates of the garment with itself, in contact or not.
+    let mut passing = Vec::new();
+    barrier.passing_stencils(&mut |pair| passing.push(pair.to_vec()));
+    assert_eq!(passing, own);
     let pattern = |barrier: &Barrier| {
         let mut cliques = Cliques(Vec::new());
         barrier.derivatives(at, 0..barrier.len(), &mut cliques);

@@ -175,3 +175,68 @@ fn the_border_agrees_with_a_dense_solve() {
         }
     }
 }
+
+/// Springs of no length between the vertices k and k + 2, each as soon as t is above k, as contacts come.
+struct Passing {
+    count: usize,
+    are_told: bool,
+}
+
+impl Energy for Passing {
+    fn name(&self) -> &'static str {
+        "passing"
+    }
+
+    fn len(&self) -> usize {
+        self.count
+    }
+
+    fn value(&self, at: Configuration<'_>, range: Range<usize>) -> f64 {
+        range.filter(|&k| at.t > k as f64).map(|k| (at.x[k] - at.x[k + 2]).length_squared()).sum()
+    }
+
+    fn derivatives(&self, at: Configuration<'_>, range: Range<usize>, sink: &mut dyn Sink) {
+        for k in range.filter(|&k| at.t > k as f64) {
+            let d = at.x[k] - at.x[k + 2];
+            for (axis, distance) in [(DVec3::X, d.x), (DVec3::Y, d.y), (DVec3::Z, d.z)] {
+                let a = Direction { vertices: &[k as u32, k as u32 + 2], components: &[axis, -axis], t: 0.0 };
+                sink.rank_one(a, 2.0 * distance, 2.0);
+            }
+        }
+    }
+
+    fn stencils(&self, _: &mut dyn FnMut(&[u32])) {}
+
+    fn passing_stencils(&self, visit: &mut dyn FnMut(&[u32])) {
+        if self.are_told {
+            (0..self.count as u32).for_each(|k| visit(&[k, k + 2]));
+        }
+    }
+}
+
+#[test]
+fn the_pattern_grows_once_by_all_that_is_told_to_come() {
+    let springs = Springs { count: 8 };
+    let mut state = start();
+    let x = |k: u32| DVec3::new(f64::from(k).sin(), f64::from(k * k).cos(), 0.3 * f64::from(k));
+    state.x = (0..8).map(x).collect();
+    let mut analyses = [0, 0];
+    let [told, untold] = [true, false].map(|are_told| Passing { count: 4, are_told });
+    let directions = [&told, &untold].map(|passing| {
+        let terms = [Term { energy: &springs, weight: 1.0 }, Term { energy: passing, weight: 1.0 }];
+        let mut newton = Newton::new(8, &terms, MemoryLimit::NONE, Cancel::new()).unwrap();
+        let mut directions = Vec::new();
+        for k in 0..4 {
+            state.t = f64::from(k) + 0.5;
+            newton.linearise(&terms, state.configuration(), true).unwrap();
+            newton.set_direction(0.0);
+            directions.push(newton.direction().to_vec());
+        }
+        analyses[usize::from(!passing.are_told)] = newton.counters.analyses;
+        directions
+    });
+    assert_eq!(analyses, [2, 5]);
+    for (told, untold) in directions[0].iter().zip(&directions[1]).flat_map(|(told, untold)| told.iter().zip(untold)) {
+        assert!(told.distance(*untold) < 1e-6 * (1.0 + untold.length()), "{told} {untold}");
+    }
+}
