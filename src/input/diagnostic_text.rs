@@ -86,7 +86,11 @@ impl Display for Diagnostic {
                 let [a, b] = bone.joints;
                 let from = if *from_body { "the source avatar" } else { "that bone" };
                 let around = if *closed { "is closed around a bone, without cuff, hem or collar" } else { "is around no bone" };
-                let keeps = if *stiff { "keeps its shape" } else { "gives way" };
+                let keeps = match (stiff, closed) {
+                    (true, _) => "keeps its shape",
+                    (false, true) => "what is inside of it gives way",
+                    (false, false) => "gives way",
+                };
                 write!(
                     f,
                     "garment: the piece of {vertices} vertices with triangle {triangle} {around}; it is carried by \

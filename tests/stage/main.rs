@@ -4,6 +4,7 @@ mod blockage;
 mod bodies;
 mod bone_map;
 mod caps;
+mod carried_places;
 mod contour;
 mod enclosure;
 mod fit_region;

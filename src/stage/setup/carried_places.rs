@@ -11,6 +11,10 @@
 //! body where it comes nearest to it, for it is worn, and is as much looser elsewhere as the map has it. A soft piece moves vertex
 //! by vertex, along normals of the body that are smoothed over the piece. A stiff one keeps the shape of that similarity, and
 //! moves and turns as a whole: what is near to the body decides.
+//!
+//! Of a piece that is closed around a bone, as a hat with its crown filled is, what lay outside of the source body keeps its
+//! shape in this way, and what lay inside, the filling, is held nowhere and gives way. Where the body leaves no place for that
+//! shape, all of the piece is soft.
 
 use glam::{DQuat, DVec3};
 
@@ -29,6 +33,8 @@ const LEVER: f64 = 0.25;
 const SUPPORTS: f64 = 0.3;
 /// It turns by this angle at most to lie against the body, in radians: so that a ring beside an ear does not turn over.
 const MAX_TURN: f64 = 0.3;
+/// A hat whose head is turned by less than this, in radians, is not turned with it.
+const UPRIGHT: f64 = 0.35;
 /// Rounds in which normals are smoothed over a piece.
 const SMOOTHINGS: usize = 6;
 /// Rounds in which a piece is brought to its clearance.
@@ -43,7 +49,7 @@ const GROWTHS: usize = 15;
 /// Between points of a stiff piece that are to be clear of the body, and parts of a triangle's side at most.
 const SPACING: f64 = 0.02;
 const MAX_PARTS: usize = 16;
-/// The smallest cosine between a smoothed normal and the body's that divides the way that is left.
+/// The smallest cosine between the way of a vertex and the body's normal.
 const MIN_COSINE: f64 = 0.5;
 /// A vertex of a stiff piece counts for its clearance with 1 / (1 + (d / r)^2)^2, d its clearance beyond the least, and r this
 /// share of its size; the rest of it stays.
@@ -53,11 +59,22 @@ const STAYS: f64 = 0.02;
 /// part of the body, such as an arm.
 const OUTLIERS: f64 = 0.05;
 
+/// What is outside of the source body by more than this is no filling; the skeleton is 2 long.
+const OUTSIDE: f64 = 1e-4;
+/// And a piece is more than its filling where so large a share of its vertices is outside.
+const SHELL: f64 = 0.5;
+
 /// A carried piece with its places.
 #[derive(Clone)]
 struct Piece {
     carried: CarriedPiece,
-    /// Its triangles, by positions in `vertices` of the piece.
+    /// Its vertices that have a place, ascending: all, or the shell around a filling.
+    vertices: Vec<u32>,
+    /// They keep their shape.
+    stiff: bool,
+    /// All of a closed piece, to be taken where the body leaves no place for its shell.
+    soft: Option<Box<Self>>,
+    /// Its triangles, by positions in `vertices`.
     triangles: Vec<[u32; 3]>,
     rest: Vec<DVec3>,
     /// Where its vertices go.
@@ -69,6 +86,13 @@ struct Piece {
     size: f64,
     /// The similarity nearest to its map along the bones.
     similarity: Similarity,
+}
+
+/// A carried piece and its triangles, by vertices of the garment.
+struct Own<'a> {
+    positions: &'a [DVec3],
+    triangles: &'a [[u32; 3]],
+    carried: &'a CarriedPiece,
 }
 
 /// The carried pieces of a garment.
@@ -87,44 +111,30 @@ impl CarriedPlaces {
         source_body: Option<&SourceBody>,
         looseness: f64,
     ) -> Self {
-        let mut local = vec![u32::MAX; garment.positions.len()];
         let mut owner = vec![u32::MAX; garment.positions.len()];
         for (k, piece) in (0u32..).zip(carried) {
-            for (i, &v) in (0u32..).zip(&piece.vertices) {
-                (local[v as usize], owner[v as usize]) = (i, k);
-            }
+            piece.vertices.iter().for_each(|&v| owner[v as usize] = k);
         }
         let mut triangles: Vec<Vec<[u32; 3]>> = vec![Vec::new(); carried.len()];
         for t in &garment.triangles {
             if let Some(own) = triangles.get_mut(owner[t[0] as usize] as usize) {
-                own.push(t.map(|v| local[v as usize]));
+                own.push(*t);
             }
         }
-        let designed = |rest: &[DVec3], scale: f64| {
-            let outside = |body: &SourceBody, p: DVec3| body.signed_distance(p).max(0.0);
-            let at = |body: &SourceBody| rest.iter().map(|&p| scale * looseness * outside(body, p)).collect();
-            source_body.map(at)
-        };
-        let piece = |(carried, triangles): (&CarriedPiece, Vec<[u32; 3]>)| {
-            let rest: Vec<DVec3> = carried.vertices.iter().map(|&v| garment.positions[v as usize]).collect();
-            let areas = vertex_areas(&rest, &triangles);
-            let stiff_map = carried.stiff.then(|| map.around(&rest, &areas, SUPPORTS));
-            let map = stiff_map.as_ref().unwrap_or(map);
-            let mapped: Vec<DVec3> = rest.iter().map(|&p| map.apply(p)).collect();
-            let similarity = Similarity::nearest(&rest, &mapped, &areas, None);
-            let places = if carried.stiff { rest.iter().map(|&p| similarity.apply(p)).collect() } else { mapped };
-            Piece {
-                carried: carried.clone(),
-                designed: designed(&rest, similarity.scale),
-                size: size(&rest),
-                triangles,
-                rest,
-                places,
-                areas,
-                similarity,
+        let place = |(carried, triangles): (&CarriedPiece, &Vec<[u32; 3]>)| {
+            let own = Own { positions: &garment.positions, triangles, carried };
+            let soft = Piece::new(&own, &carried.vertices, carried.stiff, map, source_body, looseness);
+            let outside =
+                |&v: &u32| source_body?.signed_distance(garment.positions[v as usize]).gt(&OUTSIDE).then_some(v);
+            let shell: Vec<u32> = carried.vertices.iter().filter_map(outside).collect();
+            if !carried.closed || (shell.len() as f64) < SHELL * carried.vertices.len() as f64 {
+                return soft;
             }
+            let mut stiff = Piece::new(&own, &shell, true, map, source_body, looseness);
+            stiff.stand_upright();
+            Piece { soft: Some(Box::new(soft)), ..stiff }
         };
-        Self { pieces: carried.iter().zip(triangles).map(piece).collect() }
+        Self { pieces: carried.iter().zip(&triangles).map(place).collect() }
     }
 
     /// True without any.
@@ -140,7 +150,7 @@ impl CarriedPlaces {
     /// The vertices of each stiff piece, and its rest positions at the size that it has on the target body.
     pub fn stiff(&self) -> impl Iterator<Item = (&[u32], Vec<DVec3>)> {
         let scaled = |piece: &Piece| piece.rest.iter().map(|&p| piece.similarity.scale * p).collect();
-        self.pieces.iter().filter(|p| p.carried.stiff).map(move |p| (&p.carried.vertices[..], scaled(p)))
+        self.pieces.iter().filter(|piece| piece.stiff).map(move |piece| (&piece.vertices[..], scaled(piece)))
     }
 
     /// Brings all pieces to their clearances from the body of `field`: `least` at least, and the designed one and `offset`.
@@ -155,7 +165,7 @@ impl CarriedPlaces {
         let mut elements = Vec::new();
         for piece in &self.pieces {
             let lever = LEVER * piece.size;
-            let vertices = piece.carried.vertices.iter().zip(&piece.rest).zip(&piece.places).zip(&piece.areas);
+            let vertices = piece.vertices.iter().zip(&piece.rest).zip(&piece.places).zip(&piece.areas);
             elements.extend(vertices.map(|(((&vertex, &start), &end), area)| {
                 let weight = area / (lever * lever);
                 Pin { vertex, start, end, weight }
@@ -166,28 +176,80 @@ impl CarriedPlaces {
 }
 
 impl Piece {
-    fn settle(&mut self, field: &Field, least: f64, offset: f64) {
-        let distances: Vec<f64> = self.places.iter().map(|&p| field.value(p)).collect();
-        let wanted: Vec<f64> = match &self.designed {
-            Some(designed) => designed.iter().map(|d| (d + offset).max(least)).collect(),
-            None => {
-                let outliers = if self.carried.stiff { 0.0 } else { OUTLIERS };
-                let touching = low_quantile(&distances, outliers);
-                distances.iter().map(|d| (d - touching).max(0.0) + offset.max(least)).collect()
-            }
+    /// The places of `vertices` of a carried piece by `map` alone.
+    fn new(
+        own: &Own<'_>,
+        vertices: &[u32],
+        stiff: bool,
+        map: &BoneMap,
+        source_body: Option<&SourceBody>,
+        looseness: f64,
+    ) -> Self {
+        let local = |v: u32| vertices.binary_search(&v).ok().map(|at| at as u32);
+        let corners = |t: &[u32; 3]| Some([local(t[0])?, local(t[1])?, local(t[2])?]);
+        let triangles: Vec<[u32; 3]> = own.triangles.iter().filter_map(corners).collect();
+        let rest: Vec<DVec3> = vertices.iter().map(|&v| own.positions[v as usize]).collect();
+        let areas = vertex_areas(&rest, &triangles);
+        let stiff_map = stiff.then(|| map.around(&rest, &areas, SUPPORTS));
+        let map = stiff_map.as_ref().unwrap_or(map);
+        let mapped: Vec<DVec3> = rest.iter().map(|&p| map.apply(p)).collect();
+        let similarity = Similarity::nearest(&rest, &mapped, &areas, None);
+        let outside = |body: &SourceBody, p: DVec3| body.signed_distance(p).max(0.0);
+        let designed = |body: &SourceBody| -> Vec<f64> {
+            rest.iter().map(|&p| similarity.scale * looseness * outside(body, p)).collect()
         };
-        if self.carried.stiff {
-            self.settle_stiff(field, &wanted);
-            for _ in 0..GROWTHS {
-                if self.clear(field, least) {
-                    break;
-                }
-                self.similarity.scale *= GROWTH;
-                self.settle_stiff(field, &wanted);
-            }
-        } else {
-            self.settle_soft(field, &wanted);
+        Self {
+            carried: own.carried.clone(),
+            vertices: vertices.to_vec(),
+            stiff,
+            soft: None,
+            designed: source_body.map(designed),
+            size: size(&rest),
+            triangles,
+            places: if stiff { rest.iter().map(|&p| similarity.apply(p)).collect() } else { mapped },
+            rest,
+            areas,
+            similarity,
         }
+    }
+
+    /// Takes back a small turn: the bone of a head ends in the middle of what moves with it, hair and all, and says no more of
+    /// how the head stands.
+    fn stand_upright(&mut self) {
+        if turn::angle_apart(DQuat::IDENTITY, self.similarity.rotation) < UPRIGHT {
+            self.similarity.rotation = DQuat::IDENTITY;
+            self.places = self.rest.iter().map(|&p| self.similarity.apply(p)).collect();
+        }
+    }
+
+    fn settle(&mut self, field: &Field, least: f64, offset: f64) {
+        let wanted = self.wanted(field, least, offset);
+        if !self.stiff {
+            self.settle_soft(field, &wanted);
+            return;
+        }
+        self.settle_stiff(field, &wanted);
+        for _ in 0..GROWTHS {
+            if self.clear(field, least) {
+                return;
+            }
+            self.similarity.scale *= GROWTH;
+            self.settle_stiff(field, &wanted);
+        }
+        if let Some(soft) = self.soft.take() {
+            *self = *soft;
+            self.settle(field, least, offset);
+        }
+    }
+
+    /// The distance from the body that each vertex is to have.
+    fn wanted(&self, field: &Field, least: f64, offset: f64) -> Vec<f64> {
+        if let Some(designed) = &self.designed {
+            return designed.iter().map(|d| (d + offset).max(least)).collect();
+        }
+        let distances: Vec<f64> = self.places.iter().map(|&p| field.value(p)).collect();
+        let touching = low_quantile(&distances, if self.stiff { 0.0 } else { OUTLIERS });
+        distances.iter().map(|d| (d - touching).max(0.0) + offset.max(least)).collect()
     }
 
     fn settle_soft(&mut self, field: &Field, wanted: &[f64]) {
@@ -196,8 +258,11 @@ impl Piece {
             let slopes: Vec<DVec3> = now.iter().map(|(_, slope)| slope.normalize_or_zero()).collect();
             let normals = self.smoothed(slopes.clone());
             for (k, place) in self.places.iter_mut().enumerate() {
-                let cosine = normals[k].dot(slopes[k]).max(MIN_COSINE);
-                *place += normals[k] * ((wanted[k] - now[k].0) / cosine);
+                // Where the two disagree the way leans towards the body's own normal: along one that points away from it the
+                // distance would go the other way, and more with each round.
+                let cosine = normals[k].dot(slopes[k]);
+                let direction = normals[k] + (MIN_COSINE - cosine).max(0.0) * slopes[k];
+                *place += direction * ((wanted[k] - now[k].0) / cosine.max(MIN_COSINE));
             }
         }
     }
@@ -220,7 +285,9 @@ impl Piece {
                 })
                 .collect();
             let mut placed = Similarity::nearest(&self.rest, &moved, &weights, Some(self.similarity.scale));
-            placed.rotation = turned(self.similarity.rotation, placed.rotation);
+            // A hat stands level, whatever the hair beneath it is like.
+            let most = if self.soft.is_some() { 0.0 } else { MAX_TURN };
+            placed.rotation = turned(self.similarity.rotation, placed.rotation, most);
             self.places = self.rest.iter().map(|&p| placed.apply(p)).collect();
         }
     }
@@ -277,10 +344,10 @@ impl Piece {
     }
 }
 
-/// `to`, or where that is farther from `from` than [`MAX_TURN`], the rotation so far on the way.
-fn turned(from: DQuat, to: DQuat) -> DQuat {
+/// `to`, or where that is farther from `from` than `most`, the rotation so far on the way.
+fn turned(from: DQuat, to: DQuat, most: f64) -> DQuat {
     let angle = turn::angle_apart(from, to);
-    if angle > MAX_TURN { turn::between(from, to, MAX_TURN / angle) } else { to }
+    if angle > most { turn::between(from, to, most / angle) } else { to }
 }
 
 /// The diagonal of the bounding box.
