@@ -128,6 +128,17 @@ impl CoordinateSystem {
         AxisTurn::from_columns([0, 1, 2].map(image))
     }
 
+    /// An internal turn by some degrees about coordinate `k` (0, 1 or 2) as it is in the caller's coordinates: about which axis,
+    /// and by how many degrees, not negative.
+    pub fn turn_about_from_internal(&self, k: usize, degrees: f64) -> (Axis, f64) {
+        let image = |k: usize| self.position_from_internal(DVec3::AXES[k]);
+        // A mirror turns the sense of a turn about.
+        let sense = image(0).cross(image(1)).dot(image(2)).signum() * degrees.signum();
+        let along = image(k) * sense;
+        let own = (0..3).max_by(|&a, &b| along[a].abs().total_cmp(&along[b].abs())).unwrap_or(k);
+        (Axis::along(own, along[own]), degrees.abs())
+    }
+
     /// Refuses an invalid coordinate system; `name` names it in error messages ("target coordinate system").
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Diagnostics about the inputs and the result: typed data, whose messages are made in [`super::diagnostic_text`]
 //! alone, and whose kinds, severities and elements in [`super::diagnostic_facts`].
 
-use super::coordinate_system::{AxisTurn, CoordinateSystem};
+use super::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 
 pub use super::element::{Element, ElementKind, Subject};
 
@@ -569,6 +569,13 @@ pub enum Diagnostic {
         /// Nobody would wear it.
         is_gross: bool,
     },
+    /// Cloth that stands off the body over something that sticks out of it.
+    ClothLifted {
+        /// A garment triangle of it.
+        triangle: u32,
+        /// How many times farther from the bones than in the design, beside the cloth that lies nearest.
+        times: f64,
+    },
     /// The cloth is drawn out in one place and has shrunk in another, so that nobody would wear it.
     ClothDistorted {
         /// How many times as large all but a twentieth of it is at least, and at most.
@@ -612,6 +619,32 @@ pub enum Diagnostic {
         gross: bool,
         /// Front and back of the bodies agree with it.
         sure: bool,
+    },
+    /// A mesh is turned against its skeleton by some angle.
+    Turned {
+        /// The mesh, or the skeleton where its meshes agree with each other.
+        subject: Subject,
+        /// The one that it belongs to.
+        against: Subject,
+        /// The axis of the turn that mends it, in the caller's coordinates.
+        axis: Axis,
+        /// Its angle.
+        degrees: f64,
+        /// It is refused.
+        gross: bool,
+    },
+    /// A limb of the source skeleton is in another pose than the garment.
+    LimbTurned {
+        /// The bone at which it begins.
+        bone: Bone,
+        /// The joint about which it is turned.
+        joint: u32,
+        /// The middle of the opening that it should go through, in the caller's coordinates.
+        opening: [f64; 3],
+        /// By how many degrees.
+        degrees: f64,
+        /// It is refused.
+        gross: bool,
     },
     /// Left and right of the target are exchanged, or it is mirrored.
     SidesSwapped {

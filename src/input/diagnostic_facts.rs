@@ -41,11 +41,13 @@ impl Diagnostic {
             Self::SettingsAdjusted { .. } => DiagnosticKind::SettingsAdjusted,
             Self::Untangled { .. } => DiagnosticKind::Untangled,
             Self::OpeningCap { .. } => DiagnosticKind::OpeningCap,
-            Self::LimbMisplaced { .. } => DiagnosticKind::LimbMisplaced,
+            Self::LimbMisplaced { .. } | Self::ClothLifted { .. } => DiagnosticKind::LimbMisplaced,
             Self::PieceResized { .. } | Self::ClothDistorted { .. } => DiagnosticKind::PieceResized,
             Self::NotConverged { .. } => DiagnosticKind::NotConverged,
             Self::UnitMismatch { .. } => DiagnosticKind::UnitMismatch,
-            Self::FacingMismatch { .. } => DiagnosticKind::FacingMismatch,
+            Self::FacingMismatch { .. } | Self::Turned { .. } | Self::LimbTurned { .. } => {
+                DiagnosticKind::FacingMismatch
+            }
             Self::SidesSwapped { .. } => DiagnosticKind::SidesSwapped,
             Self::More { like, .. } => like.kind(),
         }
@@ -92,6 +94,8 @@ impl Diagnostic {
             | Self::NotConverged { .. }
             | Self::UnitMismatch { gross: false, .. }
             | Self::FacingMismatch { gross: false, .. }
+            | Self::Turned { gross: false, .. }
+            | Self::LimbTurned { gross: false, .. }
             | Self::SidesSwapped { sure: false, .. } => Severity::Warning,
             Self::SelfIntersection { strict: true, .. }
             | Self::AvatarPenetrates { .. }
@@ -103,8 +107,11 @@ impl Diagnostic {
             | Self::LimbMisplaced { .. }
             | Self::PieceResized { is_gross: true, .. }
             | Self::ClothDistorted { .. }
+            | Self::ClothLifted { .. }
             | Self::UnitMismatch { gross: true, .. }
             | Self::FacingMismatch { gross: true, .. }
+            | Self::Turned { gross: true, .. }
+            | Self::LimbTurned { gross: true, .. }
             | Self::SidesSwapped { sure: true, .. } => Severity::Error,
             Self::More { like, .. } => like.severity(),
         }
@@ -146,7 +153,7 @@ impl Diagnostic {
                 [triangle(garment), part.triangle].into_iter().chain(part.bone.map(Bone::element)).collect()
             }
             Self::InflationSqueezed { garment, parts: [a, b], .. } => vec![triangle(garment), a.triangle, b.triangle],
-            Self::EndWithoutBone { bone, .. } => vec![bone.element()],
+            Self::EndWithoutBone { bone, .. } | Self::LimbTurned { bone, .. } => vec![bone.element()],
             Self::JointMisplaced { skeleton, bone, .. } => vec![Element::bone(skeleton, bone.index)],
             Self::WeightsContradict { ref first, .. } => {
                 first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
@@ -165,7 +172,7 @@ impl Diagnostic {
                 };
                 vec![bone.element(), element]
             }
-            Self::PieceResized { triangle: t, .. } => vec![triangle(t)],
+            Self::PieceResized { triangle: t, .. } | Self::ClothLifted { triangle: t, .. } => vec![triangle(t)],
             Self::FollowerIntersects { ref first, .. } | Self::MorphIntersects { ref first, .. } => first.clone(),
             Self::CoarseCoordinates { .. }
             | Self::MorphNotSolved { .. }
@@ -176,6 +183,7 @@ impl Diagnostic {
             | Self::NotConverged { .. }
             | Self::UnitMismatch { .. }
             | Self::FacingMismatch { .. }
+            | Self::Turned { .. }
             | Self::SidesSwapped { .. }
             | Self::More { .. } => Vec::new(),
         }

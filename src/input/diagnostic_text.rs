@@ -403,6 +403,12 @@ impl Display for Diagnostic {
                  some, such as triangle {drawn_out}, {larger:.1} times; compare unit and place of the garment with its skeleton, and \
                  of the avatar with its own"
             ),
+            Self::ClothLifted { triangle, times } => write!(
+                f,
+                "result: some of the cloth, such as garment triangle {triangle}, lies {times:.1} times as far from the bones as in \
+                 the design beside the rest of it, for something that sticks out of the body is under it; a wing or a tail needs a \
+                 bone and an opening, or leave it out with set_avatar_parts"
+            ),
             Self::NotConverged { iterations, stuck: true } => write!(
                 f,
                 "result: the fit ended after {iterations} iterations where no step brings the garment nearer to the body or its \
@@ -443,6 +449,24 @@ impl Display for Diagnostic {
                          by {turn}"
                     )
                 }
+            }
+            Self::Turned { subject, against, axis, degrees, .. } => {
+                let (subject, against, axis) = (input(*subject), input(*against), axis.name().trim_start_matches('+'));
+                write!(
+                    f,
+                    "{subject}: it is turned against the {against}, so that bones pass beside it or through it; turn it by about \
+                     {degrees:.0} degrees about {axis}"
+                )
+            }
+            Self::LimbTurned { bone, joint, opening, degrees, .. } => {
+                let next = if bone.joints[0] == *joint { bone.joints[1] } else { bone.joints[0] };
+                write!(
+                    f,
+                    "source skeleton: the limb from joint {joint} over joint {next} passes through the cloth, and no bone through the \
+                     opening at {}, to which it would have to be turned by {degrees:.0} degrees; bring skeleton and garment into one \
+                     pose",
+                    point(*opening)
+                )
             }
             Self::FacingMismatch { turn, told: Some(system), gross: true, .. } => write!(
                 f,

@@ -6,7 +6,7 @@ use crate::control::Cancel;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::{Bone, Diagnostic, LimbPlace};
-use crate::stage::plausibility::{Distorted, Findings, Misplacement, Outcome, compare};
+use crate::stage::plausibility::{Distorted, Findings, Lifted, Misplacement, Outcome, compare};
 
 impl Session {
     /// Adds to the diagnostics how the result differs from the design.
@@ -80,6 +80,10 @@ impl Snapshot {
         diagnostics.extend(findings.distorted.map(|Distorted { scales, triangles }| Diagnostic::ClothDistorted {
             scales,
             triangles: triangles.map(|t| problem.weld.triangle_of[t as usize]),
+        }));
+        diagnostics.extend(findings.lifted.map(|Lifted { triangle, times }| Diagnostic::ClothLifted {
+            triangle: problem.weld.triangle_of[triangle as usize],
+            times,
         }));
         diagnostics
     }

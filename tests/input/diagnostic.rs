@@ -535,6 +535,43 @@ fn what_does_not_belong_together_is_said_with_what_mends_it() {
     assert_eq!(facing(Some(system), true, true).severity(), Severity::Error);
     assert_eq!(facing(None, true, true).severity(), Severity::Error);
 
+    let aside = |gross| Diagnostic::Turned {
+        subject: Subject::Garment,
+        against: Subject::SourceSkeleton,
+        axis: Axis::PositiveY,
+        degrees: 34.6,
+        gross,
+    };
+    assert_eq!(
+        aside(true).to_string(),
+        "garment: it is turned against the source skeleton, so that bones pass beside it or through it; turn it by about 35 \
+         degrees about y"
+    );
+    assert_eq!(aside(true).kind(), DiagnosticKind::FacingMismatch);
+    assert_eq!([true, false].map(|gross| aside(gross).severity()), [Severity::Error, Severity::Warning]);
+
+    let limb = |gross| Diagnostic::LimbTurned {
+        bone: Bone { index: 4, joints: [4, 3] },
+        joint: 3,
+        opening: [0.5, 1.0, 0.0],
+        degrees: 81.2,
+        gross,
+    };
+    assert_eq!(
+        limb(true).to_string(),
+        "source skeleton: the limb from joint 3 over joint 4 passes through the cloth, and no bone through the opening at (0.5, 1, \
+         0), to which it would have to be turned by 81 degrees; bring skeleton and garment into one pose"
+    );
+    assert_eq!(limb(true).elements(), [Element::bone(Subject::SourceSkeleton, 4)]);
+    assert_eq!([true, false].map(|gross| limb(gross).severity()), [Severity::Error, Severity::Warning]);
+
+    let lifted = Diagnostic::ClothLifted { triangle: 7, times: 3.42 };
+    assert!(
+        lifted.to_string().starts_with("result: some of the cloth, such as garment triangle 7, lies 3.4 times as far")
+    );
+    assert_eq!((lifted.kind(), lifted.severity()), (DiagnosticKind::LimbMisplaced, Severity::Error));
+    assert_eq!(lifted.elements(), [Element::triangle(Subject::Garment, 7)]);
+
     let swapped = |all, mirrored, sure| Diagnostic::SidesSwapped { joints: [3, 6], mirrored, all, sure };
     assert_eq!(
         swapped(false, None, true).to_string(),

@@ -1,10 +1,11 @@
 //! Units, axes, facing and sides of the inputs, compared before the work: mixtures of them, and inputs that are right.
 
 use std::sync::LazyLock;
+use std::time::Instant;
 
 use bespoke::error::Result;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::coordinate_system::{AxisTurn, CoordinateSystem};
+use bespoke::input::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{Diagnostic, Severity, Subject};
 use bespoke::input::placement;
 use bespoke::input::placement::scene::Scene;
@@ -15,7 +16,7 @@ use closet::avatars::{Avatar, avatar};
 use closet::garments::{Garment, garment};
 use closet::skeleton::{ARMS, BONES, LEGS};
 use closet::{Kind, Sample, sample};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// A garment, the body that it was designed on, and the one to dress.
 #[derive(Clone)]
@@ -226,10 +227,12 @@ fn twenty_mixtures_of_units_axes_sides_and_facing_are_named() {
     let pairs: Vec<(String, Inputs)> = Avatar::ALL.iter().enumerate().flat_map(of).collect();
     let mixtures = mixtures();
     assert_eq!(mixtures.len(), 20);
-    let mut missed = Vec::new();
+    let (mut missed, mut slowest) = (Vec::new(), 0.0);
     for (pair, good) in &pairs {
         for (mixture, change, named, refused) in &mixtures {
-            let (turn, found) = change(good.clone()).check(false);
+            let (inputs, clock) = (change(good.clone()), Instant::now());
+            let (turn, found) = inputs.check(false);
+            slowest = f64::max(slowest, clock.elapsed().as_secs_f64());
             if turn.is_err() != *refused || !named.iter().all(|n| n.is_in(&found)) {
                 let texts: Vec<String> = found.iter().map(ToString::to_string).collect();
                 missed.push(format!("{pair}: {mixture}: {texts:?}"));
@@ -237,6 +240,170 @@ fn twenty_mixtures_of_units_axes_sides_and_facing_are_named() {
         }
     }
     assert!(missed.is_empty(), "{} of {}:\n{}", missed.len(), 20 * pairs.len(), missed.join("\n"));
+    println!("{} mixtures, the slowest {slowest:.3} s", 20 * pairs.len());
+    assert!(slowest < 1.0, "{slowest} s");
+}
+
+/// What of the inputs is turned against what it belongs to.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    Garment,
+    Body,
+    SourceSkeleton,
+}
+
+/// Turned about an axis of coordinates and the middle of the skeleton; the weights are left out, for with them a turned body is
+/// dressed up to a point.
+fn turned_by(part: Part, axis: usize, degrees: f64, mut inputs: Inputs) -> Inputs {
+    inputs.skin = None;
+    let skeleton = if matches!(part, Part::Body) { &inputs.target } else { &inputs.source };
+    let [low, high] = [DVec3::min, DVec3::max].map(|of| skeleton.joints.iter().copied().reduce(of).unwrap());
+    let centre = 0.5 * (low + high);
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let points = match part {
+        Part::Garment => &mut inputs.garment.positions,
+        Part::Body => &mut inputs.avatar.positions,
+        Part::SourceSkeleton => &mut inputs.source.joints,
+    };
+    for p in points {
+        let [a, b] = [1, 2].map(|k| (axis + k) % 3);
+        let q = *p - centre;
+        (p[a], p[b]) = (centre[a] + cosine * q[a] - sine * q[b], centre[b] + sine * q[a] + cosine * q[b]);
+    }
+    inputs
+}
+
+#[test]
+fn meshes_that_are_turned_against_their_skeletons_are_named_with_the_angle() {
+    let axes =
+        [[Axis::PositiveX, Axis::NegativeX], [Axis::PositiveY, Axis::NegativeY], [Axis::PositiveZ, Axis::NegativeZ]];
+    let worn = [Garment::Jumpsuit, Garment::Sweater, Garment::Coat];
+    let (mut missed, mut slowest, mut count) = (Vec::new(), 0.0, 0);
+    let mut look = |pair: &str, part: Part, axis: usize, degrees: f64, good: &Inputs| {
+        let (inputs, clock) = (turned_by(part, axis, degrees, good.clone()), Instant::now());
+        let (turn, found) = inputs.check(false);
+        slowest = f64::max(slowest, clock.elapsed().as_secs_f64());
+        // The skeleton is where two meshes agree on it.
+        let whose = match part {
+            Part::Garment => Subject::Garment,
+            Part::Body => Subject::TargetAvatar,
+            Part::SourceSkeleton => Subject::SourceSkeleton,
+        };
+        let named = found.iter().any(|d| match d {
+            Diagnostic::Turned { subject, axis: about, degrees: by, .. } => {
+                let back = axes[axis][usize::from(degrees > 0.0)];
+                *subject == whose && *about == back && (by - degrees.abs()).abs() < 12.0
+            }
+            Diagnostic::FacingMismatch { subject, told: None, .. } => *subject == whose && degrees.abs() >= 90.0,
+            _ => false,
+        });
+        count += 1;
+        if turn.is_ok() || !named {
+            let texts: Vec<String> = found.iter().map(ToString::to_string).collect();
+            missed.push(format!("{pair}: {part:?} by {degrees} degrees about axis {axis}: {texts:?}"));
+        }
+    };
+    for (pair, good) in dressed(&worn, &[Avatar::Slim]) {
+        for (axis, degrees) in [(2, 35.0), (2, -60.0), (2, 90.0), (0, 40.0), (1, -50.0)] {
+            look(&pair, Part::Garment, axis, degrees, &good);
+            if axis != 1 {
+                look(&pair, Part::SourceSkeleton, axis, degrees, &good);
+            }
+        }
+    }
+    for (pair, good) in dressed(&[Garment::Jumpsuit], &Avatar::ALL) {
+        for (axis, degrees) in [(2, 45.0), (2, -60.0), (2, 90.0), (0, 60.0)] {
+            look(&pair, Part::Body, axis, degrees, &good);
+        }
+    }
+    assert!(missed.is_empty(), "{} of {count}:\n{}", missed.len(), missed.join("\n"));
+    println!("{count} turned inputs, the slowest {slowest:.3} s");
+    assert!(slowest < 1.0, "{slowest} s");
+}
+
+/// Arms of the source skeleton that are elsewhere than the sleeves, and legs beside their trousers.
+#[test]
+fn limbs_beside_their_sleeves_are_named() {
+    let mut missed = Vec::new();
+    let (mut slowest, mut count) = (0.0, 0);
+    for (garment, limbs) in [(Garment::Sweater, ARMS), (Garment::Jumpsuit, ARMS), (Garment::Trousers, LEGS)] {
+        let (pair, good) = dressed(&[garment], &[Avatar::Slim]).remove(0);
+        // Raised or lowered to the sides, and to the front: the angle, and whether that is refused.
+        for (axis, degrees, gross) in [(DVec3::Y, 80.0_f64, true), (DVec3::X, 90.0, true), (DVec3::Y, 30.0, false)] {
+            for limbs in [&limbs[..], &limbs[..1]] {
+                // Both legs forward, and it is the trousers that lie across; to the sides legs meet no cloth.
+                let is_leg = limbs[0] == LEGS[0];
+                if is_leg && (axis == DVec3::Y || limbs.len() > 1) {
+                    continue;
+                }
+                let mut inputs = good.clone();
+                for [root, middle, tip] in limbs {
+                    let at = inputs.source.joints[*root];
+                    let side = at.x.signum();
+                    let turn =
+                        DQuat::from_axis_angle(axis, -side.powi(i32::from(axis == DVec3::Y)) * degrees.to_radians());
+                    for &j in [middle, tip] {
+                        inputs.source.joints[j] = at + turn * (inputs.source.joints[j] - at);
+                    }
+                }
+                let clock = Instant::now();
+                let (turn, found) = inputs.check(false);
+                slowest = f64::max(slowest, clock.elapsed().as_secs_f64());
+                count += 1;
+                let told: Vec<(u32, bool)> = found
+                    .iter()
+                    .filter_map(|d| match d {
+                        Diagnostic::LimbTurned { joint, gross, .. } => Some((*joint, *gross)),
+                        _ => None,
+                    })
+                    .collect();
+                // Of a leg with the bone that it hangs on, or without.
+                let is_root = |j: u32, root: usize| j == root as u32 || is_leg && j == 0;
+                let is_named = |root: usize| told.iter().any(|&(j, is_gross)| is_root(j, root) && is_gross == gross);
+                if turn.is_err() != gross || told.len() != limbs.len() || !limbs.iter().all(|limb| is_named(limb[0])) {
+                    missed.push(format!("{pair}: {} limbs by {degrees} about {axis}: {found:?}", limbs.len()));
+                }
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{} of {count}:\n{}", missed.len(), missed.join("\n"));
+    println!("{count} skeletons, the slowest {slowest:.3} s");
+    assert!(slowest < 1.0, "{slowest} s");
+}
+
+/// A unit that is a little off moves thick bodies and the cloth around them not much farther from the bones, but beside them.
+#[test]
+fn small_factors_are_named_for_every_body() {
+    let mut missed = Vec::new();
+    for (pair, good) in dressed(&[Garment::Jumpsuit], &Avatar::ALL) {
+        for (factor, with_skin) in [(2.54, true), (1.0 / 2.54, false), (3.280_84, false), (1.0 / 3.280_84, true)] {
+            let mut inputs = good.clone();
+            scaled(&mut inputs.avatar.positions, factor);
+            inputs.skin = inputs.skin.filter(|_| with_skin);
+            let (turn, found) = inputs.check(false);
+            if turn.is_ok() || !Named::Unit(Subject::TargetAvatar, factor).is_in(&found) {
+                let texts: Vec<String> = found.iter().map(ToString::to_string).collect();
+                missed.push(format!("{pair} times {factor:.3}, with skin {with_skin}: {texts:?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}:\n{}", missed.len(), missed.join("\n"));
+}
+
+/// All weights on the root say that every part of the body is around the pelvis: then the body's place decides.
+#[test]
+fn a_body_in_another_unit_is_named_whatever_its_weights_say() {
+    let (_, good) = dressed(&[Garment::Jumpsuit], &[Avatar::Slim]).remove(0);
+    let vertices = good.avatar.positions.len();
+    let joints = good.target.joints.len();
+    let rows: Vec<f64> = (0..joints * vertices).map(|k| if k < vertices { 1.0 } else { 0.0 }).collect();
+    for factor in [2.54, 1.0 / 2.54, 3.280_84, 100.0] {
+        let mut inputs = good.clone();
+        inputs.skin = Some(SkinWeights::from_dense(&rows, joints, vertices, "skin").unwrap());
+        scaled(&mut inputs.avatar.positions, factor);
+        let (turn, found) = inputs.check(false);
+        assert!(turn.is_err() && Named::Unit(Subject::TargetAvatar, factor).is_in(&found), "{factor}: {found:?}");
+    }
 }
 
 #[test]

@@ -298,3 +298,24 @@ fn cloth_that_is_drawn_out_here_and_shrunk_there_is_found() {
     assert_eq!(findings(&design, &scale(0.8, 3.0)).distorted, None);
     assert_eq!(findings(&design, &scale(9.0, 9.0)).distorted, None);
 }
+
+#[test]
+fn cloth_that_stands_off_over_a_fin_is_found() {
+    let design = sleeve(48, 40);
+    let findings = |height: f64, share: f64| {
+        // Of the round of the sleeve a share is drawn out: all along, as over a fin.
+        let out = |p: DVec3| {
+            let angle = p.z.atan2(p.y).abs() / std::f64::consts::PI;
+            let times = if angle < share { height } else { 1.0 };
+            DVec3::new(p.x, times * p.y, times * p.z)
+        };
+        findings(&design, &moved(&design, out)).lifted
+    };
+    assert_eq!(findings(1.0, 1.0), None);
+    assert_eq!(findings(4.0, 1.0), None, "a thicker arm");
+    assert_eq!(findings(2.5, 0.4), None, "a hump");
+    let lifted = findings(3.6, 0.4).expect("a fin");
+    assert!((3.0..4.0).contains(&lifted.times), "{lifted:?}");
+    assert!(design.centre(lifted.triangle).y > 0.0);
+    assert_eq!(findings(3.6, 0.05), None, "too little to be seen");
+}

@@ -5,24 +5,40 @@
 //! one body in the other's pose looks like it.
 
 pub mod alignment;
+mod evidence;
 pub mod front;
+pub mod limb;
 pub mod mirror;
 pub mod scene;
 pub mod size;
+pub mod tilt;
+mod wrong;
 
 use alignment::Alignment;
+use evidence::Threaded;
 use front::Front;
+use limb::TurnedLimb;
 use mirror::MirrorPairs;
 use scene::Scene;
 use size::{Mend, Surroundings};
+use tilt::Tilt;
+use wrong::Wrong;
 
 use super::coordinate_system::{AxisTurn, CoordinateSystem};
-use super::diagnostic::{Diagnostic, Severity, Subject};
+use super::diagnostic::{Bone, Diagnostic, Severity, Subject};
 use super::skeleton::Skeleton;
 use crate::error::{Error, ErrorKind, Result};
 
 /// Turns of up to this many degrees need no word: between y up and z up nobody has made a mistake.
 const USUAL: f64 = 90.0;
+
+/// From so many degrees on a garment that is turned against its skeleton is refused, and a body: where nothing but its bones says
+/// which part is which, and where skin weights do, or the garment is not made for it.
+const GARMENT_TURNED: f64 = 25.0;
+const BODY_TURNED: f64 = 30.0;
+const BODY_TURNED_WITH_SKIN: f64 = 60.0;
+/// The same for a limb of the source skeleton against its sleeve or leg; by less the garment finds its way to where it belongs.
+const LIMB_TURNED: f64 = 38.0;
 
 /// Compares the inputs, and adds what is found to `diagnostics`. Returns the turn of the target after which both bodies face the
 /// same way, or are nearest to that. With `strict` the target is refused instead, where it is turned by more than a right angle. A
@@ -33,12 +49,17 @@ const USUAL: f64 = 90.0;
 /// is, where left and right are swapped, or, with `strict`, where the target faces another way.
 pub fn check(scene: &Scene<'_>, strict: bool, diagnostics: &mut Vec<Diagnostic>) -> Result<AxisTurn> {
     let mut found = units(scene);
+    if found.is_empty() && !scene.source_coordinate_system.trusted {
+        found.extend(limbs(scene));
+    }
     let turn =
         if scene.target_coordinate_system.trusted { AxisTurn::IDENTITY } else { sides(scene, strict, &mut found) };
     let first = found.iter().find(|d| d.severity() == Severity::Error).map(|d| {
         let kind = match d {
             Diagnostic::UnitMismatch { subject: Subject::Garment, .. }
-            | Diagnostic::FacingMismatch { subject: Subject::Garment, .. } => ErrorKind::NotEnclosed,
+            | Diagnostic::FacingMismatch { subject: Subject::Garment, .. }
+            | Diagnostic::Turned { subject: Subject::Garment, .. }
+            | Diagnostic::LimbTurned { .. } => ErrorKind::NotEnclosed,
             _ => ErrorKind::InvalidSkeleton,
         };
         Error::new(kind, d.to_string())
@@ -58,44 +79,84 @@ fn units(scene: &Scene<'_>) -> Vec<Diagnostic> {
         (Some(body), Some(mend)) => body.thickness(mend),
         _ => body.thickness(&of_body),
     };
-    let of_garment = Surroundings::of_garment(scene.garment, source, thickness).mend();
+    let around_garment = Surroundings::of_garment(scene.garment, source, thickness);
+    let of_garment = around_garment.mend();
     let mut found = Vec::new();
-    let mut add = |mend: Mend, subject, against, system: &CoordinateSystem| {
-        let turn = system.turn_from_internal(mend.turn);
-        if let Some(gross) = mend.is_gross() {
-            found.push(if mend.factor == 1.0 {
-                Diagnostic::FacingMismatch { subject, against, turn, told: None, gross, sure: true }
-            } else {
-                let turn = (turn != AxisTurn::IDENTITY).then_some(turn);
-                Diagnostic::UnitMismatch {
-                    subject,
-                    against,
-                    factor: 1.0 / mend.factor,
-                    or: mend.or.iter().map(|or| 1.0 / or).collect(),
-                    turn,
-                    gross,
-                }
-            });
-        }
+    let mut add = |wrong: Wrong, subject, against, system: &CoordinateSystem, most_turned: f64| match wrong {
+        Wrong::Read(mend) => found.extend(misread(mend, subject, against, system)),
+        Wrong::Turned(tilt) => found.push(turned(tilt, subject, against, system, most_turned)),
     };
     let (from, to) = (&scene.source_coordinate_system, &scene.target_coordinate_system);
+    // What is not gross by the distances may be so by the way of the bones.
+    let or_proven = |mend: Mend, proven: &dyn Fn() -> Option<Wrong>| {
+        let is_sure = mend.is_gross() == Some(true);
+        if is_sure { Wrong::Read(mend) } else { proven().unwrap_or(Wrong::Read(mend)) }
+    };
     match of_source {
         _ if from.trusted => {}
         // Both against the skeleton: it is the skeleton that is in another unit.
         Some(mend) if mend.is_gross().is_some() && mend.is_like(&of_garment) => {
-            add(mend.inverse(), Subject::SourceSkeleton, Subject::Garment, from);
+            add(Wrong::Read(mend.inverse()), Subject::SourceSkeleton, Subject::Garment, from, GARMENT_TURNED);
         }
         _ => {
-            add(of_garment, Subject::Garment, Subject::SourceSkeleton, from);
-            if let Some(mend) = of_source {
-                add(mend, Subject::SourceAvatar, Subject::SourceSkeleton, from);
+            let garment = or_proven(of_garment, &|| wrong::of_garment(scene.garment, &around_garment, source));
+            let bodies = of_source.zip(source_body.as_ref()).zip(scene.source_avatar);
+            let body = bodies.map(|((mend, around), mesh)| or_proven(mend, &|| wrong::of_body(mesh, around, source)));
+            match (garment, body) {
+                (Wrong::Turned(garment), Some(Wrong::Turned(body))) if garment.is_like(&body) => {
+                    let skeleton = Wrong::Turned(garment.inverse());
+                    add(skeleton, Subject::SourceSkeleton, Subject::Garment, from, GARMENT_TURNED);
+                }
+                (garment, body) => {
+                    add(garment, Subject::Garment, Subject::SourceSkeleton, from, GARMENT_TURNED);
+                    if let Some(body) = body {
+                        add(body, Subject::SourceAvatar, Subject::SourceSkeleton, from, BODY_TURNED_WITH_SKIN);
+                    }
+                }
             }
         }
     }
     if !to.trusted {
-        add(of_body, Subject::TargetAvatar, Subject::TargetSkeleton, to);
+        let proven = || {
+            let bare = scene.skin.map(|_| Surroundings::of_body(scene.avatar, target, None));
+            wrong::of_body(scene.avatar, bare.as_ref().unwrap_or(&body), target)
+        };
+        let most = if scene.skin.is_some() { BODY_TURNED_WITH_SKIN } else { BODY_TURNED };
+        add(or_proven(of_body, &proven), Subject::TargetAvatar, Subject::TargetSkeleton, to, most);
     }
     found
+}
+
+/// A mesh in another unit or other axes; none where it is right.
+fn misread(mend: Mend, subject: Subject, against: Subject, system: &CoordinateSystem) -> Option<Diagnostic> {
+    let turn = system.turn_from_internal(mend.turn);
+    let gross = mend.is_gross()?;
+    Some(if mend.factor == 1.0 {
+        Diagnostic::FacingMismatch { subject, against, turn, told: None, gross, sure: true }
+    } else {
+        let turn = (turn != AxisTurn::IDENTITY).then_some(turn);
+        let or = mend.or.iter().map(|or| 1.0 / or).collect();
+        Diagnostic::UnitMismatch { subject, against, factor: 1.0 / mend.factor, or, turn, gross }
+    })
+}
+
+/// A mesh that is turned against its skeleton, refused from `most` degrees on.
+fn turned(tilt: Tilt, subject: Subject, against: Subject, system: &CoordinateSystem, most: f64) -> Diagnostic {
+    let (axis, degrees) = system.turn_about_from_internal(tilt.axis, tilt.degrees);
+    Diagnostic::Turned { subject, against, axis, degrees, gross: degrees >= most }
+}
+
+/// The limbs of the source skeleton against the garment.
+fn limbs(scene: &Scene<'_>) -> Vec<Diagnostic> {
+    let (skeleton, system) = (scene.source_skeleton, &scene.source_coordinate_system);
+    let said = |limb: TurnedLimb| Diagnostic::LimbTurned {
+        bone: Bone { index: limb.bone, joints: skeleton.bones[limb.bone as usize] },
+        joint: limb.joint,
+        opening: system.position_from_internal(limb.opening).to_array(),
+        degrees: limb.degrees,
+        gross: limb.degrees >= LIMB_TURNED,
+    };
+    limb::turned(&Threaded::new(scene.garment), skeleton).into_iter().map(said).collect()
 }
 
 /// The target against the source: the turn between them, and whether left is left.

@@ -9,7 +9,7 @@ use crate::input::skin::SkinWeights;
 
 /// What is looked at, in the internal coordinate system.
 pub struct Scene<'a> {
-    /// The garment.
+    /// The garment, its vertices welded.
     pub garment: &'a TriangleMesh,
     /// The skeleton that it was designed on.
     pub source_skeleton: &'a Skeleton,

@@ -61,13 +61,15 @@ pub struct Mend {
     pub turn: AxisTurn,
     /// How many times nearer it then lies.
     pub gain: f64,
+    /// More than the distance says so.
+    pub is_proven: bool,
 }
 
 impl Mend {
     /// None where the mesh lies around its bones as it is; else whether it is refused.
     pub fn is_gross(&self) -> Option<bool> {
         let is_other = self.factor != 1.0 || self.turn != AxisTurn::IDENTITY;
-        (is_other && self.gain > TOLD).then_some(self.gain > REFUSED)
+        (is_other && (self.is_proven || self.gain > TOLD)).then_some(self.is_proven || self.gain > REFUSED)
     }
 
     /// Whether it may be the same for another mesh.
@@ -84,6 +86,7 @@ impl Mend {
             or: self.or.into_iter().map(f64::recip).collect(),
             turn: back.unwrap_or(AxisTurn::IDENTITY),
             gain: self.gain,
+            is_proven: self.is_proven,
         }
     }
 }
@@ -151,7 +154,11 @@ impl Surroundings {
     }
 
     fn distance_of(&self, &(p, joint): &Point, factor: f64, turn: AxisTurn) -> f64 {
-        let p = factor * turn.apply(p);
+        self.distance_at(factor * turn.apply(p), joint)
+    }
+
+    /// The distance of a place from the bones, or from those at a joint.
+    fn distance_at(&self, p: DVec3, joint: Option<u32>) -> f64 {
         let own = self.bones.iter().filter(|(_, joints)| joint.is_none_or(|j| joints.contains(&j)));
         let squares = own.map(|([a, b], _)| p.distance_squared(closest_on_segment(p, *a, *b - *a)));
         squares.fold(f64::INFINITY, f64::min).sqrt()
@@ -179,7 +186,17 @@ impl Surroundings {
 
     /// The logarithm of what is bad about a reading.
     fn cost(&self, factor: f64, turn: AxisTurn) -> f64 {
-        let distance = self.distance(factor, turn);
+        self.cost_at(factor, self.distance(factor, turn))
+    }
+
+    /// The same of the mesh as it is, once each of its points has been moved.
+    pub(super) fn cost_of_moved(&self, map: impl Fn(DVec3) -> DVec3) -> f64 {
+        let sum: f64 = self.points.iter().map(|&(p, joint)| self.distance_at(map(p), joint)).sum();
+        self.cost_at(1.0, sum / self.points.len().max(1) as f64)
+    }
+
+    /// The same for a mean distance from the bones.
+    fn cost_at(&self, factor: f64, distance: f64) -> f64 {
         let beyond = |ratio: f64, [low, high]: [f64; 2]| maths::ln(ratio / high).max(maths::ln(low / ratio)).max(0.0);
         let unlikely = match self.expected {
             Expected::Body => beyond(factor * self.extents[0] / self.extents[1], BODY_EXTENTS),
@@ -194,25 +211,11 @@ impl Surroundings {
 
     /// The reading that suits the bones best: as it is where no other is better.
     pub fn mend(&self) -> Mend {
-        let as_it_is = Mend { factor: 1.0, or: Vec::new(), turn: AxisTurn::IDENTITY, gain: 1.0 };
+        let as_it_is = Mend { factor: 1.0, or: Vec::new(), turn: AxisTurn::IDENTITY, gain: 1.0, is_proven: false };
+        let Some(Mend { factor: ratio, turn, gain, .. }) = self.nearest() else { return as_it_is };
         let now = self.cost(1.0, AxisTurn::IDENTITY);
-        if !now.is_finite() {
-            return as_it_is;
-        }
-        let turns = AxisTurn::rotations();
-        let factors = [1.0].into_iter().chain(RATIOS.into_iter().flat_map(|r| [1.0 / r, r]));
-        let readings: Vec<(f64, AxisTurn)> =
-            factors.flat_map(|factor| turns.iter().map(move |&turn| (factor, turn))).collect();
-        let costs: Vec<f64> = readings.par_iter().map(|&(factor, turn)| self.cost(factor, turn)).collect();
-        let mut best = (now, 1.0, AxisTurn::IDENTITY);
-        for (&cost, &(factor, turn)) in costs.iter().zip(&readings) {
-            // Of readings that are as good, as of a round garment, the first: the smaller turn, and no other unit.
-            if cost < best.0 - 0.05 {
-                best = (cost, factor, turn);
-            }
-        }
-        let (cost, ratio, turn) = best;
-        if now - cost < maths::ln(TOLD) {
+        let cost = now - maths::ln(gain);
+        if gain < TOLD {
             return as_it_is;
         }
         if ratio <= 1.0 / AROUND.2 && self.is_around_bones() {
@@ -230,7 +233,30 @@ impl Surroundings {
             return as_it_is;
         }
         let or = if factor == 1.0 { Vec::new() } else { self.others(factor, turn, cost) };
-        Mend { factor, or, turn, gain: maths::exp(now - cost) }
+        Mend { factor, or, turn, gain: maths::exp(now - cost), is_proven: false }
+    }
+
+    /// The reading after which the mesh lies nearest to its bones, without a doubt about it; none where it has no points.
+    pub(super) fn nearest(&self) -> Option<Mend> {
+        let now = self.cost(1.0, AxisTurn::IDENTITY);
+        if !now.is_finite() {
+            return None;
+        }
+        let turns = AxisTurn::rotations();
+        let factors = [1.0].into_iter().chain(RATIOS.into_iter().flat_map(|r| [1.0 / r, r]));
+        let readings: Vec<(f64, AxisTurn)> =
+            factors.flat_map(|factor| turns.iter().map(move |&turn| (factor, turn))).collect();
+        let costs: Vec<f64> = readings.par_iter().map(|&(factor, turn)| self.cost(factor, turn)).collect();
+        let mut best = (now, 1.0, AxisTurn::IDENTITY);
+        for (&cost, &(factor, turn)) in costs.iter().zip(&readings) {
+            // Of readings that are as good, as of a round garment, the first: the smaller turn, and no other unit.
+            if cost < best.0 - 0.05 {
+                best = (cost, factor, turn);
+            }
+        }
+        let (cost, factor, turn) = best;
+        let or = if factor == 1.0 { Vec::new() } else { self.others(factor, turn, cost) };
+        Some(Mend { factor, or, turn, gain: maths::exp(now - cost), is_proven: false })
     }
 
     /// The mesh with its mean in the middle of the bones, its size and axes as they are.

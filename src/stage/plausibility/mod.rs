@@ -6,6 +6,7 @@
 //! solver, nor the skin weights: what the run believed is not asked.
 
 mod distorted;
+mod lifted;
 mod limbs;
 mod nearest;
 mod opening;
@@ -112,6 +113,15 @@ pub struct Distorted {
     pub triangles: [u32; 2],
 }
 
+/// Cloth that stands off the body, in a result that nobody would wear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lifted {
+    /// A triangle of it.
+    pub triangle: u32,
+    /// How many times farther from the bones than in the design it is, beside the cloth that lies nearest.
+    pub times: f64,
+}
+
 /// How a result differs from its design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
@@ -121,6 +131,8 @@ pub struct Findings {
     pub resized: Vec<Resized>,
     /// The cloth as a whole, where it is distorted so much that the result is not plausible.
     pub distorted: Option<Distorted>,
+    /// Cloth that stands off, where so much of it does that the result is not plausible.
+    pub lifted: Option<Lifted>,
 }
 
 impl Findings {
@@ -129,6 +141,7 @@ impl Findings {
         self.misplaced.iter().any(Misplacement::is_gross)
             || self.resized.iter().any(|piece| piece.is_gross)
             || self.distorted.is_some()
+            || self.lifted.is_some()
     }
 }
 
@@ -148,5 +161,7 @@ pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cance
     misplaced.extend(swallowed::swallowed(outcome, &graph, cancel)?);
     cancel.check()?;
     let resized = pieces::resized(outcome, &openings);
-    Ok(Findings { misplaced, resized, distorted: distorted::distorted(outcome) })
+    cancel.check()?;
+    let lifted = lifted::lifted(outcome, &graph);
+    Ok(Findings { misplaced, resized, distorted: distorted::distorted(outcome), lifted })
 }

@@ -1,0 +1,120 @@
+//! Limbs of the source skeleton that are in another pose than the garment, such as arms that hang beside spread sleeves.
+//!
+//! Such a limb passes through the cloth, and the opening that it was made for has nothing in it. Turned about the joint where it
+//! begins until it points there, it goes through the opening and through no cloth: that proves it.
+
+use glam::DVec3;
+
+use super::evidence::{LEAF_REACH, MOST_BONES, Threaded};
+use crate::geometry::turn;
+use crate::input::skeleton::Skeleton;
+
+/// A limb that is turned by less than this, in degrees, is in the garment.
+const LEAST: f64 = 25.0;
+/// An opening that a limb is made for is no farther from where that begins than this, in lengths of the limb, and no nearer.
+const REACH: [f64; 2] = [0.3, 1.5];
+/// A limb may go through an opening that is longer around than this share of the limb's length, and so many are tried.
+const WIDE: f64 = 0.15;
+const TRIED: usize = 8;
+
+/// A limb of the skeleton that should be elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnedLimb {
+    /// The bone at which it begins, and the joint about which it is turned.
+    pub bone: u32,
+    /// That joint.
+    pub joint: u32,
+    /// The middle of the opening that it should go through.
+    pub opening: DVec3,
+    /// By how many degrees it is turned.
+    pub degrees: f64,
+}
+
+/// The limbs of `skeleton` that are turned against the garment.
+pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
+    if skeleton.bones.len() > MOST_BONES {
+        return Vec::new();
+    }
+    let bones = skeleton.lengthened(0.0);
+    let pierced: Vec<bool> = bones.iter().map(|&bone| garment.passes_cloth(bone)).collect();
+    if !pierced.contains(&true) {
+        return Vec::new();
+    }
+    let empty = garment.empty_openings(skeleton);
+    let mut found: Vec<(usize, TurnedLimb)> = Vec::new();
+    let mut taken = vec![false; skeleton.joints.len()];
+    let directed = (0u32..).zip(&skeleton.bones).flat_map(|(bone, &[a, b])| [(bone, a, b), (bone, b, a)]);
+    for (bone, joint, next) in directed {
+        let limb = beyond(skeleton, bone, next);
+        // The smaller part is the limb.
+        if limb.contains(&joint) || 2 * limb.len() > skeleton.joints.len() {
+            continue;
+        }
+        let root = skeleton.joints[joint as usize];
+        let is_own = |&k: &usize| k == bone as usize || skeleton.bones[k].iter().all(|j| limb.contains(j));
+        let own: Vec<usize> = (0..bones.len()).filter(is_own).collect();
+        if !own.iter().any(|&k| pierced[k]) {
+            continue;
+        }
+        let far = |&j: &u32| skeleton.joints[j as usize].distance_squared(root);
+        let Some(tip) = limb.iter().copied().max_by(|a, b| far(a).total_cmp(&far(b))) else { continue };
+        let along = skeleton.joints[tip as usize] - root;
+        let mut near: Vec<usize> = empty
+            .iter()
+            .copied()
+            .filter(|&k| {
+                let (middle, length) = garment.opening(k);
+                let reach = middle.distance(root) / along.length().max(f64::MIN_POSITIVE);
+                (REACH[0]..=REACH[1]).contains(&reach) && length > WIDE * along.length()
+            })
+            .collect();
+        near.sort_by(|&a, &b| garment.opening(b).1.total_cmp(&garment.opening(a).1).then(a.cmp(&b)));
+        for k in near.into_iter().take(TRIED) {
+            let middle = garment.opening(k).0;
+            let degrees = turn::angle_between(along, middle - root).to_degrees();
+            if degrees < LEAST {
+                continue;
+            }
+            let rotation = turn::arc(along.normalize(), (middle - root).normalize());
+            let mut moved = skeleton.clone();
+            limb.iter().for_each(|&j| {
+                let p = &mut moved.joints[j as usize];
+                *p = root + rotation * (*p - root);
+            });
+            let [whole, reaching] = [0.0, LEAF_REACH].map(|reach| moved.lengthened(reach));
+            let through = own.iter().any(|&k2| garment.goes_through(k, reaching[k2]));
+            let passing = own.iter().filter(|&&k| garment.passes_cloth(whole[k])).count();
+            if through && passing == 0 {
+                found.push((limb.len(), TurnedLimb { bone, joint, opening: middle, degrees }));
+            }
+        }
+    }
+    // Of limbs within each other the one that needs the smaller turn.
+    found.sort_by(|a, b| a.1.degrees.total_cmp(&b.1.degrees).then(a.0.cmp(&b.0)).then(a.1.bone.cmp(&b.1.bone)));
+    let mut limbs = Vec::new();
+    for (_, turned) in found {
+        let [a, b] = skeleton.bones[turned.bone as usize];
+        let limb = beyond(skeleton, turned.bone, if a == turned.joint { b } else { a });
+        if limb.iter().all(|&j| !taken[j as usize]) {
+            limb.iter().for_each(|&j| taken[j as usize] = true);
+            limbs.push(turned);
+        }
+    }
+    limbs
+}
+
+/// The joints that `from` leads to without passing `bone`.
+fn beyond(skeleton: &Skeleton, bone: u32, from: u32) -> Vec<u32> {
+    let mut reached = vec![from];
+    let mut next = 0;
+    while let Some(&joint) = reached.get(next) {
+        next += 1;
+        for (_, ends) in (0u32..).zip(&skeleton.bones).filter(|(k, ends)| *k != bone && ends.contains(&joint)) {
+            let other = if ends[0] == joint { ends[1] } else { ends[0] };
+            if !reached.contains(&other) {
+                reached.push(other);
+            }
+        }
+    }
+    reached
+}
