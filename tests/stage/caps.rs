@@ -11,6 +11,7 @@ use bespoke::input::weld::Weld;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use bespoke::stage::setup::cap_motion::CapMotion;
+use bespoke::stage::start::caps::{Caps, NoCap};
 use closet::{Kind, Sample, jacket, sample};
 use glam::{DQuat, DVec3};
 use testing::Random;
@@ -144,6 +145,62 @@ fn a_capped_tube_ends_like_its_opened_twin() {
             let design = wide(closed.positions[v]) / 0.3;
             assert!((wide(result[v]) - design * widest).abs() < 0.1 * widest, "{v}: {} {widest}", result[v]);
         }
+    }
+}
+
+/// A tube whose ends go over into the cloth in bends of about 30 degrees each, and its caps: what faces as the middle does.
+fn bevelled(sides: u32) -> (TriangleMesh, [std::ops::Range<usize>; 2]) {
+    let rings = 14;
+    let (mut mesh, [first, second, end]) = tube([-0.6, 0.65], 0.3, [rings, sides], [4, 4]);
+    let profile = [(0.29, 0.02), (0.24, 0.05), (0.1, 0.05), (0.0, 0.05)];
+    let (walls, per_end) = (((rings + 1) * sides) as usize, (3 * sides + 1) as usize);
+    // Inner rings of both ends come first, and then the two tips.
+    for (k, p) in mesh.positions[walls..].iter_mut().enumerate() {
+        let ring = if k < 2 * (per_end - 1) { k / sides as usize % 3 } else { 3 };
+        let (radius, out) = profile[ring];
+        let (direction, towards) = (p.truncate().normalize_or_zero(), p.z.signum());
+        *p = (radius * direction).extend(p.z + towards * out);
+    }
+    let strip = 2 * sides as usize;
+    (mesh, [first + strip..second, second + strip..end])
+}
+
+#[test]
+fn a_cap_with_bevelled_edges_is_one() {
+    for sides in [12, 20] {
+        let (closed, caps) = bevelled(sides);
+        let is_cap = |t: usize| caps.iter().any(|range| range.contains(&t));
+        let mut session = on_arm(&closed, Options::default());
+        assert_eq!(session.run().unwrap(), Stage::Done, "{:?}", session.diagnostics());
+        let found: Vec<Vec<u32>> = caps_of(&session).into_iter().map(|cap| cap.1).collect();
+        let expected: Vec<Vec<u32>> = caps.iter().map(|range| range.clone().map(|t| t as u32).collect()).collect();
+        assert_eq!(found, expected);
+        let mut twin = on_arm(&opened(&closed, is_cap), Options::default());
+        assert_eq!(twin.run().unwrap(), Stage::Done);
+        let (result, other) = (session.garment_positions().unwrap(), twin.garment_positions().unwrap());
+        let (inner, _) = inside(&closed, is_cap);
+        assert!((0..result.len()).filter(|v| inner.binary_search(v).is_err()).all(|v| result[v] == other[v]));
+    }
+}
+
+/// A square sleeve, closed at one end, in which the bone lies askew: it leaves through the end, or along a side, which is as flat and
+/// has edges as sharp.
+#[test]
+fn a_side_that_a_bone_meets_along_its_way_is_no_cap() {
+    let (sleeve, [walls, end, _]) = tube([-0.6, 0.65], 0.2, [12, 4], [0, 2]);
+    let skewed = |angle: f64| TriangleMesh {
+        positions: sleeve.positions.iter().map(|&p| DQuat::from_rotation_x(angle) * p).collect(),
+        triangles: sleeve.triangles.clone(),
+    };
+    let extents = [[-0.2, 1.0], [0.0, 1.2]];
+    let found = |angle: f64, triangle: usize| Caps::find(&skewed(angle), &[(triangle as u32, 1)], &arm(), &extents);
+    for angle in [0.0, 0.3, 0.6] {
+        let caps = found(angle, end);
+        assert_eq!(caps.caps.len(), 1, "{angle}: {:?}", caps.refused);
+        assert_eq!(caps.caps[0].triangles.len(), sleeve.triangles.len() - walls, "{angle}");
+    }
+    for angle in [0.1, 0.4] {
+        assert_eq!(found(angle, walls - 5).refused, Some(NoCap::Along), "{angle}");
     }
 }
 

@@ -3,7 +3,9 @@
 //!
 //! Where the shrunk avatar passes through the garment, the patch around that place is looked at: all that is reached over
 //! edges that bend little. It is a cap where it is flat, small beside its piece of the garment, bounded by sharp edges, and
-//! where more of the skeleton goes out through it than a hat or a mitten would leave outside. Anything else is cloth.
+//! where a bone goes across it and more of the skeleton out through it than a hat or a mitten would leave outside. Where the
+//! edges are bevelled, so that the cap goes over into the cloth in two bends or three, it is what faces as its middle does.
+//! Anything else is cloth.
 
 use glam::DVec3;
 
@@ -20,14 +22,29 @@ const BENDS: [f64; 3] = [40.0, 30.0, 20.0];
 const SHARP: f64 = 35.0;
 /// The share of the rim's length that must be sharp.
 const MIN_SHARP: f64 = 0.5;
+/// With bevelled edges a patch ends where triangles face elsewhere than its middle by more than this, in degrees. Bevels are around
+/// this share of the middle's rim...
+const BEVELLED: f64 = 50.0;
+const MIN_BEVEL: f64 = 0.9;
+/// ... and end, for this share of their own rim, at triangles that face elsewhere by more than this.
+const CLOTH: f64 = 55.0;
+const MIN_CLOTH: f64 = 0.8;
+/// Its middle is flat, and is this share of it: a ball has no middle.
+const MIN_MIDDLE: f64 = 0.3;
 /// The length of a patch's area vector over its area must be this at least. 1 is flat, half a ball has 0.5.
 const MIN_FLATNESS: f64 = 0.85;
+/// And that of the middle of a bevelled one.
+const FLAT: f64 = 0.98;
 /// Triangles whose normals are farther than this from the patch's, in degrees, are walls...
 const WALL: f64 = 60.0;
 /// ... and have no more than this share of its area.
 const MAX_WALL: f64 = 0.01;
 /// A cap has at most this share of the area of its piece of the garment.
 const MAX_AREA: f64 = 0.3;
+/// The cosine between a cap's normal and a bone that leaves through it is this at least: one that was led aside meets walls too.
+const MIN_ACROSS: f64 = 0.45;
+/// And for a bevelled one: the wall of a coarse sleeve that a bone leaves sideways has bevels too.
+const BEVELLED_ACROSS: f64 = 0.8;
 /// What goes out through a cap is longer than its mean radius by this factor. Less is the closed end of a mitten or a hat.
 const MIN_BEYOND: f64 = 1.25;
 
@@ -49,6 +66,8 @@ pub enum NoCap {
     Curved,
     /// It is not small beside its piece of the garment.
     Large,
+    /// The bones that go through it lie along it.
+    Along,
     /// What would go out through it is shorter than it is wide.
     ClosedEnd,
 }
@@ -60,6 +79,7 @@ impl NoCap {
             Self::NoRim => "has no sharp rim that tells it from the cloth",
             Self::Curved => "is not flat",
             Self::Large => "is not small beside the garment",
+            Self::Along => "lies along the bone, not across it",
             Self::ClosedEnd => "has less of the skeleton beyond it than it is wide",
         }
     }
@@ -166,13 +186,58 @@ impl<'a> Search<'a> {
                 Err(why) => reason = why,
             }
         }
-        let (_, patch) = best.ok_or(reason)?;
+        let patch = match best {
+            Some((_, patch)) => patch,
+            None => self.bevelled(seed, penetrations).map_err(|_| reason)?,
+        };
         let through = penetrations.iter().filter(|(t, _)| patch.binary_search(t).is_ok()).map(|&(_, bone)| bone);
         Ok(Cap { bone: through.min().unwrap_or(bone), triangles: patch })
     }
 
+    /// The cap around `seed` where its edges are bevelled.
+    fn bevelled(&self, seed: u32, penetrations: &[(u32, u32)]) -> Result<Vec<u32>, NoCap> {
+        let flat = self.patch(seed, BENDS[BENDS.len() - 1]);
+        let normal = self.vector(&flat).0.normalize_or_zero();
+        let angle = |t: u32| {
+            let cosine = self.own_vector(t).normalize_or_zero().dot(normal).abs();
+            maths::acos(cosine.min(1.0)).to_degrees()
+        };
+        // All around: a collar between shoulders that slope and a chest that does not has no bevel.
+        let (mut bevel, mut length) = (0.0, 0.0);
+        for (next, _, edge) in self.rim(&flat) {
+            length += edge;
+            bevel += next.filter(|&t| angle(t) <= BEVELLED).map_or(0.0, |_| edge);
+        }
+        if bevel < MIN_BEVEL * length {
+            return Err(NoCap::NoRim);
+        }
+        let patch = self.reached(seed, |t, _| angle(t) <= BEVELLED);
+        self.check_size(&patch)?;
+        let (mut cloth, mut length) = (0.0, 0.0);
+        for (next, _, edge) in self.rim(&patch) {
+            length += edge;
+            cloth += next.filter(|&t| angle(t) >= CLOTH).map_or(0.0, |_| edge);
+        }
+        if length == 0.0 || cloth < MIN_CLOTH * length {
+            return Err(NoCap::NoRim);
+        }
+        let (area, middle) = (self.area(&patch), self.area(&flat));
+        let is_flat = |part: &[u32], area: f64, least: f64| self.vector(part).0.length() >= least * area;
+        if middle < MIN_MIDDLE * area || !is_flat(&flat, middle, FLAT) || !is_flat(&patch, area, MIN_FLATNESS) {
+            return Err(NoCap::Curved);
+        }
+        self.check_bones(&patch, penetrations, BEVELLED_ACROSS)?;
+        Ok(patch)
+    }
+
     /// The triangles that are reached from `seed` over edges that bend by no more than `limit`, ascending.
     fn patch(&self, seed: u32, limit: f64) -> Vec<u32> {
+        self.reached(seed, |_, bend| bend <= limit)
+    }
+
+    /// The triangles that are reached from `seed` by way of those of which `belongs` says so, from their index and the bend of the
+    /// edge before them, ascending.
+    fn reached(&self, seed: u32, belongs: impl Fn(u32, f64) -> bool) -> Vec<u32> {
         let mut reached = vec![false; self.neighbours.len()];
         reached[seed as usize] = true;
         let mut patch = vec![seed];
@@ -180,7 +245,7 @@ impl<'a> Search<'a> {
         while let Some(&t) = patch.get(done) {
             done += 1;
             for &(next, bend, _) in &self.neighbours[t as usize] {
-                if bend <= limit && !std::mem::replace(&mut reached[next as usize], true) {
+                if belongs(next, bend) && !std::mem::replace(&mut reached[next as usize], true) {
                     patch.push(next);
                 }
             }
@@ -189,52 +254,80 @@ impl<'a> Search<'a> {
         patch
     }
 
+    fn area(&self, patch: &[u32]) -> f64 {
+        patch.iter().map(|&t| self.areas[t as usize]).sum()
+    }
+
+    /// Its edges: the triangle on the other side, none at a border, the bend there and the length.
+    fn rim<'b>(&'b self, patch: &'b [u32]) -> impl Iterator<Item = (Option<u32>, f64, f64)> + 'b {
+        patch.iter().flat_map(move |&t| {
+            let is_out = |(next, ..): &&(u32, f64, f64)| patch.binary_search(next).is_err();
+            let inner = self.neighbours[t as usize].iter().filter(is_out);
+            std::iter::once((None, 0.0, self.borders[t as usize]))
+                .chain(inner.map(|&(t, bend, edge)| (Some(t), bend, edge)))
+        })
+    }
+
+    fn check_size(&self, patch: &[u32]) -> Result<(), NoCap> {
+        let piece = self.piece_of[self.garment.triangles[patch[0] as usize][0] as usize];
+        if self.area(patch) > MAX_AREA * self.piece_areas[piece as usize] { Err(NoCap::Large) } else { Ok(()) }
+    }
+
     /// How well `patch` can be told from the cloth, up to 1, or why it is no cap.
     fn quality(&self, patch: &[u32], penetrations: &[(u32, u32)]) -> Result<f64, NoCap> {
-        let is_in = |t: u32| patch.binary_search(&t).is_ok();
-        let area: f64 = patch.iter().map(|&t| self.areas[t as usize]).sum();
-        let piece = self.piece_of[self.garment.triangles[patch[0] as usize][0] as usize];
-        if area > MAX_AREA * self.piece_areas[piece as usize] {
-            return Err(NoCap::Large);
-        }
+        self.check_size(patch)?;
         let (mut sharp, mut length) = (0.0, 0.0);
-        for &t in patch {
-            length += self.borders[t as usize];
-            for &(next, bend, edge) in &self.neighbours[t as usize] {
-                if !is_in(next) {
-                    length += edge;
-                    sharp += if bend >= SHARP { edge } else { 0.0 };
-                }
-            }
+        for (_, bend, edge) in self.rim(patch) {
+            length += edge;
+            sharp += if bend >= SHARP { edge } else { 0.0 };
         }
         if length == 0.0 || sharp < MIN_SHARP * length {
             return Err(NoCap::NoRim);
         }
-        let (flatness, walls) = self.flatness(patch);
+        let area = self.area(patch);
+        let (vector, walls) = self.vector(patch);
+        let flatness = vector.length();
         if flatness < MIN_FLATNESS * area || walls > MAX_WALL * area {
             return Err(NoCap::Curved);
         }
-        let radius = (area / std::f64::consts::PI).sqrt();
+        self.check_bones(patch, penetrations, MIN_ACROSS)?;
+        Ok(sharp / length * flatness / area)
+    }
+
+    /// Whether a bone goes across the patch, with this cosine at `least`, and enough of the skeleton out through it.
+    fn check_bones(&self, patch: &[u32], penetrations: &[(u32, u32)], least: f64) -> Result<(), NoCap> {
+        let is_in = |t: u32| patch.binary_search(&t).is_ok();
+        let radius = (self.area(patch) / std::f64::consts::PI).sqrt();
         let mut crossing: Vec<(u32, u32)> = penetrations.iter().filter(|p| is_in(p.0)).map(|&(t, b)| (b, t)).collect();
         crossing.dedup_by_key(|p| p.0);
         let bones: Vec<u32> = crossing.iter().map(|p| p.0).collect();
+        let normal = self.vector(patch).0.normalize_or_zero();
+        let across = |&bone: &u32| {
+            let [a, b] = self.source.bones[bone as usize].map(|j| self.source.joints[j as usize]);
+            (b - a).normalize_or_zero().dot(normal).abs() >= least
+        };
+        if !bones.iter().any(across) {
+            return Err(NoCap::Along);
+        }
         let leaves = |&(bone, t): &(u32, u32)| self.beyond(bone, t, &bones, radius) >= MIN_BEYOND * radius;
-        if crossing.iter().all(leaves) { Ok(sharp / length * flatness / area) } else { Err(NoCap::ClosedEnd) }
+        if crossing.iter().all(leaves) { Ok(()) } else { Err(NoCap::ClosedEnd) }
     }
 
-    /// The length of the sum of the area vectors, each turned to the side of the largest: a patch that is wound both ways
-    /// counts as if it were wound one way. And the area of what stands across it.
-    fn flatness(&self, patch: &[u32]) -> (f64, f64) {
-        let vector = |&t: &u32| {
-            let [a, b, c] = self.garment.triangles[t as usize].map(|v| self.garment.positions[v as usize]);
-            0.5 * (b - a).cross(c - a)
-        };
+    fn own_vector(&self, t: u32) -> DVec3 {
+        let [a, b, c] = self.garment.triangles[t as usize].map(|v| self.garment.positions[v as usize]);
+        0.5 * (b - a).cross(c - a)
+    }
+
+    /// The sum of the area vectors, each turned to the side of the largest: a patch that is wound both ways counts as if it were
+    /// wound one way. And the area of what stands across it.
+    fn vector(&self, patch: &[u32]) -> (DVec3, f64) {
+        let vector = |&t: &u32| self.own_vector(t);
         let largest = patch.iter().map(vector).max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or_default();
         let turned = |v: DVec3| if v.dot(largest) < 0.0 { -v } else { v };
         let sum: DVec3 = patch.iter().map(vector).map(turned).sum();
         let normal = sum.normalize_or_zero();
         let is_wall = |v: &DVec3| v.dot(normal).abs() < maths::cos(WALL.to_radians()) * v.length();
-        (sum.length(), patch.iter().map(vector).filter(is_wall).map(DVec3::length).sum())
+        (sum, patch.iter().map(vector).filter(is_wall).map(DVec3::length).sum())
     }
 
     /// How much of the skeleton lies beyond the patch of triangle `t`, through which `bone` goes: the longest way outwards,

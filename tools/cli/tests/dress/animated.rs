@@ -269,9 +269,9 @@ fn caps_are_counted_apart() {
     let meshes = document.json()["meshes"].as_array().unwrap();
     let noted = &meshes[meshes.len() - 1]["primitives"][0]["extras"]["bespoke_caps"];
     let noted: Vec<usize> = serde_json::from_value(noted.clone()).unwrap();
-    // A cap may take a neighbour of the coarse cloth along.
+    // A cap may take a neighbour of the coarse cloth along, and at cuffs a bone meets that alone.
     let closing = noted.iter().filter(|t| caps.contains(t)).count();
-    assert!(closing > 0 && 5 * closing > 4 * noted.len(), "{noted:?}");
+    assert!(closing > 0 && 4 * closing > 3 * noted.len(), "{noted:?}");
 }
 
 /// The vertices in the poses that another program has found, of primitives or of whole meshes, are where they are by our own
