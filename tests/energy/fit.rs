@@ -1,10 +1,11 @@
 //! The fit term: its closed form on a plane, its derivatives, its clearances.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use bespoke::control::Cancel;
 use bespoke::energy::fit::{Clearance, Fit};
-use bespoke::energy::{Configuration, Energy};
+use bespoke::energy::{Configuration, Direction, Energy, Sink};
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::sdf::{Field, FieldOptions};
 use glam::DVec3;
@@ -122,6 +123,68 @@ fn what_was_asked_before_changes_no_bit() {
     check("all of it kept");
     value(&fit, &x);
     check("kept elsewhere");
+}
+
+/// Writes down what it is handed, bit by bit.
+#[derive(Default, PartialEq, Debug)]
+struct Written(Vec<u64>);
+
+impl Sink for Written {
+    fn rank_one(&mut self, a: Direction<'_>, g: f64, h: f64) {
+        self.0.extend(a.vertices.iter().map(|&v| u64::from(v)));
+        let components = a.components.iter().flat_map(|c| c.to_array());
+        self.0.extend(components.chain([a.t, g, h]).map(f64::to_bits));
+    }
+}
+
+/// A term that was asked for values and derivatives here and there, by several threads at once, beside one that never was.
+#[test]
+fn kept_samples_are_those_of_a_term_that_keeps_none() {
+    let field = field(0.05);
+    let mut random = Random::new(5);
+    let triangles: Vec<[u32; 3]> = (0..150).map(|n| [n, n + 1, n + 2]).collect();
+    let areas: Vec<f64> = (0..150).map(|n| if n % 4 == 0 { 0.3 } else { 1e-4 }).collect();
+    let mut places: Vec<Vec<DVec3>> =
+        (0..3).map(|_| (0..152).map(|_| DVec3::new(0.0, 0.0, 0.2) + 0.3 * random.vector()).collect()).collect();
+    // All but one vertex as before, and nothing but the sign of a zero.
+    let mut other = places[0].clone();
+    other[70].x += 1e-12;
+    places.push(other);
+    let (mut plus, mut minus) = (places[1].clone(), places[1].clone());
+    (plus[5].y, minus[5].y) = (0.0, -0.0);
+    places.extend([plus, minus]);
+    let new = || Fit::new(field.clone(), &triangles, &areas, &[1.0; 152]);
+    let asked = |fit: &Fit, place: usize, range: Range<usize>, has_value: bool| -> Written {
+        let at = Configuration { x: &places[place], t: 1.0 };
+        let mut written = Written::default();
+        if has_value {
+            written.0.push(fit.value(at, range).to_bits());
+        } else {
+            fit.derivatives(at, range, &mut written);
+        }
+        written
+    };
+    let mut question = || {
+        let mut number = |below: usize| (random.unit() * below as f64) as usize;
+        let (a, b) = (number(151), number(151));
+        (number(places.len()), a.min(b)..a.max(b), number(2) == 0)
+    };
+    let questions: Vec<(usize, Range<usize>, bool)> = (0..600).map(|_| question()).collect();
+    let answers: Vec<Written> =
+        questions.iter().map(|(place, range, has_value)| asked(&new(), *place, range.clone(), *has_value)).collect();
+    assert!(answers.iter().filter(|answer| answer.0.len() > 1).count() > 200, "derivatives were asked for");
+    let fit = new();
+    let check = |number: usize| {
+        let (place, range, has_value) = questions[number].clone();
+        assert!(asked(&fit, place, range, has_value) == answers[number], "question {number}: {:?}", questions[number]);
+    };
+    (0..questions.len()).for_each(check);
+    std::thread::scope(|scope| {
+        for thread in 0..4 {
+            let check = &check;
+            scope.spawn(move || (0..600).for_each(|k| check((7 * k + 151 * thread) % 600)));
+        }
+    });
 }
 
 #[test]
