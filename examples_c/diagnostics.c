@@ -32,6 +32,7 @@ static const char *const kinds[] = {
     [BESPOKE_DIAGNOSTIC_KIND_MORPH_INTERSECTS] = "morph_intersects",
     [BESPOKE_DIAGNOSTIC_KIND_JOINTS_UNSURE] = "joints_unsure",
     [BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED] = "solved_posed",
+    [BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED] = "source_dressed",
     [BESPOKE_DIAGNOSTIC_KIND_WEIGHTS_CONTRADICT] = "weights_contradict",
     [BESPOKE_DIAGNOSTIC_KIND_BONES_UNCLEAR] = "bones_unclear",
     [BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART] = "foreign_part",

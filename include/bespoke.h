@@ -327,6 +327,10 @@ enum BespokeDiagnosticKind
   /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
   /// stalled is named, and the angle between the poses.
   BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED = 34,
+  /// The garment was refused (NOT_ENCLOSED, INFLATION_STALLED), and the source avatar passes through it, as a head through its
+  /// hat: it was dressed with that body and the garment together as the source avatar, close to the target. The first
+  /// triangles that meet in the design are named. With the option strict it is refused.
+  BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED = 40,
   /// A mesh that follows the garment (bespoke_session_add_follower) is in the avatar, a layer or the garment in the
   /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
   BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS = 35,
@@ -975,7 +979,9 @@ BespokeStatus bespoke_session_set_target_skeleton(struct BespokeSession *session
                                                   const struct BespokeView *bones);
 
 /// Optional: the body on which the garment was designed, in the coordinate system of the garment. With it, the fit aims
-/// at the clearance of the design.
+/// at the clearance of the design. Where the garment is refused (NOT_ENCLOSED, INFLATION_STALLED) and this body passes through
+/// it, as a head through its hat, it is tried once more with the garment as a part of this body, unless the option strict is
+/// set: see BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED.
 ///
 /// `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
 /// INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.

@@ -143,6 +143,7 @@ enum class DiagnosticKind : std::uint32_t {
     joint_misplaced = BESPOKE_DIAGNOSTIC_KIND_JOINT_MISPLACED,
     pose_blocked = BESPOKE_DIAGNOSTIC_KIND_POSE_BLOCKED,
     solved_posed = BESPOKE_DIAGNOSTIC_KIND_SOLVED_POSED,
+    source_dressed = BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED,
     follower_intersects = BESPOKE_DIAGNOSTIC_KIND_FOLLOWER_INTERSECTS,
     morph_not_solved = BESPOKE_DIAGNOSTIC_KIND_MORPH_NOT_SOLVED,
     morph_intersects = BESPOKE_DIAGNOSTIC_KIND_MORPH_INTERSECTS,

@@ -73,6 +73,10 @@ pub enum BespokeDiagnosticKind {
     /// posed as in the design, by its own skin weights, dressed there, and brought back. The share of its size at which it
     /// stalled is named, and the angle between the poses.
     SolvedPosed = 34,
+    /// The garment was refused (NOT_ENCLOSED, INFLATION_STALLED), and the source avatar passes through it, as a head through its
+    /// hat: it was dressed with that body and the garment together as the source avatar, close to the target. The first
+    /// triangles that meet in the design are named. With the option strict it is refused.
+    SourceDressed = 40,
     /// A mesh that follows the garment (bespoke_session_add_follower) is in the avatar, a layer or the garment in the
     /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
     FollowerIntersects = 35,
@@ -260,6 +264,7 @@ impl BespokeDiagnostic {
             DiagnosticKind::MorphIntersects => BespokeDiagnosticKind::MorphIntersects,
             DiagnosticKind::JointsUnsure => BespokeDiagnosticKind::JointsUnsure,
             DiagnosticKind::SolvedPosed => BespokeDiagnosticKind::SolvedPosed,
+            DiagnosticKind::SourceDressed => BespokeDiagnosticKind::SourceDressed,
             DiagnosticKind::WeightsContradict => BespokeDiagnosticKind::WeightsContradict,
             DiagnosticKind::BonesUnclear => BespokeDiagnosticKind::BonesUnclear,
             DiagnosticKind::ForeignPart => BespokeDiagnosticKind::ForeignPart,

@@ -46,6 +46,8 @@ pub enum DiagnosticKind {
     PoseBlocked,
     /// The body was dressed in the pose of the design and brought back, after its own pose had failed.
     SolvedPosed,
+    /// The body that the garment was made for took the garment on, through which it passes.
+    SourceDressed,
     /// Skin weights bind vertices of the avatar to joints far away from them.
     WeightsContradict,
     /// A surface of the avatar without skin weights that far parts of the skeleton claim.
@@ -451,6 +453,15 @@ pub enum Diagnostic {
         stalled_at: f64,
         /// The largest angle between the directions that a limb has in the two poses, in degrees.
         degrees: f64,
+    },
+    /// The garment was refused, and the source avatar passes through it: that body with the garment on took its place.
+    SourceDressed {
+        /// Pairs of a garment triangle and one of the source avatar that intersect.
+        pairs: u64,
+        /// The first of them.
+        triangles: [u32; 2],
+        /// The inflation had begun, and stalled.
+        has_begun: bool,
     },
     /// A mesh that follows the garment passes through the body or the garment in the result, and did not in the design.
     FollowerIntersects {

@@ -32,6 +32,7 @@ impl Diagnostic {
             Self::JointsUnsure { .. } => DiagnosticKind::JointsUnsure,
             Self::PoseBlocked { .. } => DiagnosticKind::PoseBlocked,
             Self::SolvedPosed { .. } => DiagnosticKind::SolvedPosed,
+            Self::SourceDressed { .. } => DiagnosticKind::SourceDressed,
             Self::FollowerIntersects { .. } => DiagnosticKind::FollowerIntersects,
             Self::MorphNotSolved { .. } => DiagnosticKind::MorphNotSolved,
             Self::MorphIntersects { .. } => DiagnosticKind::MorphIntersects,
@@ -75,6 +76,7 @@ impl Diagnostic {
             | Self::SelfIntersection { strict: false, .. }
             | Self::BoneMoved { .. }
             | Self::CycleCut { .. }
+            | Self::SourceDressed { .. }
             | Self::RimsNotFound { .. }
             | Self::CoarseCoordinates { .. }
             | Self::PinNotReached { .. }
@@ -173,6 +175,9 @@ impl Diagnostic {
                 vec![bone.element(), element]
             }
             Self::PieceResized { triangle: t, .. } | Self::ClothLifted { triangle: t, .. } => vec![triangle(t)],
+            Self::SourceDressed { triangles: [t, body], .. } => {
+                vec![triangle(t), Element::triangle(Subject::SourceAvatar, body)]
+            }
             Self::FollowerIntersects { ref first, .. } | Self::MorphIntersects { ref first, .. } => first.clone(),
             Self::CoarseCoordinates { .. }
             | Self::MorphNotSolved { .. }

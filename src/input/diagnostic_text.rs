@@ -312,6 +312,13 @@ impl Display for Diagnostic {
                  beyond {stalled_at:.4} of its size inside the garment; it was posed as in the design, dressed there, and \
                  brought back to its own pose"
             ),
+            Self::SourceDressed { pairs, triangles: [t, body], has_begun } => write!(
+                f,
+                "source avatar: it passes through the garment in {pairs} pairs of triangles, such as garment triangle {t} and \
+                 avatar triangle {body}, and with it {}; that body with the garment on took its place, so that the garment keeps \
+                 no distance from the target; take away what passes through it to keep its looseness",
+                if *has_begun { "the inflation stalled" } else { "the garment was refused" }
+            ),
             Self::JointsUnsure { places } => write!(
                 f,
                 "which joints of the two rigs are {} is a guess: the names do not say it; look at the joint map, and say \

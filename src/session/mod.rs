@@ -7,6 +7,7 @@ mod aside;
 mod context;
 mod covered;
 mod curves;
+mod dressed_source;
 mod exchange_pose;
 mod fault;
 mod field_task;
@@ -60,6 +61,7 @@ pub use crate::report::{Report, StageReport, TermReport, Verification};
 use crate::rig::words::with_names;
 use context::Context;
 use covered::Covered;
+use dressed_source::FirstTry;
 #[doc(hidden)]
 pub use fault::Fault;
 use followers::Follower;
@@ -106,6 +108,8 @@ pub struct Session {
     said_of_inputs: usize,
     /// There was a result since `prepare`.
     has_ended: bool,
+    /// What came of the source avatar as it is, where the run is one with the garment on it.
+    first_try: Option<Box<FirstTry>>,
     /// The verification of the result in the precision that is not the garment's own.
     other_precision: Option<(Precision, Verification)>,
     /// The skin weights of the result, once they were asked for.
@@ -154,25 +158,11 @@ impl Session {
         if self.control.is_cancelled() {
             return Err(self.answer(Cancelled.into()));
         }
-        let threads = self.wanted_threads();
         self.joint_names = OnceLock::new();
-        let inputs = self.inputs.clone();
-        let (panics, shared) = (self.panics.clone(), inputs.shared.clone());
-        let context = Context { stop: Cancel::new(), panics, fault: self.fault, shared };
-        let stop = context.stop.clone();
-        let control = &self.control;
-        let pool = self.pool.insert(WorkerPool::new(threads, &self.panics)?);
-        let threads = pool.size();
-        let job = move || {
-            let mut diagnostics = Vec::new();
-            let run = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);
-            (run, diagnostics)
-        };
-        let outcome = pool.run(|| control.is_cancelled(), &stop, job).and_then(|(run, diagnostics)| {
-            self.diagnostics = diagnostics;
-            run
-        });
-        let run = match outcome {
+        self.first_try = None;
+        self.pool = Some(WorkerPool::new(self.wanted_threads(), &self.panics)?);
+        let outcome = self.prepare_run(self.inputs.clone());
+        let run = match outcome.or_else(|refused| self.prepare_dressed(refused)) {
             Ok(run) => run,
             Err(error) if error.kind == ErrorKind::Cancelled => return Err(self.answer(error)),
             Err(error) => {
@@ -187,6 +177,24 @@ impl Session {
         self.run = Some(run);
         self.enter(Stage::Prepared);
         Ok(())
+    }
+
+    /// The run of `inputs` at its beginning, and what there is to say of them.
+    fn prepare_run(&mut self, inputs: Inputs) -> Result<Box<Run>> {
+        let Some(pool) = &self.pool else { return Err(Error::new(ErrorKind::Internal, "a session without threads")) };
+        let (panics, shared) = (self.panics.clone(), inputs.shared.clone());
+        let context = Context { stop: Cancel::new(), panics, fault: self.fault, shared };
+        let stop = context.stop.clone();
+        let control = &self.control;
+        let threads = pool.size();
+        let job = move || {
+            let mut diagnostics = Vec::new();
+            let run = Run::prepare(&inputs, threads, context, &mut diagnostics).map(Box::new);
+            (run, diagnostics)
+        };
+        let (run, diagnostics) = pool.run(|| control.is_cancelled(), &stop, job)?;
+        self.diagnostics = diagnostics;
+        run
     }
 
     /// As many threads as the options say. More than cores would wait for each other at every loop.
@@ -215,8 +223,8 @@ impl Session {
     /// Goes on within `budget`. Returns the stage that is reached; at [`Stage::Done`] the result is verified.
     ///
     /// # Errors
-    /// `InvalidState` before `prepare` or after the end, `Cancelled`, `InflationStalled`, `NotVerified`,
-    /// `ImplausibleResult`, `Internal`. The garment can still be read; with `ImplausibleResult` it is verified and the stage
+    /// `InvalidState` before `prepare` or after the end, `Cancelled`, `InflationStalled`, `NotVerified`, `ImplausibleResult`,
+    /// `Internal`; `NotEnclosed` where that was the reason to try it with the garment on the source avatar, in vain. The garment can still be read; with `ImplausibleResult` it is verified and the stage
     /// is [`Stage::Done`].
     pub fn step(&mut self, budget: Budget) -> Result<Stage> {
         if !matches!(self.stage, Stage::Prepared | Stage::Inflate | Stage::Repose | Stage::Fit) {
@@ -229,6 +237,7 @@ impl Session {
             ));
         }
         self.iterate(budget).map_err(|error| {
+            let error = self.told_of_first(error);
             self.enter(match error.kind {
                 ErrorKind::Cancelled => Stage::Cancelled,
                 ErrorKind::ImplausibleResult => Stage::Done,
@@ -243,7 +252,10 @@ impl Session {
         let clock = Instant::now();
         let mut iterations = 0;
         loop {
-            let mut stage = self.iterate_once()?;
+            let mut stage = match self.iterate_once() {
+                Err(refused) if refused.kind == ErrorKind::InflationStalled => self.begin_dressed(refused)?,
+                outcome => outcome?,
+            };
             self.enter(stage);
             if stage == Stage::Verify {
                 stage = self.finish()?;
@@ -319,6 +331,7 @@ impl Session {
             self.diagnostics.push(Diagnostic::NotConverged { iterations: fit.iterations, stuck: *stuck });
         }
         self.has_ended = true;
+        self.first_try = None;
         self.carry_followers()?;
         self.compare_with_design()?;
         if let Some((blocked, motions)) = self.run.as_mut().and_then(|run| run.blocked.take()) {
@@ -501,6 +514,7 @@ impl Session {
             pool.drain();
         }
         self.snapshot = None;
+        self.first_try = None;
         self.report = Report::default();
         self.forget_result();
         self.diagnostics.clear();

@@ -68,7 +68,9 @@ pub(super) struct Run {
     /// What was measured so far.
     pub(super) report: Report,
     /// When `prepare` began.
-    begun: Instant,
+    pub(super) begun: Instant,
+    /// The inflation came to the limit of its iterations.
+    pub(super) is_limited: bool,
     /// Bytes of the inputs and the problem.
     pub(super) held: u64,
     /// Bytes of the distance field, as estimated.
@@ -164,6 +166,7 @@ impl Run {
             must_widen: false,
             report,
             begun,
+            is_limited: false,
             shape: Vec::new(),
             own_shape: None,
             shortfalls: Vec::new(),
@@ -171,6 +174,24 @@ impl Run {
         };
         run.check_memory()?;
         Ok(run)
+    }
+
+    /// Counts what an earlier try took, of which `report` is, and which began at `begun`.
+    pub(super) fn follow(&mut self, report: &Report, begun: Option<Instant>) {
+        self.begun = begun.unwrap_or(self.begun);
+        let own = &mut self.report;
+        own.rig_seconds += report.rig_seconds;
+        for (part, earlier) in [
+            (&mut own.prepare, &report.prepare),
+            (&mut own.inflate, &report.inflate),
+            (&mut own.repose, &report.repose),
+        ] {
+            part.seconds += earlier.seconds;
+            part.iterations += earlier.iterations;
+            part.factorisations += earlier.factorisations;
+            part.analyses += earlier.analyses;
+            part.profile += &earlier.profile;
+        }
     }
 
     /// Iterations of the stage under way.
@@ -206,6 +227,7 @@ impl Run {
             }
             Step::Inflate(inflation) => {
                 let limited = check_limit(inflation.attempted(), options, self.state.t);
+                self.is_limited = limited.is_err();
                 let ended = match limited {
                     Err(error) if self.attempts.settings().is_none() && self.own_pose.is_none() => {
                         return Err(self.explained(error));

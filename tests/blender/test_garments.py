@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import bpy
 import mathutils
@@ -11,7 +10,7 @@ import numpy as np
 
 import bespoke
 import tubes
-from case import Case, part, seen, stored, triangles, weights
+from case import Case, part, seen, stored, triangles
 from direct import directly
 
 
@@ -147,34 +146,6 @@ class Garments(Case):
             session.add_layer(stored(inner.data), triangles(inner.data))
             session.run()
             self.same_bits(stored(outer.data), session.read_garment_vertices())
-
-    def test_where_the_skin_passes_through_it_the_garment_is_its_own_measure(self) -> None:
-        tubes.scene()
-        work = part("work")
-        filled = work.filled
-        # The refusal of a hat through which the head goes, which tubes have not.
-        refusal = bespoke.BespokeError(bespoke.Status.NOT_ENCLOSED, "beside its bones")
-
-        def refused(task: Any, *others: Any) -> bespoke.Session:
-            if task.source is not task.whole:
-                raise refusal
-            return filled(task, *others)
-
-        work.filled = refused
-        try:
-            made = self.dress()
-        finally:
-            work.filled = filled
-        sleeve, arm = bpy.data.objects["sleeve"], bpy.data.objects["arm"]
-        with directly(sleeve, "", bpy.data.objects["other"], "other rig") as session:
-            both = np.concatenate([stored(arm.data), stored(sleeve.data)]).astype(float)
-            first = len(arm.data.vertices)
-            session.set_source_avatar(both, np.concatenate([triangles(arm.data), triangles(sleeve.data) + first]))
-            rows = np.concatenate([weights(thing, bpy.data.objects["rig"]).T for thing in (arm, sleeve)])
-            order = np.broadcast_to(np.arange(3, dtype=np.uint32), rows.shape)
-            session.set_source_skin_influences(order, rows.astype(np.float32), 3)
-            session.run()
-            self.same_bits(stored(made.data), session.read_garment_vertices())
 
     def test_covered_skin_is_masked(self) -> None:
         tubes.scene()

@@ -14,7 +14,7 @@ use bespoke::capi::view::BespokeComponent;
 
 use testing::caller::{Caller, Mesh, bones, no_options, points, triangles, tube, view};
 
-fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
+pub fn read(caller: &Caller, room: usize) -> (Vec<BespokeDiagnostic>, usize) {
     let mut list = vec![0u64; room * size_of::<BespokeDiagnostic>() / 8];
     // The words are little-endian: the size of the first is in the lower half.
     list.iter_mut().take(1).for_each(|first| *first = size_of::<BespokeDiagnostic>() as u64);

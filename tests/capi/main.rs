@@ -4,6 +4,7 @@ mod cancel;
 mod control;
 mod diagnostics;
 mod distortion;
+mod dressed_source;
 mod faults;
 mod fit_controls;
 mod header;

@@ -80,6 +80,13 @@ fn every_sentence_is_made_of_its_data() {
                 .into(),
         ),
         (
+            Diagnostic::SourceDressed { pairs: 31, triangles: [4, 9], has_begun: false },
+            "source avatar: it passes through the garment in 31 pairs of triangles, such as garment triangle 4 and avatar \
+             triangle 9, and with it the garment was refused; that body with the garment on took its place, so that the \
+             garment keeps no distance from the target; take away what passes through it to keep its looseness"
+                .into(),
+        ),
+        (
             Diagnostic::FollowerIntersects {
                 follower: 2,
                 body: 1,

@@ -14,7 +14,7 @@ use glam::DVec3;
 use crate::small::{arm, session, tube};
 
 /// A box.
-fn block(low: [f64; 3], high: [f64; 3]) -> TriangleMesh {
+pub fn block(low: [f64; 3], high: [f64; 3]) -> TriangleMesh {
     let corner = |k: usize| DVec3::from_array(std::array::from_fn(|i| if k >> i & 1 == 0 { low[i] } else { high[i] }));
     let square = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
     let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
@@ -23,7 +23,7 @@ fn block(low: [f64; 3], high: [f64; 3]) -> TriangleMesh {
 
 /// A sleeve around the first of two parallel bones, and a body of a box on each, the second of which ends `gap` away from
 /// the first at full size.
-fn two_boxes(gap: f64, options: Options) -> Session {
+pub fn two_boxes(gap: f64, options: Options) -> Session {
     let joints = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0]];
     let skeleton = Skeleton { joints: joints.map(DVec3::from).to_vec(), bones: vec![[0, 1], [2, 3], [1, 3]] };
     let mut avatar = block([-0.5, -0.4, -0.9], [0.5, 0.4, 0.9]);

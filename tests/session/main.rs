@@ -9,6 +9,7 @@ mod carried;
 mod curves;
 mod determinism;
 mod distortion;
+mod dressed_source;
 mod fit_controls;
 mod flaws;
 mod followers;

@@ -32,15 +32,6 @@ internal static class Figures
             Near(figure.Bind(k), binds[k], 1e-9, $"bind of {joints[k].Name}");
         }
         figure.Joined(0, out float[] positions, out int[] triangles, out Influences skin);
-        figure.Joined(
-            figure.Parts.Length - 1, figure.Parts[0], out float[] joined, out int[] corners, out Influences both);
-        SkinnedPart before = figure.Parts[figure.Parts.Length - 1];
-        Check.Same(joined.Length, before.Positions.Length + figure.Parts[0].Positions.Length, "a part and one after it");
-        int begin = before.Positions.Length / 3;
-        Check.That(
-            corners.Skip(before.Triangles.Length).SequenceEqual(figure.Parts[0].Triangles.Select(v => begin + v)),
-            "triangles of the one after it");
-        Check.That(both.Joints.Length == joined.Length / 3 * both.Width, "the skin of both");
         Check.Same(positions.Length, garment.Positions.Length + plain.Positions.Length, "numbers of both");
         Check.Same(triangles.Max(), positions.Length / 3 - 1, "the last vertex of both");
         Check.Same(skin.Joints.Length, 4 * positions.Length / 3, "joints of both");

@@ -187,24 +187,6 @@ void Refused(FCharacters Characters)
 	Check(Outcome.Message.find("designed_clearance") != std::string::npos, Outcome.Message.c_str());
 }
 
-// The body with the garment on it, each with its skin on the joints of the body.
-void Whole(const FCharacters& Characters)
-{
-	const auto& Made = Characters.Source;
-	const auto& Garment = Characters.Garment;
-	const auto Both = BespokeCore::Detail::WithOn(Made, Garment);
-	Check(Both.Positions.size() == Made.Positions.size() + Garment.Positions.size(), "vertices of both");
-	Check(Both.Positions.back() == Garment.Positions.back(), "the last vertex is the garment's");
-	Check(Both.Triangles.back() == Made.Positions.size() + Garment.Triangles.back(), "and so is the last triangle");
-	Check(Both.SkinJoints.size() == Both.Positions.size() * Both.Influences, "a skin for both");
-	for (std::size_t k = 0; k < Garment.Influences; k++)
-	{
-		const std::size_t At = (Both.Positions.size() - 1) * Both.Influences + k;
-		const std::size_t Own = (Garment.Positions.size() - 1) * Garment.Influences + k;
-		Check(Both.SkinJoints[At] == Garment.SkinJoints[Own] && Both.SkinWeights[At] == Garment.SkinWeights[Own], "its skin");
-	}
-}
-
 // Over a layer, and on bones of its own of which one is not in the body.
 void OwnBones(FCharacters Characters)
 {
@@ -256,7 +238,6 @@ int main(int Count, char** Words)
 	SameBits(Characters);
 	Stopped(Characters);
 	Refused(Characters);
-	Whole(Characters);
 	OwnBones(Characters);
 	Dials();
 	Weights();

@@ -9,8 +9,6 @@ import pathlib
 import re
 import sys
 import unittest
-from typing import Any
-from unittest import mock
 
 import numpy as np
 
@@ -85,37 +83,6 @@ class Dressing(unittest.TestCase):
         with self.assertRaises(bespoke_unreal.BespokeStopped):
             self.dress()
         self.assertEqual(unreal.made, {})
-
-    def test_where_the_body_passes_through_it_the_garment_is_its_own_measure(self) -> None:
-        run, filled = bespoke_unreal._run, bespoke_unreal._filled
-        # The refusal of a hat through which the head goes, which the vest has not.
-        refusal = bespoke.BespokeError(bespoke.Status.NOT_ENCLOSED, "beside its bones")
-        sources: list[bespoke_unreal.Figure] = []
-        refusals = 1
-
-        def noted(garment: bespoke_unreal.Figure, source: bespoke_unreal.Figure, *others: Any) -> bespoke.Session:
-            sources.append(source)
-            return filled(garment, source, *others)
-
-        def refused(*arguments: Any) -> None:
-            if len(sources) <= refusals:
-                raise refusal
-            run(*arguments)
-
-        with mock.patch.multiple(bespoke_unreal, _filled=noted, _run=refused):
-            self.dress()
-            self.assertEqual(len(unreal.made), 1)
-            refusals = 2
-            sources.clear()
-            with self.assertRaises(bespoke.BespokeError) as caught:
-                self.dress()
-        self.assertIs(caught.exception, refusal)
-        alone, whole = sources
-        garment = len(whole.vertices) - len(alone.vertices)
-        self.assertGreater(garment, 100)
-        self.assertEqual(whole.triangles.max(), len(whole.vertices) - 1)
-        self.assertEqual((len(whole.joints), len(whole.weights)), (len(whole.vertices),) * 2)
-        self.assertTrue((whole.weights.sum(axis=1) > 0.99).all())
 
     def test_what_cannot_be_used(self) -> None:
         for arguments, words in (

@@ -206,7 +206,6 @@ def gather(context: bpy.types.Context, needs_garments: bool = True) -> Inputs:
         garments=[garment for _, garment in found],
         source_rig=rigs.joints(source),
         source=_body(bodies_there, source, None) if bodies_there else None,
-        whole=_body([*bodies_there, *(mesh for mesh, _ in found)], source, None) if bodies_there and found else None,
         target_rig=rigs.joints(target),
         target=_body(bodies_here, target, [roles[thing] for thing in target_bodies]),
         target_morphs=morphs,

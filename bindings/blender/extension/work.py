@@ -65,8 +65,6 @@ class Task:
     source_rig: list[bespoke.Joint]
     source: Body | None
     """The body that the garments were made for."""
-    whole: Body | None
-    """The same with the garments on: where the skin passes through one of them, it lies as close to this."""
     target_rig: list[bespoke.Joint]
     target: Body
     layers: list[tuple[Array, Array]]
@@ -178,11 +176,6 @@ STAGES = {
 }
 
 
-def _may_help(failure: bespoke.BespokeError | None) -> bool:
-    """Whether another source may do better: where the garment was not enclosed or wedged."""
-    return failure is not None and failure.status in (bespoke.Status.NOT_ENCLOSED, bespoke.Status.INFLATION_STALLED)
-
-
 class Run:
     """Dresses one garment after the other, in a thread of its own (`start`) or in the caller's (`work`).
 
@@ -265,11 +258,7 @@ class Run:
         layers = list(self.task.layers)
         for garment in self.task.garments:
             try:
-                outcome = self._try(self.task, garment, layers, progress)
-                if outcome.vertices is None and self.task.whole is not None and _may_help(outcome.failure):
-                    again = dataclasses.replace(self.task, source=self.task.whole)
-                    other = self._try(again, garment, layers, progress)
-                    outcome = other if other.vertices is not None else outcome
+                outcome = self._try(garment, layers, progress)
             except bespoke.CancelledError:
                 return
             self.outcomes.append(outcome)
@@ -278,14 +267,13 @@ class Run:
 
     def _try(
         self,
-        task: Task,
         garment: Garment,
         layers: Sequence[tuple[Array, Array]],
         progress: Callable[[Progress], object] | None,
     ) -> Outcome:
         outcome = Outcome()
         try:
-            with filled(task, garment, layers) as session:
+            with filled(self.task, garment, layers) as session:
                 self._watch(session)
                 try:
                     self._dress(session, garment, outcome, progress)

@@ -278,6 +278,13 @@ namespace Bespoke
         SolvedPosed = 34,
 
         /// <summary>
+        /// The garment was refused (NOT_ENCLOSED, INFLATION_STALLED), and the source avatar passes through it, as a
+        /// head through its hat: it was dressed with that body and the garment together as the source avatar, close to
+        /// the target. The first triangles that meet in the design are named. With the option strict it is refused.
+        /// </summary>
+        SourceDressed = 40,
+
+        /// <summary>
         /// A mesh that follows the garment (<c>Session.AddFollower</c>) is in the avatar, a layer or the garment in the
         /// result, and was not in the design. Its first such triangle is named, and the one that it passes through.
         /// </summary>

@@ -104,6 +104,8 @@ impl BespokeRetarget {
     #[constant]
     pub const KIND_SOLVED_POSED: i64 = 34;
     #[constant]
+    pub const KIND_SOURCE_DRESSED: i64 = 40;
+    #[constant]
     pub const KIND_FOLLOWER_INTERSECTS: i64 = 35;
     #[constant]
     pub const KIND_MORPH_NOT_SOLVED: i64 = 36;

@@ -8,7 +8,7 @@ use godot::obj::Gd;
 use crate::engine::is;
 use crate::figure::{Figure, Part, Taken};
 use crate::findings::Scene;
-use crate::job::{Design, Wanted, Whole};
+use crate::job::{Design, Wanted};
 use crate::native::*;
 use crate::options::Options;
 use crate::painted;
@@ -267,9 +267,7 @@ impl Inputs {
     /// What is to be read of the result.
     pub fn wanted(&self, scene: &Scene) -> Wanted {
         let has_skin = scene.avatar.skin.is_some();
-        let whole = |body| Whole::new(body, &scene.garment, scene.source.joints.len());
         Wanted {
-            whole: scene.source_body.as_ref().map(whole),
             garment: Design::new(&scene.garment),
             followers: scene.followers.iter().map(Design::new).collect(),
             answers: scene.avatar.answered.iter().map(|shape| shape.name.clone()).collect(),

@@ -36,55 +36,8 @@ impl Design {
     }
 }
 
-/// The body that the garment was made for, with the garment on it.
-pub struct Whole {
-    /// Vertices of both.
-    pub positions: Vec<[f32; 3]>,
-    /// Triangles of both.
-    pub triangles: Vec<[u32; 3]>,
-    /// Skin weights of both, where one of them has some.
-    pub skin: Option<Influences>,
-    /// Joints of their skeleton.
-    pub joints: usize,
-}
-
-impl Whole {
-    /// Joins them. `joints` are those of their skeleton.
-    pub fn new(body: &Figure, garment: &Figure, joints: usize) -> Self {
-        let first = body.positions.len() as u32;
-        let skins = [(body, &body.skin), (garment, &garment.skin)];
-        let width = skins.iter().filter_map(|(_, skin)| skin.as_ref().map(|skin| skin.width)).max();
-        let skin = width.map(|width| {
-            let mut joined = Influences { width, ..Influences::default() };
-            for (figure, skin) in skins {
-                for k in 0..figure.positions.len() * width {
-                    let (vertex, slot) = (k / width, k % width);
-                    let own =
-                        skin.as_ref().filter(|skin| slot < skin.width).map(|skin| (skin, vertex * skin.width + slot));
-                    joined.joints.push(own.map_or(0, |(skin, at)| skin.joints[at]));
-                    joined.weights.push(own.map_or(0.0, |(skin, at)| skin.weights[at]));
-                }
-            }
-            joined
-        });
-        Self {
-            positions: [&body.positions[..], &garment.positions].concat(),
-            triangles: body
-                .triangles
-                .iter()
-                .copied()
-                .chain(garment.triangles.iter().map(|t| t.map(|v| v + first)))
-                .collect(),
-            skin,
-            joints,
-        }
-    }
-}
-
 /// What the thread needs to read a result.
 pub struct Wanted {
-    /// Where the skin passes through the garment, as a head through its hat, it lies as close to this.
-    pub whole: Option<Whole>,
     /// The garment.
     pub garment: Design,
     /// What goes along with it.
@@ -148,24 +101,7 @@ pub fn start(session: Arc<Session>, wanted: Wanted) -> Result<JoinHandle<Outcome
 }
 
 fn outcome(session: &Session, wanted: &Wanted) -> Outcome {
-    let first = ended(session, wanted, session.run());
-    let may_help = [BESPOKE_STATUS_NOT_ENCLOSED, BESPOKE_STATUS_INFLATION_STALLED].contains(&first.status);
-    let Some(whole) = wanted.whole.as_ref().filter(|_| may_help) else { return first };
-    let again = || {
-        session.reset()?;
-        session.set_source_avatar(&whole.positions, &whole.triangles)?;
-        if let Some(skin) = &whole.skin {
-            session.set_influences(bespoke_session_set_source_skin_influences, skin, whole.joints)?;
-        }
-        session.run()
-    };
-    let second = ended(session, wanted, again());
-    // What was asked for says why there is none; that it was stopped is no reason.
-    if second.worn.is_some() || second.status == BESPOKE_STATUS_CANCELLED { second } else { first }
-}
-
-/// What there is after a run.
-fn ended(session: &Session, wanted: &Wanted, ran: Result<()>) -> Outcome {
+    let ran = session.run();
     // Verified, but not worn as designed. In another pose than the body's it is of no use here.
     let flaw = match &ran {
         Err(failure) if failure.status == BESPOKE_STATUS_IMPLAUSIBLE_RESULT => session.is_in_own_pose(wanted.joints),

@@ -13,38 +13,30 @@ use bespoke::rig::reading::Reading;
 use bespoke::session::PartRole;
 use bespoke::verify::intersections;
 
-use crate::fit::{Fitted, Job, Refused, Skinned};
+use crate::fit::{Fitted, Job, Refused};
 use crate::progress::is_stopped;
 
 /// A garment with more than this share of its vertices at the head is worn on it.
 const ON_HEAD: f64 = 0.1;
 
-/// Dresses a garment, with one after the other of the bodies that it may have been made for, over those that are worn already.
-/// Where it cannot give way to them, as where the shells of a shirt and of trousers meet edge to edge, it is dressed over the
-/// body alone. Where the head lies on the shoulders, as a hood or the large head of a toy does, it is dressed beneath the head.
-pub fn put_on(job: &Job, sources: &[Skinned]) -> Result<Fitted, Box<Refused>> {
+/// Dresses a garment over those that are worn already. Where it cannot give way to them, as where the shells of a shirt and of
+/// trousers meet edge to edge, it is dressed over the body alone. Where the head lies on the shoulders, as a hood or the large head of
+/// a toy does, it is dressed beneath the head.
+pub fn put_on(job: &Job) -> Result<Fitted, Box<Refused>> {
     let refused = match job.run() {
         Err(why) if !is_stopped() => why,
         outcome => return outcome,
     };
-    for source in sources.iter().skip(1) {
-        if let Ok(fitted) = (Job { source: Some(source), ..job.clone() }).run() {
-            return Ok(fitted);
-        }
-    }
-    let first_of = |job: &Job| {
-        let with = |source| if is_stopped() { None } else { (Job { source, ..job.clone() }).run().ok() };
-        sources.iter().map(Some).find_map(with)
-    };
+    let done = |job: Job| if is_stopped() { None } else { job.run().ok() };
     if !job.layers.is_empty()
-        && let Some(fitted) = first_of(&Job { layers: &[], ..job.clone() })
+        && let Some(fitted) = done(Job { layers: &[], ..job.clone() })
     {
         let through = job.layers.iter().map(|layer| pairs(&fitted, job, layer)).sum();
         let said = "it could not be dressed over the garments beneath it";
         return Ok(told(fitted, said, "them", through, &refused));
     }
     if let Some((roles, head)) = without_head(job)
-        && let Some(fitted) = first_of(&Job { roles: &roles, ..job.clone() })
+        && let Some(fitted) = done(Job { roles: &roles, ..job.clone() })
     {
         let through = pairs(&fitted, job, &head);
         let said = "the head lies on the parts of the body beside it; it is dressed beneath the head";

@@ -73,22 +73,16 @@ pub fn avatar(figure: &Figure, clothed: bool) -> Avatar {
     Avatar { roles: owners.iter().map(role).collect(), body, notes }
 }
 
-/// The bodies that the garments of `figure` may have been made for, the likelier first: its skin, and the whole character with
-/// its clothes, on which a garment aims to lie as close as it did. The latter is all there is where a maker has taken away the
-/// skin beneath the garments; and it helps where the skin passes through them, as a head through its hat.
-pub fn sources(figure: &Figure) -> Vec<Skinned> {
+/// The body that the garments of `figure` were made for: its skin, or the whole character with its clothes where a maker has taken
+/// away the skin beneath them. None in a file without either.
+pub fn source(figure: &Figure) -> Option<Skinned> {
     let clothes: Vec<&Part> = figure.of(Kind::Garment).collect();
-    let of_kinds = |kinds: &[Kind]| {
-        let parts: Vec<&Part> = figure.parts.iter().filter(|part| kinds.contains(&part.sorted.kind)).collect();
-        (!parts.is_empty()).then(|| joined(parts, figure.rig.joints.len()).0)
+    let kinds: &[Kind] = match clothes.is_empty() || has_skin_beneath(figure, &clothes) {
+        true => &[Kind::Body],
+        false => &[Kind::Body, Kind::Hair, Kind::Garment],
     };
-    let skin = of_kinds(&[Kind::Body]);
-    if clothes.is_empty() {
-        return skin.into_iter().collect();
-    }
-    let whole = of_kinds(&[Kind::Body, Kind::Hair, Kind::Garment]);
-    let skin = skin.filter(|_| has_skin_beneath(figure, &clothes));
-    skin.into_iter().chain(whole).collect()
+    let parts: Vec<&Part> = figure.parts.iter().filter(|part| kinds.contains(&part.sorted.kind)).collect();
+    (!parts.is_empty()).then(|| joined(parts, figure.rig.joints.len()).0)
 }
 
 /// Whether there is body under most of the area of `clothes`, joint by joint.

@@ -52,7 +52,7 @@ pub fn run_on(args: &Dress, known: &mut Option<KnownAvatar>) -> Result<u8> {
     let open_source = |file| Figure::open_with(file, Role::Avatar, &source_choice, &beside.source);
     let source = args.source.as_deref().map(open_source).transpose()?;
     let made_for = MadeFor::new(&outfit, source.as_ref(), args)?;
-    let garments = outfit::in_order(&outfit, outfit::need_garments(&outfit)?, made_for.bodies.first());
+    let garments = outfit::in_order(&outfit, outfit::need_garments(&outfit)?, made_for.body.as_ref());
     // Joint by joint, where two skeletons without names have the same joints and bones.
     let skeletons = made_for.skeleton().zip(avatar.figure.skeleton());
     let skeletons = skeletons.filter(|(source, target)| target.aligned_to(source).is_ok());
@@ -96,13 +96,13 @@ impl Files {
 struct MadeFor<'a> {
     outfit: &'a Figure,
     source: Option<&'a Figure>,
-    bodies: Vec<Skinned>,
+    body: Option<Skinned>,
 }
 
 impl<'a> MadeFor<'a> {
     fn new(outfit: &'a Figure, source: Option<&'a Figure>, args: &Dress) -> Result<Self> {
-        let bodies = bodies::sources(source.unwrap_or(outfit));
-        let made_for = Self { outfit, source, bodies };
+        let body = bodies::source(source.unwrap_or(outfit));
+        let made_for = Self { outfit, source, body };
         if made_for.rig().joints.is_empty() {
             let file = args.source.as_ref().unwrap_or(&args.outfit);
             if obj::is_obj(file) {
@@ -138,25 +138,18 @@ impl<'a> MadeFor<'a> {
         self.joints_of().skeleton()
     }
 
-    /// The bodies on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with
+    /// The body on the joints of [`Self::rig`]. Joints of another file correspond by name; a joint that is not there goes with
     /// the one above.
-    fn bodies(&self) -> Vec<Skinned> {
+    fn body(&self) -> Option<Skinned> {
+        let body = self.body.clone()?;
         let Some(source) = self.source.filter(|_| std::ptr::eq(self.joints_of(), self.outfit)) else {
-            return self.bodies.clone();
+            return Some(body);
         };
-        if source.skeleton().is_some() && source.skeleton() == self.outfit.skeleton() {
-            return self.bodies.clone();
+        let is_of_one = source.skeleton().is_some() && source.skeleton() == self.outfit.skeleton();
+        if is_of_one || !body.has_weights() {
+            return Some(body);
         }
-        let there = |body: &Skinned| {
-            if !body.has_weights() {
-                return Some(body.clone());
-            }
-            Some(Skinned {
-                skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?,
-                mesh: body.mesh.clone(),
-            })
-        };
-        self.bodies.iter().filter_map(there).collect()
+        Some(Skinned { skin: joint_pairs::on_rig(&body.skin, &source.rig, &self.outfit.rig)?, mesh: body.mesh })
     }
 }
 
@@ -195,7 +188,7 @@ impl Dressing<'_> {
             let files = [self.outfit, figure].into_iter().filter_map(|figure| figure.obj.as_ref());
             files.flat_map(|source| &source.material_notes).for_each(|note| say(args.quiet, note));
         }
-        let sources = self.made_for.bodies();
+        let source = self.made_for.body();
         let (mut dressed, mut refused) = (Vec::<Dressed>::new(), Vec::new());
         let mut layers: Vec<TriangleMesh> = Vec::new();
         for garment in garments {
@@ -209,7 +202,7 @@ impl Dressing<'_> {
                 drawn: &drawn,
                 morphs: &morphs,
                 has_skin: self.outfit.has_skin(),
-                source: sources.first(),
+                source: source.as_ref(),
                 source_rig: self.made_for.rig(),
                 avatar: &avatar.body,
                 roles: &avatar.roles,
@@ -223,7 +216,7 @@ impl Dressing<'_> {
                 options: &options,
                 quiet: args.quiet,
             };
-            match put_on(&job, &sources) {
+            match put_on(&job) {
                 Ok(fitted) => {
                     say_findings(args.quiet, &garment.name, &fitted.findings, fitted.flaw.is_some());
                     // What is not where it is worn, as a shoe beside its foot, would lead the next garments astray.

@@ -20,7 +20,7 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
     }
     let parts = garment.parts.iter().map(|&part| &figure.parts[part]);
     let (cloth, _) = joined(parts, figure.rig.joints.len());
-    let Some(body) = bodies::sources(figure).into_iter().next() else { return Ok(None) };
+    let Some(body) = bodies::source(figure) else { return Ok(None) };
     let roles = vec![PartRole::Automatic; body.mesh.triangles.len()];
     let shared = shared(&figure.rig, &body, &roles)?;
     let job = Job {

@@ -11,6 +11,7 @@ pub mod library;
 pub mod obj;
 pub mod obj_text;
 pub mod pairs;
+pub mod pierced_hat;
 pub mod posing;
 pub mod process;
 mod random;

@@ -205,12 +205,6 @@ impl Session {
         self.check(unsafe { bespoke_session_run(self.pointer()) })
     }
 
-    /// Back to before the run, with all that was set.
-    pub fn reset(&self) -> Result<()> {
-        // SAFETY: as above.
-        self.check(unsafe { bespoke_session_reset(self.pointer()) })
-    }
-
     /// Asks it to stop; from any thread.
     pub fn cancel(&self) {
         // SAFETY: as above, at any time.

@@ -252,6 +252,12 @@ class DiagnosticKind(_Number):
     it stalled is named, and the angle between the poses.
     """
 
+    SOURCE_DRESSED = 40
+    """The garment was refused (NOT_ENCLOSED, INFLATION_STALLED), and the source avatar passes through it, as a head
+    through its hat: it was dressed with that body and the garment together as the source avatar, close to the target.
+    The first triangles that meet in the design are named. With the option strict it is refused.
+    """
+
     FOLLOWER_INTERSECTS = 35
     """A mesh that follows the garment (`Session.add_follower`) is in the avatar, a layer or the garment in the result,
     and was not in the design. Its first such triangle is named, and the one that it passes through.

@@ -68,24 +68,8 @@ namespace Bespoke.Unity
         /// <param name="skin">Skin weights; null: none.</param>
         public void Joined(int first, out float[] positions, out int[] triangles, out Influences skin)
         {
-            Joined(first, null, out positions, out triangles, out skin);
-        }
-
-        /// <summary>The same with another part after them.</summary>
-        /// <param name="first">The first part that counts.</param>
-        /// <param name="last">Another part of the figure; null: none.</param>
-        /// <param name="positions">x, y, z of each vertex.</param>
-        /// <param name="triangles">Three vertices each.</param>
-        /// <param name="skin">Skin weights; null: none.</param>
-        public void Joined(
-            int first, SkinnedPart last, out float[] positions, out int[] triangles, out Influences skin)
-        {
-            SkinnedPart[] parts = new SkinnedPart[Parts.Length - first + (last == null ? 0 : 1)];
-            Array.Copy(Parts, first, parts, 0, Parts.Length - first);
-            if (last != null)
-            {
-                parts[parts.Length - 1] = last;
-            }
+            SkinnedPart[] parts = new SkinnedPart[Parts.Length - first];
+            Array.Copy(Parts, first, parts, 0, parts.Length);
             List<float> points = new List<float>();
             List<int> corners = new List<int>();
             foreach (SkinnedPart part in parts)

@@ -172,19 +172,21 @@ namespace Bespoke.Unity
                 List<KeyValuePair<float[], int[]>> layers = new List<KeyValuePair<float[], int[]>>();
                 for (int k = 0; k < task.Garments.Count; k++)
                 {
-                    Outcome outcome;
+                    Outcome outcome = new Outcome();
                     try
                     {
-                        outcome = Tried(k, layers, false);
-                        if (outcome.Positions == null && HasBody(k) && MayHelp(outcome.Failure))
+                        using (Session session = Filled(k, layers))
                         {
-                            Outcome other = Tried(k, layers, true);
-                            outcome = other.Positions == null ? outcome : other;
+                            Dress(session, k, outcome);
                         }
                     }
                     catch (OperationCanceledException)
                     {
                         return;
+                    }
+                    catch (BespokeException failure)
+                    {
+                        outcome.Failure = failure;
                     }
                     outcomes.Add(outcome);
                     if (outcome.Positions != null)
@@ -213,42 +215,12 @@ namespace Bespoke.Unity
         {
             using (Session session = new Session())
             {
-                SetFigures(session, task, garment, false);
+                SetFigures(session, task, garment);
                 return session.ReadJointMap();
             }
         }
 
-        // Whether the body with the garment on does better, as where the skin passes through it, like a head through its
-        // hat.
-        private static bool MayHelp(BespokeException failure)
-        {
-            return failure != null
-                && (failure.Status == Status.NotEnclosed || failure.Status == Status.InflationStalled);
-        }
-
-        private bool HasBody(int garment)
-        {
-            return task.Garments[garment].Parts.Length > 1 + task.FollowersOf(garment);
-        }
-
-        private Outcome Tried(int garment, List<KeyValuePair<float[], int[]>> layers, bool isWhole)
-        {
-            Outcome outcome = new Outcome();
-            try
-            {
-                using (Session session = Filled(garment, layers, isWhole))
-                {
-                    Dress(session, garment, outcome);
-                }
-            }
-            catch (BespokeException failure)
-            {
-                outcome.Failure = failure;
-            }
-            return outcome;
-        }
-
-        private Session Filled(int garment, List<KeyValuePair<float[], int[]>> layers, bool isWhole)
+        private Session Filled(int garment, List<KeyValuePair<float[], int[]>> layers)
         {
             Session session = new Session();
             try
@@ -259,7 +231,7 @@ namespace Bespoke.Unity
                 made.Trusted = task.Garments[garment].Parts[0].HasSkin;
                 session.SetSourceCoordinateSystem(made);
                 session.SetTargetCoordinateSystem(CoordinateSystem.Unity);
-                SetFigures(session, task, garment, isWhole);
+                SetFigures(session, task, garment);
                 SkinnedPart cloth = task.Garments[garment].Parts[0];
                 session.SetGarment(cloth.Positions, cloth.Triangles);
                 Influences skin = Influences.Of(cloth);
@@ -290,16 +262,14 @@ namespace Bespoke.Unity
             }
         }
 
-        // isWhole: the body that the garment was made for has it on.
-        private static void SetFigures(Session session, FittingTask task, int garment, bool isWhole)
+        private static void SetFigures(Session session, FittingTask task, int garment)
         {
             Figure made = task.Garments[garment];
             session.SetSourceRig(made.Rig());
             int body = 1 + task.FollowersOf(garment);
             if (made.Parts.Length > body)
             {
-                made.Joined(
-                    body, isWhole ? made.Parts[0] : null, out float[] points, out int[] corners, out Influences own);
+                made.Joined(body, out float[] points, out int[] corners, out Influences own);
                 session.SetSourceAvatar(points, corners);
                 if (own != null)
                 {

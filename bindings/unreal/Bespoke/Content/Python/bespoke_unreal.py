@@ -45,9 +45,6 @@ STAGES = {
 }
 
 
-# Refusals that the body with the garment on may not meet with.
-_WITH_IT_ON = (bespoke.Status.NOT_ENCLOSED, bespoke.Status.INFLATION_STALLED)
-
 # The assets that `dress` has made last.
 _last: list[str] = []
 
@@ -265,42 +262,10 @@ def _fitted(
     pairs: Sequence[tuple[str, str | None]],
     task: unreal.ScopedSlowTask,
 ) -> Iterator[bespoke.Session]:
-    """A session that has run. Where the body that the garment was made for passes through it, as a head through its hat, that
-    body with the garment on is the measure for how close they lie."""
-    told = _Told(garment.name, task)
+    """A session that has run."""
     with _filled(garment, source, target, layers, options, pairs) as session:
-        try:
-            _run(session, told)
-        except bespoke.BespokeError as refusal:
-            if source is None or refusal.status not in _WITH_IT_ON:
-                raise
-            refused = refusal
-        else:
-            yield session
-            return
-    with _filled(garment, _with_on(source, garment), target, layers, options, pairs) as session:
-        try:
-            _run(session, told)
-        except bespoke.BespokeError:
-            raise refused from None
+        _run(session, _Told(garment.name, task))
         yield session
-
-
-def _with_on(made_for: Figure, garment: Figure) -> Figure:
-    """The body with the garment on it."""
-    joints, weights = _on_rig(garment, made_for)
-    width = max(made_for.joints.shape[1], joints.shape[1])
-
-    def wide(rows: np.ndarray) -> np.ndarray:
-        return np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
-
-    return dataclasses.replace(
-        made_for,
-        vertices=np.concatenate([made_for.vertices, garment.vertices]),
-        triangles=np.concatenate([made_for.triangles, garment.triangles + len(made_for.vertices)]),
-        joints=np.concatenate([wide(made_for.joints), wide(joints)]),
-        weights=np.concatenate([wide(made_for.weights), wide(weights)]),
-    )
 
 
 def _on_rig(garment: Figure, made_for: Figure) -> tuple[np.ndarray, np.ndarray]:

@@ -296,32 +296,6 @@ inline std::vector<std::uint32_t> OnRig(const FFigure& Garment, const FFigure& M
 	return Places;
 }
 
-/** The body that the garment was made for, with the garment on it. */
-inline FFigure WithOn(const FFigure& Made, const FFigure& Garment)
-{
-	FFigure Whole = Made;
-	const auto First = static_cast<std::uint32_t>(Made.Positions.size());
-	Whole.Positions.insert(Whole.Positions.end(), Garment.Positions.begin(), Garment.Positions.end());
-	for (const std::uint32_t Corner : Garment.Triangles) Whole.Triangles.push_back(First + Corner);
-	Whole.Influences = Made.Influences > Garment.Influences ? Made.Influences : Garment.Influences;
-	Whole.SkinJoints.assign(Whole.Positions.size() * Whole.Influences, 0u);
-	Whole.SkinWeights.assign(Whole.Positions.size() * Whole.Influences, 0.0f);
-	const std::vector<std::uint32_t> Places = OnRig(Garment, Made);
-	for (std::size_t Vertex = 0; Vertex < Whole.Positions.size(); Vertex++)
-	{
-		const bool bIsGarment = Vertex >= First;
-		const FFigure& From = bIsGarment ? Garment : Made;
-		for (std::size_t k = 0; k < From.Influences; k++)
-		{
-			const std::size_t At = (bIsGarment ? Vertex - First : Vertex) * From.Influences + k;
-			const std::uint32_t Joint = From.SkinJoints[At];
-			Whole.SkinJoints[Vertex * Whole.Influences + k] = bIsGarment && Joint < Places.size() ? Places[Joint] : Joint;
-			Whole.SkinWeights[Vertex * Whole.Influences + k] = From.SkinWeights[At];
-		}
-	}
-	return Whole;
-}
-
 inline bespoke::Result<void> Fill(bespoke::Session& Session, const FTask& Task)
 {
 	if (auto Set = Session.set_options(Task.Dials.ToOptions()); !Set) return Set;
@@ -387,45 +361,6 @@ inline bool IsPosed(const bespoke::Session& Session)
 	return false;
 }
 
-/** As BespokeCore::Dress, once. */
-template <class TOnProgress>
-FOutcome DressOnce(const FTask& Task, const bespoke::StopToken& Stop, TOnProgress& OnProgress)
-{
-	FOutcome Outcome;
-	const auto Fail = [&Outcome](const bespoke::Error& Error) {
-		Outcome.Status = Error.status();
-		Outcome.Message = Error.message();
-		return Outcome;
-	};
-	auto Created = bespoke::Session::create();
-	if (!Created) return Fail(Created.error());
-	bespoke::Session& Session = *Created;
-	if (auto Set = Fill(Session, Task); !Set) return Fail(Set.error());
-	const auto Ran = Session.run(Stop, [&OnProgress](const bespoke::Progress& Progress) {
-		OnProgress(Share(Progress), Words(Progress.stage));
-	});
-	if (auto Findings = Session.read_diagnostics()) Outcome.Findings = std::move(*Findings);
-	if (!Ran)
-	{
-		Fail(Ran.error());
-		// In the pose of the design it is no garment on the wearer as it stands.
-		if (Ran.status() != bespoke::Status::implausible_result || IsPosed(Session)) return Outcome;
-	}
-	if (Task.WornBy->HasSkin())
-	{
-		if (auto Read = ReadSkin(Session, Task, Outcome); !Read) return Fail(Read.error());
-	}
-	auto Positions = Session.read_garment_vertices();
-	if (!Positions) return Fail(Positions.error());
-	Outcome.Positions = std::move(*Positions);
-	if (const auto Report = Session.read_report())
-	{
-		Outcome.Intersections = Report->garment_intersections + Report->avatar_intersections;
-	}
-	Outcome.bDressed = true;
-	return Outcome;
-}
-
 } // namespace Detail
 
 /**
@@ -441,21 +376,44 @@ inline bespoke::Result<std::vector<bespoke::MappedJoint>> ReadJointMap(const FTa
 
 /**
  * Dresses one garment, in the calling thread, which waits; for any thread but the engine's own. `OnProgress` gets the share from 0 to 1
- * and words, some twenty times a second. `Stop` ends it within 100 ms, from any thread. Where the body that the garment was made for
- * passes through it, as a head through its hat, that body with the garment on is the measure for how close they lie.
+ * and words, some twenty times a second. `Stop` ends it within 100 ms, from any thread.
  */
 template <class TOnProgress>
 FOutcome Dress(const FTask& Task, const bespoke::StopToken& Stop, TOnProgress&& OnProgress)
 {
-	FOutcome Outcome = Detail::DressOnce(Task, Stop, OnProgress);
-	const bool bMayHelp =
-		Outcome.Status == bespoke::Status::not_enclosed || Outcome.Status == bespoke::Status::inflation_stalled;
-	if (Outcome.bDressed || !bMayHelp || !Task.MadeFor) return Outcome;
-	const FFigure Whole = Detail::WithOn(*Task.MadeFor, *Task.Garment);
-	FTask Again = Task;
-	Again.MadeFor = &Whole;
-	FOutcome Other = Detail::DressOnce(Again, Stop, OnProgress);
-	return Other.bDressed || Other.Status == bespoke::Status::cancelled ? Other : Outcome;
+	FOutcome Outcome;
+	const auto Fail = [&Outcome](const bespoke::Error& Error) {
+		Outcome.Status = Error.status();
+		Outcome.Message = Error.message();
+		return Outcome;
+	};
+	auto Created = bespoke::Session::create();
+	if (!Created) return Fail(Created.error());
+	bespoke::Session& Session = *Created;
+	if (auto Set = Detail::Fill(Session, Task); !Set) return Fail(Set.error());
+	const auto Ran = Session.run(Stop, [&OnProgress](const bespoke::Progress& Progress) {
+		OnProgress(Share(Progress), Words(Progress.stage));
+	});
+	if (auto Findings = Session.read_diagnostics()) Outcome.Findings = std::move(*Findings);
+	if (!Ran)
+	{
+		Fail(Ran.error());
+		// In the pose of the design it is no garment on the wearer as it stands.
+		if (Ran.status() != bespoke::Status::implausible_result || Detail::IsPosed(Session)) return Outcome;
+	}
+	if (Task.WornBy->HasSkin())
+	{
+		if (auto Read = Detail::ReadSkin(Session, Task, Outcome); !Read) return Fail(Read.error());
+	}
+	auto Positions = Session.read_garment_vertices();
+	if (!Positions) return Fail(Positions.error());
+	Outcome.Positions = std::move(*Positions);
+	if (const auto Report = Session.read_report())
+	{
+		Outcome.Intersections = Report->garment_intersections + Report->avatar_intersections;
+	}
+	Outcome.bDressed = true;
+	return Outcome;
 }
 
 } // namespace BespokeCore
