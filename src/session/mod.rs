@@ -224,8 +224,8 @@ impl Session {
     ///
     /// # Errors
     /// `InvalidState` before `prepare` or after the end, `Cancelled`, `InflationStalled`, `NotVerified`, `ImplausibleResult`,
-    /// `Internal`; `NotEnclosed` where that was the reason to try it with the garment on the source avatar, in vain. The garment can still be read; with `ImplausibleResult` it is verified and the stage
-    /// is [`Stage::Done`].
+    /// `Internal`; `NotEnclosed` where that was the reason to try it with the garment on the source avatar, in vain. The garment
+    /// can still be read; with `ImplausibleResult` it is verified and the stage is [`Stage::Done`].
     pub fn step(&mut self, budget: Budget) -> Result<Stage> {
         if !matches!(self.stage, Stage::Prepared | Stage::Inflate | Stage::Repose | Stage::Fit) {
             return Err(Error::new(
