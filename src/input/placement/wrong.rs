@@ -67,8 +67,7 @@ fn centres(skeleton: &Skeleton) -> [DVec3; 3] {
 
 /// The skeleton as it lies in a mesh that is read by `mend`.
 fn read(skeleton: &Skeleton, mend: &Mend) -> Skeleton {
-    let turns = AxisTurn::rotations();
-    let back = turns.into_iter().find(|turn| turn.after(mend.turn) == AxisTurn::IDENTITY).unwrap_or(AxisTurn::IDENTITY);
+    let back = mend.clone().inverse().turn;
     let joints = skeleton.joints.iter().map(|&p| back.apply(p) / mend.factor).collect();
     Skeleton { joints, bones: skeleton.bones.clone() }
 }
