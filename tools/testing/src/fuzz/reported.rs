@@ -4,7 +4,7 @@ use super::shape::Shape;
 use super::source::Source;
 
 /// Kinds that [`Reported::afflict`] knows.
-const KINDS: usize = 10;
+const KINDS: usize = 17;
 /// Ratios of units.
 const UNITS: [f64; 6] = [100.0, 39.370_1, 2.54, 1000.0, 0.01, 0.3048];
 
@@ -31,12 +31,7 @@ impl Reported<'_> {
             3 => touching_patch(self.garment, source),
             4 => {
                 let factor = UNITS[source.below(UNITS.len())];
-                let points = match source.below(4) {
-                    0 => &mut self.garment.points,
-                    1 => &mut self.body.points,
-                    k => &mut self.joints[k - 2],
-                };
-                points.iter_mut().for_each(|x| *x *= factor);
+                self.points(source).iter_mut().for_each(|x| *x *= factor);
             }
             5 => flip(self.joints, self.body, source),
             6 => self.bind_to_one(source),
@@ -44,7 +39,30 @@ impl Reported<'_> {
             8 => bow_ties(self.garment, 1 + source.below(4)),
             9 => self.body.join(&floor(source)),
             10 => self.body.join(&horn(source)),
+            11 => {
+                let points = self.points(source);
+                turn(points, [0.0; 3], source);
+            }
+            12 => {
+                // Of no unit, and small.
+                let factor = 10f64.powf(0.7 * source.signed());
+                self.points(source).iter_mut().for_each(|x| *x *= factor);
+            }
+            13 => bend(&mut self.joints[source.below(2)], source),
+            14 => self.body.join(&wings(source)),
+            15 => *self.garment = belt(source),
+            16 => *self.garment = necklace(source),
+            17 => *self.garment = cape(source),
             _ => {}
+        }
+    }
+
+    /// The points of garment, body or one of the skeletons.
+    fn points(&mut self, source: &mut Source) -> &mut Vec<f64> {
+        match source.below(4) {
+            0 => &mut self.garment.points,
+            1 => &mut self.body.points,
+            k => &mut self.joints[k - 2],
         }
     }
 
@@ -80,6 +98,79 @@ fn horn(source: &mut Source) -> Shape {
     let mut shape = Shape::tube(4, 5, [0.0, length], true, |_| radius, |_| [0.0; 2]);
     shape.points.as_chunks_mut::<3>().0.iter_mut().for_each(|p| *p = [p[2], p[1], height - p[0]]);
     shape
+}
+
+/// A pair of flat parts without a bone that stick out of the body to both sides.
+fn wings(source: &mut Source) -> Shape {
+    let (length, width, height) = (source.within(0.1, 2.0), source.within(0.05, 0.5), source.signed());
+    let mut pair = Shape::default();
+    for side in [1.0, -1.0] {
+        let mut wing = Shape::tube(4, 6, [0.0, length], true, |_| width, |_| [0.0; 2]);
+        wing.points
+            .as_chunks_mut::<3>()
+            .0
+            .iter_mut()
+            .for_each(|p| *p = [side * p[2], 0.1 * p[1], height - side * p[0]]);
+        pair.join(&wing);
+    }
+    pair
+}
+
+/// A narrow band around the bones, tilted.
+fn belt(source: &mut Source) -> Shape {
+    let (half, radius) = (source.within(0.005, 0.1), source.within(0.1, 0.6));
+    let mut band = Shape::tube(3, 10, [-half, half], false, |_| radius, |_| [0.0; 2]);
+    turn(&mut band.points, [0.0; 3], source);
+    band
+}
+
+/// A closed ring around the bones, tilted.
+fn necklace(source: &mut Source) -> Shape {
+    const AROUND: usize = 12;
+    const SIDES: usize = 4;
+    let (wire, radius) = (source.within(0.005, 0.05), source.within(0.1, 0.6));
+    let mut ring = Shape::tube(AROUND + 1, SIDES, [0.0, std::f64::consts::TAU], false, |_| wire, |_| [0.0; 2]);
+    // The last of its rows is the first.
+    let vertices = AROUND * SIDES;
+    ring.points.truncate(3 * vertices);
+    ring.triangles.iter_mut().for_each(|v| *v %= vertices as u32);
+    for p in ring.points.as_chunks_mut::<3>().0 {
+        let (sin, cos) = p[2].sin_cos();
+        *p = [(radius + p[0]) * cos, (radius + p[0]) * sin, p[1]];
+    }
+    turn(&mut ring.points, [0.0; 3], source);
+    ring
+}
+
+/// A sheet around a part of the bones, which is closed at its upper end only: by a collar, or not at all.
+fn cape(source: &mut Source) -> Shape {
+    const SIDES: usize = 10;
+    const RINGS: usize = 6;
+    let (low, radius, flare) = (-source.within(0.1, 0.9), source.within(0.1, 0.5), source.within(0.0, 0.6));
+    let mut cape = Shape::tube(RINGS, SIDES, [low, 0.8], false, |z| radius + flare * (0.8 - z), |_| [0.0; 2]);
+    let (width, collar) = (source.between(3, SIDES - 1), source.below(3));
+    let is_cloth = |quad: usize| quad % SIDES < width || quad / SIDES + 1 + collar >= RINGS;
+    let kept = cape.triangles.chunks(3).enumerate().filter(|(t, _)| is_cloth(t / 2));
+    cape.triangles = kept.flat_map(|(_, corners)| corners.to_vec()).collect();
+    cape
+}
+
+/// Turned about an axis of coordinates through `centre`, by any angle.
+fn turn(points: &mut [f64], centre: [f64; 3], source: &mut Source) {
+    let axis = source.below(3);
+    let [a, b] = [1, 2].map(|k| (axis + k) % 3);
+    let (sin, cos) = (std::f64::consts::PI * source.signed()).sin_cos();
+    for p in points.as_chunks_mut::<3>().0 {
+        let [x, y] = [p[a] - centre[a], p[b] - centre[b]];
+        (p[a], p[b]) = (centre[a] + cos * x - sin * y, centre[b] + sin * x + cos * y);
+    }
+}
+
+/// The joints beyond one of them turned about it, as a limb in another pose.
+fn bend(joints: &mut [f64], source: &mut Source) {
+    let at = source.below((joints.len() / 3).clamp(1, 256));
+    let Some(centre) = joints.as_chunks::<3>().0.get(at).copied() else { return };
+    turn(&mut joints[3 * at + 3..], centre, source);
 }
 
 /// The corners of a triangle that the source chooses; none where there is none.
