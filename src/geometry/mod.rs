@@ -16,6 +16,7 @@ pub mod median;
 pub mod mesh;
 pub mod outfit;
 pub mod piece;
+pub mod quantile;
 pub mod section;
 pub mod sliver_caps;
 pub mod solid_angle;

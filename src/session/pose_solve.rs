@@ -5,7 +5,6 @@
 //! has to and nowhere else. Where the posed body passes through itself, as at the fold of a bent hip, no garment can lie between;
 //! what of the body does so in the key pose does not take part.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -19,7 +18,7 @@ use crate::energy::pin::{Pin, Pins};
 use crate::energy::surface;
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::{Topology, TriangleMesh, triangle_area};
-use crate::geometry::solid_angle::solid_angle;
+use crate::geometry::solid_angle::winding;
 use crate::input::skin::SkinWeights;
 use crate::rig::pose_path::PosePath;
 use crate::rig::weights::blend::linear_blend;
@@ -310,17 +309,15 @@ impl PoseSolve {
         let own = self.solve.snapshot.body.triangles_of(None).map_or(0, |range| range.end as usize);
         let avatar = TriangleMesh { positions: under.positions.clone(), triangles: under.triangles[..own].to_vec() };
         let side = if avatar.signed_volume() < 0.0 { -1.0 } else { 1.0 };
-        let corners = |t: usize| avatar.triangles[t].map(|v| avatar.positions[v as usize]);
         let is_in = |t: usize| {
             if folded[t] || t >= own || !near[t] {
                 return folded[t];
             }
-            let [a, b, c] = corners(t);
+            let [a, b, c] = avatar.corners(t as u32);
             let across = (b - a).cross(c - a);
             let lift = LIFT * across.length().sqrt();
             let p = (a + b + c) / 3.0 + side * lift * across.normalize_or_zero();
-            let winding: f64 = (0..own).map(|other| solid_angle(p, corners(other))).sum::<f64>() / (2.0 * TAU);
-            side * winding > 0.5
+            side * winding(&avatar, 0..own as u32, p) > 0.5
         };
         (0..under.triangles.len()).into_par_iter().map(is_in).collect()
     }

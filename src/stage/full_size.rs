@@ -1,15 +1,13 @@
 //! Whether parts of the avatar that hold the garment between them touch each other at full size, where nothing can pass
 //! between them.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::setup::problem::Problem;
 use crate::contact::distance::{edge_edge, point_triangle};
 use crate::geometry::mesh::{TriangleMesh, label_pieces};
-use crate::geometry::solid_angle::solid_angle;
+use crate::geometry::solid_angle::winding;
 use crate::input::body::Body;
 use crate::input::weld::weld_vertices;
 use crate::verify::intersections;
@@ -153,21 +151,17 @@ impl<'a> FullSize<'a> {
     fn overlap(&self, pairs: &[Pair]) -> bool {
         let sides = |&Pair { triangles: [s, t], parts: [a, b], .. }: &Pair| [(s, a, b), (t, b, a)];
         let sides: Vec<(u32, Part, Part)> = pairs.iter().take(OVERLAP_PAIRS).flat_map(sides).collect();
+        let winding = |triangles: &[u32], p: DVec3| winding(&self.problem.avatar, triangles.iter().copied(), p);
         let avatar: Vec<u32> = (0..self.avatar_triangles as u32).collect();
         sides.par_iter().any(|&(t, own, other)| {
             let [a, b, c] = self.corners(t);
             let (centre, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize_or_zero());
-            let is_inside = |p: DVec3| self.winding(p, &avatar).abs() > INSIDE;
+            let is_inside = |p: DVec3| winding(&avatar, p).abs() > INSIDE;
             normal != DVec3::ZERO
                 && is_inside(centre + SIDE_OFFSET * normal)
                 && is_inside(centre - SIDE_OFFSET * normal)
-                && (own == other || self.winding(centre, &self.triangles_of(other)).abs() > SHARE)
+                && (own == other || winding(&self.triangles_of(other), centre).abs() > SHARE)
         })
-    }
-
-    /// The winding number of `triangles` around `p`: the solid angle under which it sees them, over 4 pi.
-    fn winding(&self, p: DVec3, triangles: &[u32]) -> f64 {
-        triangles.iter().map(|&t| solid_angle(p, self.corners(t))).sum::<f64>() / (4.0 * PI)
     }
 }
 

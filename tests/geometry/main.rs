@@ -10,6 +10,7 @@ mod median;
 mod mesh;
 mod outfit;
 mod piece;
+mod quantile;
 mod sliver_caps;
 mod solid_angle;
 mod spread;

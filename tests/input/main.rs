@@ -5,6 +5,7 @@ mod buffer;
 mod coordinate_system;
 mod curve;
 mod diagnostic;
+mod evidence;
 mod placement;
 mod skeleton;
 mod skin;

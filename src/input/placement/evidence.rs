@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::geometry::closest_point::ray_triangle;
 use crate::geometry::mesh::{Topology, TriangleMesh};
-use crate::geometry::solid_angle::solid_angle;
+use crate::geometry::solid_angle::winding;
 use crate::input::skeleton::Skeleton;
 
 /// Points along a bone, at most and where there are many triangles, and pairs of point and triangle.
@@ -28,10 +28,7 @@ pub fn inside_share(body: &TriangleMesh, skeleton: &Skeleton) -> f64 {
         .step_by(every)
         .flat_map(|&[a, b]| (0..along).map(move |k| (a.lerp(b, (k as f64 + 0.5) / along as f64), a.distance(b))))
         .collect();
-    let is_inside = |p: DVec3| {
-        let seen: f64 = (0..body.triangles.len() as u32).map(|t| solid_angle(p, body.corners(t))).sum();
-        seen.abs() > 2.0 * std::f64::consts::PI
-    };
+    let is_inside = |p: DVec3| winding(body, 0..body.triangles.len() as u32, p).abs() > 0.5;
     let inside: Vec<bool> = points.par_iter().map(|&(p, _)| is_inside(p)).collect();
     let whole: f64 = points.iter().map(|point| point.1).sum();
     let part: f64 = points.iter().zip(inside).filter(|(_, inside)| *inside).map(|(point, _)| point.1).sum();

@@ -5,7 +5,7 @@
 //! one body in the other's pose looks like it.
 
 pub mod alignment;
-mod evidence;
+pub mod evidence;
 pub mod front;
 pub mod limb;
 pub mod mirror;

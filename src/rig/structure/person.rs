@@ -60,7 +60,7 @@ impl Person {
         let ends = |l: usize, a: usize| (pairs[l].ends(), pairs[a].ends());
         let sure = !scores.iter().any(|&(score, k, b)| score > most - AS_LIKELY && ends(k, b) != ends(l, a));
         let trunk = tree.way(legs.joint, arms.joint)?;
-        let up = (tree.place(arms.joint) - tree.place(legs.joint)).normalize_or_zero();
+        let up = up(tree, &legs, &arms);
         let taken = [trunk[trunk.len() - 2], arms.pair[0].way[0], arms.pair[1].way[0]];
         let others = tree.neighbours[arms.joint as usize].iter().filter(|joint| !taken.contains(joint));
         let others = others.map(|&to| tree.longest(arms.joint, to).way);
@@ -69,14 +69,9 @@ impl Person {
         Some(Self { legs, arms, trunk, head, sure })
     }
 
-    /// The direction from the legs' joint to the arms'.
-    fn up(&self, tree: &Tree<'_>) -> DVec3 {
-        (tree.place(self.arms.joint) - tree.place(self.legs.joint)).normalize_or_zero()
-    }
-
     pub fn parts(&self, tree: &Tree<'_>) -> Vec<Option<(BodyPart, f64)>> {
         let mut parts = vec![None; tree.places.len()];
-        let up = self.up(tree);
+        let up = up(tree, &self.legs, &self.arms);
         let legs = [0, 1].map(|k| segments::find(tree, &self.legs.pair[k].way, false));
         let hips = self.hips_apart(tree, up, &legs);
         let arms = [0, 1].map(|k| {
@@ -222,6 +217,11 @@ impl Person {
         let across = limbs.pair[0].tip(tree) - limbs.pair[1].tip(tree);
         (usize::from(across.dot(left) < 0.0), sees)
     }
+}
+
+/// The direction from the legs' joint to the arms'.
+fn up(tree: &Tree<'_>, legs: &Limbs, arms: &Limbs) -> DVec3 {
+    (tree.place(arms.joint) - tree.place(legs.joint)).normalize_or_zero()
 }
 
 /// How well two pairs of limbs do for legs and arms: legs go on along the trunk, arms do not, both are long and even. None where they

@@ -3,6 +3,7 @@
 
 use super::{Distorted, Outcome};
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::quantile::quantile_of_sorted;
 
 /// This share of the cloth, by its area in the design, is left out at either end.
 const LEFT_OUT: f64 = 0.05;
@@ -15,15 +16,8 @@ pub(super) fn distorted(outcome: &Outcome<'_>) -> Option<Distorted> {
     let scale = |(t, (&before, &now)): (u32, (&f64, &f64))| (before > 0.0).then(|| ((now / before).sqrt(), before, t));
     let mut scales: Vec<(f64, f64, u32)> = (0..).zip(design.iter().zip(&result)).filter_map(scale).collect();
     scales.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
-    let whole: f64 = scales.iter().map(|scale| scale.1).sum();
-    let at = |share: f64| {
-        let mut sum = 0.0;
-        let reached = scales.iter().find(|scale| {
-            sum += scale.1;
-            sum >= share * whole
-        });
-        reached.map(|&(scale, _, triangle)| (scale, triangle))
-    };
+    let at =
+        |share: f64| quantile_of_sorted(&scales, |scale| scale.1, share).map(|&(scale, _, triangle)| (scale, triangle));
     let ((smaller, shrunk), (larger, drawn_out)) = (at(LEFT_OUT)?, at(1.0 - LEFT_OUT)?);
     (larger > MOST * smaller).then_some(Distorted { scales: [smaller, larger], triangles: [shrunk, drawn_out] })
 }

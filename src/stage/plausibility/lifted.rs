@@ -7,6 +7,7 @@
 use super::nearest::parts_of_bones;
 use super::{Lifted, Outcome};
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::quantile::quantile;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 
 /// The share of the cloth, by its area in the design, of which how many times as far from the bones as in the design it lies is
@@ -32,24 +33,12 @@ pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted>
     }
     let (before, now) = (distances(design, source, graph), distances(result, target, graph));
     let ratio = |t: usize| now[t].max(LEAST_DISTANCE) / before[t].max(LEAST_DISTANCE);
-    let near = quantile((0..areas.len()).map(|t| (ratio(t), areas[t])).collect(), NEAR);
-    let far = BEYOND.0 * quantile(before.iter().copied().zip(areas.iter().copied()).collect(), BEYOND.1);
+    let near = quantile((0..areas.len()).map(|t| (ratio(t), areas[t])).collect(), NEAR)?;
+    let far = BEYOND.0 * quantile(before.iter().copied().zip(areas.iter().copied()).collect(), BEYOND.1)?;
     let stands_off: Vec<usize> = (0..areas.len()).filter(|&t| ratio(t) > MORE * near && now[t] > far).collect();
     let area: f64 = stands_off.iter().map(|&t| areas[t]).sum();
     let farthest = stands_off.into_iter().max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)).then(b.cmp(&a)))?;
     (area > MOST * whole).then(|| Lifted { triangle: farthest as u32, times: ratio(farthest) / near })
-}
-
-/// The value that this share of the weights does not exceed; 0 without any.
-fn quantile(mut values: Vec<(f64, f64)>, share: f64) -> f64 {
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let whole: f64 = values.iter().map(|value| value.1).sum();
-    let mut sum = 0.0;
-    let reached = values.iter().find(|value| {
-        sum += value.1;
-        sum >= share * whole
-    });
-    reached.map_or(0.0, |value| value.0)
 }
 
 /// The distance of each triangle from the nearest bone.

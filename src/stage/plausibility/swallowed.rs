@@ -11,6 +11,7 @@ use crate::control::{Cancel, Cancelled};
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::cover::cover_towards;
 use crate::geometry::mesh::label_pieces;
+use crate::geometry::quantile::quantile;
 use crate::input::skeleton::BoneGraph;
 use crate::input::weld::weld_vertices;
 
@@ -100,8 +101,10 @@ fn far(outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Far> {
             let middle = result.centre(part.triangle);
             middle.distance(target.point_at(bone, graph.project(target, bone, middle)))
         };
-        let designed = median(cloth.iter().map(|part| (part.distance, part.area)).collect());
-        let now = median(cloth.iter().map(|part| (in_result(part), part.area)).collect());
+        let median = |distance: &dyn Fn(&Part) -> f64| {
+            quantile(cloth.iter().map(|part| (distance(part), part.area)).collect(), 0.5).unwrap_or(0.0)
+        };
+        let (designed, now) = (median(&|part| part.distance), median(&in_result));
         if designed <= 0.0 || now <= 0.0 {
             continue;
         }
@@ -131,16 +134,4 @@ fn far(outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Far> {
         }
     }
     all
-}
-
-/// The median of values with weights; 0 without any.
-fn median(mut values: Vec<(f64, f64)>) -> f64 {
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let half = 0.5 * values.iter().map(|value| value.1).sum::<f64>();
-    let mut sum = 0.0;
-    let middle = values.iter().find(|value| {
-        sum += value.1;
-        sum >= half
-    });
-    middle.map_or(0.0, |value| value.0)
 }

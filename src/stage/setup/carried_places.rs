@@ -24,6 +24,7 @@ use super::source_body::SourceBody;
 use crate::energy::pin::{Pin, Pins};
 use crate::geometry::alignment::Similarity;
 use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::quantile::quantile;
 use crate::geometry::turn;
 use crate::sdf::Field;
 
@@ -248,7 +249,8 @@ impl Piece {
             return designed.iter().map(|d| (d + offset).max(least)).collect();
         }
         let distances: Vec<f64> = self.places.iter().map(|&p| field.value(p)).collect();
-        let touching = low_quantile(&distances, if self.stiff { 0.0 } else { OUTLIERS });
+        let outliers = if self.stiff { 0.0 } else { OUTLIERS };
+        let touching = quantile(distances.iter().map(|&d| (d, 1.0)).collect(), outliers).unwrap_or(0.0);
         distances.iter().map(|d| (d - touching).max(0.0) + offset.max(least)).collect()
     }
 
@@ -366,10 +368,4 @@ fn vertex_areas(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     }
     let mean = areas.iter().sum::<f64>() / areas.len().max(1) as f64;
     areas.iter().map(|area| area.max(0.01 * mean)).collect()
-}
-
-fn low_quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get((share * sorted.len() as f64) as usize).copied().unwrap_or(0.0)
 }

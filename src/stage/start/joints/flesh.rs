@@ -1,7 +1,6 @@
 //! A body around its skeleton: what is inside of it, and where.
 
 use std::collections::HashMap;
-use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
@@ -10,7 +9,7 @@ use rayon::prelude::*;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::cover::cover;
 use crate::geometry::mesh::TriangleMesh;
-use crate::geometry::solid_angle::solid_angle;
+use crate::geometry::solid_angle::winding;
 
 /// The body winds around a point inside this often at least, and less than half of it around one that is surely outside;
 /// between the two the body is open nearby.
@@ -69,11 +68,11 @@ impl Flesh {
     }
 
     fn count_winding(&self, p: DVec3) -> f64 {
-        let angle = |t: u32| solid_angle(p, self.mesh.corners(t));
         // In pieces of fixed size, so that the sum does not depend on the number of threads.
         let triangles: Vec<u32> = (0..self.mesh.triangles.len() as u32).collect();
-        let sums: Vec<f64> = triangles.par_chunks(4096).map(|part| part.iter().map(|&t| angle(t)).sum()).collect();
-        (sums.iter().sum::<f64>() / (2.0 * TAU)).abs()
+        let of_part = |part: &[u32]| winding(&self.mesh, part.iter().copied(), p);
+        let parts: Vec<f64> = triangles.par_chunks(4096).map(of_part).collect();
+        parts.iter().sum::<f64>().abs()
     }
 
     /// The middle of the limb that is nearest to `p`, which is outside: half-way from where the shortest way to the surface
