@@ -120,6 +120,12 @@ impl Surface {
         }
         term
     }
+
+    /// Weighs the hinges at the marked vertices by `factor` of what they did.
+    pub fn soften(&mut self, marked: impl Fn(u32) -> bool, factor: f64) {
+        let soft = self.elements.iter_mut().filter(|element| element.vertices.into_iter().any(&marked));
+        soft.for_each(|element| element.weight *= factor);
+    }
 }
 
 /// The squared distance of v3 and v4 once the hinge has been laid flat.

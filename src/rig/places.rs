@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body_part::{BodyPart, Side};
 use super::landmark::Landmark;
 use super::reading::Reading;
-use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::mesh::{TriangleMesh, triangle_area};
 use crate::input::rig::Rig;
 use crate::input::skin::SkinWeights;
 
@@ -158,7 +158,20 @@ impl Flesh<'_> {
         })
     }
 
-    /// The top of the head, along the way from the neck to the middle of what belongs to it.
+    /// The area around each of these vertices.
+    fn areas(&self) -> Vec<f64> {
+        let Some(body) = self.character.body else { return Vec::new() };
+        let mut areas = vec![0.0; body.positions.len()];
+        for t in &body.triangles {
+            let share = triangle_area(t.map(|v| body.positions[v as usize])) / 3.0;
+            t.iter().for_each(|&v| areas[v as usize] += share);
+        }
+        let used = body.used_vertices();
+        areas.into_iter().zip(used).filter(|(_, used)| *used).map(|(area, _)| area).collect()
+    }
+
+    /// The top of the head, along the way from the neck to the middle of the surface that belongs to it: of the vertices most may be
+    /// in the face.
     fn head_top(&self, pelvis: DVec3, neck: DVec3) -> DVec3 {
         let trunk = neck - pelvis;
         let up = trunk.normalize_or_zero();
@@ -174,14 +187,22 @@ impl Flesh<'_> {
                 height > 0.0 && (from - height * up).length() < 0.5 * trunk.length()
             }
         };
-        let of_head: Vec<DVec3> = self.vertices().filter(|&(p, joint)| is_head(p, joint)).map(|(p, _)| p).collect();
+        let mut areas = self.areas().into_iter();
+        let of_head: Vec<(DVec3, f64)> = self
+            .vertices()
+            .map(|(p, joint)| (p, joint, areas.next().unwrap_or_default()))
+            .filter(|&(p, joint, _)| is_head(p, joint))
+            .map(|(p, _, area)| (p, area))
+            .collect();
         let head = self.reading.joint_of(BodyPart::Head).map(|joint| self.character.rig.place(joint));
         let direction = if of_head.is_empty() {
             head.map_or(up, |head| (head - neck).normalize_or(up))
         } else {
-            (of_head.iter().sum::<DVec3>() / of_head.len() as f64 - neck).normalize_or(up)
+            let total = of_head.iter().map(|(_, area)| area).sum::<f64>().max(f64::MIN_POSITIVE);
+            let middle = of_head.iter().map(|&(p, area)| area * p).sum::<DVec3>() / total;
+            (middle - neck).normalize_or(up)
         };
-        let reach = of_head.iter().map(|&p| (p - neck).dot(direction)).fold(0.0, f64::max);
+        let reach = of_head.iter().map(|&(p, _)| (p - neck).dot(direction)).fold(0.0, f64::max);
         let reach = if reach > 0.0 { HEAD_TOP * reach } else { HEAD * trunk.length() };
         neck + reach * direction
     }

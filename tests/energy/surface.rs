@@ -135,6 +135,24 @@ fn a_hinge_weighs_its_area_where_it_has_the_length() {
 }
 
 #[test]
+fn soft_hinges_weigh_less_and_the_others_what_they_did() {
+    let mut random = Random::new(9);
+    for patch in patches(&mut random) {
+        let form = SurfaceForm::Similarity;
+        let x = shaken(&patch.rest, 1.0, &mut random);
+        let is_soft = |v: u32| v.is_multiple_of(5);
+        let at_soft = |hinge: &&Hinge| hinge.vertices.into_iter().any(is_soft);
+        let soft: Vec<Hinge> = patch.hinges.iter().filter(at_soft).copied().collect();
+        assert!(!soft.is_empty() && soft.len() < patch.hinges.len());
+        let whole = Surface::new(&patch.rest, &patch.hinges, form);
+        let mut energy = whole.clone();
+        energy.soften(is_soft, 0.25);
+        let expected = value(&whole, &x) - 0.75 * value(&Surface::new(&patch.rest, &soft, form), &x);
+        assert!((value(&energy, &x) - expected).abs() <= 1e-12 * expected);
+    }
+}
+
+#[test]
 fn gradient_is_exact_at_any_resolution() {
     let mut random = Random::new(23);
     for form in FORMS {

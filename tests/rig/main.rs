@@ -6,6 +6,7 @@ mod large;
 mod limbs;
 mod names;
 mod own_joints;
+mod places;
 mod pose_path;
 mod posing;
 mod structure;

@@ -125,6 +125,10 @@ fn hat_on(hat: &TriangleMesh, target: &TriangleMesh) -> (CarriedPiece, Vec<(u32,
     assert_eq!(found.len(), 1, "{found:?}");
     let map = BoneMap::new(&skeleton, &skeleton, Some([&body.positions, &target.positions]));
     let mut carried = CarriedPlaces::new(hat, &found, &map, Some(&source), 1.0);
+    // What is no filling has a place, and nothing else.
+    let fillings: Vec<u32> = carried.fillings().collect();
+    let placed: Vec<u32> = carried.term().pins().iter().map(|pin| pin.vertex).collect();
+    assert!((0..hat.positions.len() as u32).all(|v| fillings.contains(&v) != placed.contains(&v)));
     carried.settle(&field(target), 0.002, 0.0);
     let ends = carried.term().pins().iter().map(|pin| (pin.vertex, pin.end)).collect();
     (found[0].clone(), ends, carried.stiff().count())

@@ -100,7 +100,7 @@ impl Case {
         Problem::new(&inputs, options, &Cancel::new(), diagnostics)
     }
 
-    fn shrunk_penetrates(&self) -> bool {
+    pub fn shrunk_penetrates(&self) -> bool {
         let projected = project(&self.avatar, &self.target, &self.source, None);
         let shrunk = TriangleMesh { positions: projected.start, triangles: projected.triangles };
         intersections(&self.garment, Some(&shrunk), 1).unwrap().count > 0
@@ -169,7 +169,7 @@ impl Case {
 }
 
 /// Edges of each mesh through triangles of the other, all against all, in plain arithmetic.
-fn edge_crossings(p: &[DVec3], garment: &[[u32; 3]], q: &[DVec3], pieces: &[[u32; 3]]) -> usize {
+pub fn edge_crossings(p: &[DVec3], garment: &[[u32; 3]], q: &[DVec3], pieces: &[[u32; 3]]) -> usize {
     let through = |a: DVec3, b: DVec3, [x, y, z]: [DVec3; 3]| {
         let (e, f, d) = (y - x, z - x, b - a);
         let n = d.cross(f);

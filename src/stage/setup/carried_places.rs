@@ -154,6 +154,15 @@ impl CarriedPlaces {
         self.pieces.iter().filter(|piece| piece.stiff).map(move |piece| (&piece.vertices[..], scaled(piece)))
     }
 
+    /// Vertices of fillings, which have no place.
+    pub fn fillings(&self) -> impl Iterator<Item = u32> {
+        let of = |piece: &Piece| -> Vec<u32> {
+            let own = |v: &u32| piece.vertices.binary_search(v).is_err();
+            piece.carried.vertices.iter().copied().filter(own).collect()
+        };
+        self.pieces.iter().flat_map(of)
+    }
+
     /// Brings all pieces to their clearances from the body of `field`: `least` at least, and the designed one and `offset`.
     pub fn settle(&mut self, field: &Field, least: f64, offset: f64) {
         for piece in &mut self.pieces {

@@ -64,6 +64,9 @@ pub struct Asked<'a> {
     pub curves: &'a [WeldedCurve],
 }
 
+/// What fills a hat keeps this share of its stiffness: the head comes into it.
+const FILLING: f64 = 0.01;
+
 /// Pieces of a garment that have their place from something else than the bones inside of them.
 pub struct HeldPieces<'a> {
     /// Those that are held to others.
@@ -108,11 +111,15 @@ impl Shape {
         let whole = without_caps(rest, &closed);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
-        let surface = if options.surface_length > 0.0 {
+        let mut surface = if options.surface_length > 0.0 {
             Surface::at_any_resolution(rest, hinges, options.surface_form, options.surface_length)
         } else {
             Surface::new(rest, hinges, options.surface_form)
         };
+        let fillings: HashSet<u32> = held.carried.fillings().collect();
+        if !fillings.is_empty() {
+            surface.soften(|v| fillings.contains(&v), FILLING);
+        }
         let shape = Self {
             surface,
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),

@@ -141,8 +141,9 @@ struct Repair {
 /// them, they are kept inside by force, if that can be done.
 ///
 /// Of what is not around bones in the design either, as the brim of a hat, more may be left outside: where no path has the
-/// garment around it as a rule, one will do that leads no bone out of its piece. And where no joint lies in the garment, such
-/// as that of a head beyond its hat, the joint that the search begins with lies before it.
+/// garment around it as a rule, one will do that leads no bone out of its piece. And where the search begins with a leaf, such as
+/// the end of a head beyond its hat or in the filling of its crown, and finds nothing, it begins with the joint before: the leaf
+/// is pulled back rather than led around what it meets.
 fn search_path(
     garment: &TriangleMesh,
     avatar: &TriangleMesh,
@@ -164,15 +165,16 @@ fn search_path(
     };
     let whole: f64 = source.bones.iter().map(|b| length(source, *b)).sum();
     let mut design_share = None;
-    let mut rounds = |search: &PathSearch, root: u32| -> Result<Found> {
+    // That `leaf` is pulled back does not speak against a path.
+    let mut rounds = |search: &PathSearch, root: u32, leaf: Option<u32>| -> Result<Found> {
         let cut = cycles(source, root);
         let mut found = Found::default();
         for settings in &ROUNDS {
             let Some(path) = search.find(root, &cut, settings, cancel)? else { continue };
-            let retracted: f64 = path.retracted.iter().map(|p| p[0]).sum();
+            let in_all: f64 = path.retracted.iter().map(|p| p[0]).sum();
+            let retracted = in_all - leaf.map_or(0.0, |bone| path.retracted[bone as usize][0]);
             let better = |than: &Option<Repair>| than.as_ref().is_none_or(|than| retracted < than.retracted);
-            if !better(&found.best) || retracted > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS
-            {
+            if !better(&found.best) || in_all > MAX_RETRACTED * whole || path.bent.skeleton.joints.len() > MAX_JOINTS {
                 continue;
             }
             let start = path.bent.reproject(avatar, projected);
@@ -200,7 +202,7 @@ fn search_path(
         }
         Ok(found)
     };
-    let free = rounds(&search, root)?;
+    let free = rounds(&search, root, None)?;
     let lost = match &free.best {
         Some(best) => best.lost.clone(),
         None => design.around(&search.prefer_enclosed),
@@ -212,16 +214,16 @@ fn search_path(
         Found::default()
     } else {
         search.keep_inside = design.keep(&lost);
-        rounds(&search, root)?
+        rounds(&search, root, None)?
     };
     let better = kept.best.filter(|kept| free.best.is_none() || kept.lost.len() < lost.len());
     if let Some(found) = better.or(free.best).or(free.second).or(kept.second) {
         return Ok(Some(found));
     }
-    let Some(before) = root_before(garment, source, root) else { return Ok(None) };
+    let Some((before, leaf)) = root_before(source, root) else { return Ok(None) };
     search.keep_inside.fill_with(|| None);
     search.root_planes = enclosing_planes(garment, source.joints[before as usize]);
-    let found = rounds(&search, before)?;
+    let found = rounds(&search, before, Some(leaf))?;
     Ok(found.best.filter(|best| best.lost.is_empty()).or(found.second))
 }
 
@@ -245,18 +247,12 @@ fn choose_root(garment: &TriangleMesh, source: &Skeleton) -> u32 {
     joints.into_iter().rev().max_by_key(score).unwrap_or(0)
 }
 
-/// A joint between bones that the garment encloses no less than `root`, the nearest one to `root`: where that is a leaf beyond
-/// the garment, what lies there can be pulled back from here.
-fn root_before(garment: &TriangleMesh, source: &Skeleton, root: u32) -> Option<u32> {
-    let inner = |&j: &u32| source.bones.iter().filter(|bone| bone.contains(&j)).count() > 1;
-    let at = source.joints[root as usize];
-    (enclosing_planes(garment, at) < 3).then(|| {
-        let joints = (0..source.joints.len() as u32).filter(inner);
-        joints.min_by(|&a, &b| {
-            let distance = |j: u32| source.joints[j as usize].distance_squared(at);
-            distance(a).total_cmp(&distance(b))
-        })
-    })?
+/// Where `root` is a leaf, the other end of its bone, and the bone: what lies beyond the garment, or within what fills it, as the end
+/// of a head's bone in the crown of a hat, can be pulled back from there, and never from the leaf.
+fn root_before(source: &Skeleton, root: u32) -> Option<(u32, u32)> {
+    let mut bones = (0..).zip(&source.bones).filter(|(_, ends)| ends.contains(&root));
+    let (bone, &[a, b]) = bones.next()?;
+    bones.next().is_none().then_some((if a == root { b } else { a }, bone))
 }
 
 /// The bones without which the skeleton is a tree.
