@@ -469,9 +469,9 @@ impl Display for Diagnostic {
                 let next = if bone.joints[0] == *joint { bone.joints[1] } else { bone.joints[0] };
                 write!(
                     f,
-                    "source skeleton: the limb from joint {joint} over joint {next} passes through the cloth, and no bone through the \
-                     opening at {}, to which it would have to be turned by {degrees:.0} degrees; bring skeleton and garment into one \
-                     pose",
+                    "source skeleton: the limb from joint {joint} over joint {next} is elsewhere than its part of the garment: no bone \
+                     goes through the opening at {}, to which it would have to be turned by {degrees:.0} degrees; bring skeleton and \
+                     garment into one pose",
                     point(*opening)
                 )
             }

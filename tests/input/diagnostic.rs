@@ -566,8 +566,8 @@ fn what_does_not_belong_together_is_said_with_what_mends_it() {
     };
     assert_eq!(
         limb(true).to_string(),
-        "source skeleton: the limb from joint 3 over joint 4 passes through the cloth, and no bone through the opening at (0.5, 1, \
-         0), to which it would have to be turned by 81 degrees; bring skeleton and garment into one pose"
+        "source skeleton: the limb from joint 3 over joint 4 is elsewhere than its part of the garment: no bone goes through the \
+         opening at (0.5, 1, 0), to which it would have to be turned by 81 degrees; bring skeleton and garment into one pose"
     );
     assert_eq!(limb(true).elements(), [Element::bone(Subject::SourceSkeleton, 4)]);
     assert_eq!([true, false].map(|gross| limb(gross).severity()), [Severity::Error, Severity::Warning]);

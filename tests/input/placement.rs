@@ -341,10 +341,22 @@ fn meshes_that_are_turned_against_their_skeletons_are_named_with_the_angle() {
 fn limbs_beside_their_sleeves_are_named() {
     let mut missed = Vec::new();
     let (mut slowest, mut count) = (0.0, 0);
-    for (garment, limbs) in [(Garment::Sweater, ARMS), (Garment::Jumpsuit, ARMS), (Garment::Trousers, LEGS)] {
+    for (garment, limbs) in
+        [(Garment::Sweater, ARMS), (Garment::Coat, ARMS), (Garment::Jumpsuit, ARMS), (Garment::Trousers, LEGS)]
+    {
         let (pair, good) = dressed(&[garment], &[Avatar::Slim]).remove(0);
-        // Raised or lowered to the sides, and to the front: the angle, and whether that is refused.
-        for (axis, degrees, gross) in [(DVec3::Y, 80.0_f64, true), (DVec3::X, 90.0, true), (DVec3::Y, 30.0, false)] {
+        // Raised or lowered to the sides, and to the front: the angle, and whether that is refused. Where they hang within the
+        // garment beside their sleeves, they meet no cloth.
+        for (axis, degrees, gross) in [
+            (DVec3::Y, 80.0_f64, true),
+            (DVec3::X, 90.0, true),
+            (DVec3::Y, 30.0, false),
+            (DVec3::Y, -30.0, false),
+            (DVec3::Y, -40.0, true),
+            (DVec3::Y, -45.0, true),
+            (DVec3::Y, -55.0, true),
+            (DVec3::Y, -70.0, true),
+        ] {
             for limbs in [&limbs[..], &limbs[..1]] {
                 // Both legs forward, and it is the trousers that lie across; to the sides legs meet no cloth.
                 let is_leg = limbs[0] == LEGS[0];

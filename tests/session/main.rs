@@ -23,6 +23,7 @@ mod morphs;
 mod plausibility;
 mod profile;
 mod refit;
+mod reports;
 mod reshape;
 mod rigs;
 mod shared;

@@ -79,6 +79,11 @@ impl<'a> Threaded<'a> {
         Self { garment, openings: topology.loops.iter().map(|boundary| opening(&boundary.vertices)).collect() }
     }
 
+    /// How many openings there are.
+    pub fn openings(&self) -> usize {
+        self.openings.len()
+    }
+
     /// Middle and length of an opening.
     pub fn opening(&self, k: usize) -> (DVec3, f64) {
         (self.openings[k].middle, self.openings[k].length)

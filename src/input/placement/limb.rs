@@ -1,13 +1,15 @@
 //! Limbs of the source skeleton that are in another pose than the garment, such as arms that hang beside spread sleeves.
 //!
-//! Such a limb passes through the cloth, and the opening that it was made for has nothing in it. Turned about the joint where it
-//! begins until it points there, it goes through the opening and through no cloth: that proves it.
+//! Such a limb passes through the cloth, or lies beside a sleeve or leg within the rest of the garment, and the opening that it was
+//! made for has nothing in it. Turned about the joint where it begins until it points there, it goes through the opening and through
+//! no cloth: that proves it.
 
 use glam::DVec3;
 
 use super::evidence::{LEAF_REACH, MOST_BONES, Threaded};
 use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
+use crate::maths;
 
 /// A limb that is turned by less than this, in degrees, is in the garment.
 const LEAST: f64 = 25.0;
@@ -16,6 +18,13 @@ const REACH: [f64; 2] = [0.3, 1.5];
 /// A limb may go through an opening that is longer around than this share of the limb's length, and so many are tried.
 const WIDE: f64 = 0.15;
 const TRIED: usize = 8;
+/// An opening is the end of a sleeve where cloth is around the limb at these shares of the way to it, in so many of so many
+/// directions no farther away than this, in lengths of the limb.
+const SLEEVE: [f64; 3] = [0.6, 0.75, 0.9];
+const AROUND: (usize, usize) = (14, 16);
+const NARROW: f64 = 0.3;
+/// Points along a bone.
+const ALONG: usize = 32;
 
 /// A limb of the skeleton that should be elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,11 +45,11 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         return Vec::new();
     }
     let bones = skeleton.lengthened(0.0);
-    let pierced: Vec<bool> = bones.iter().map(|&bone| garment.passes_cloth(bone)).collect();
-    if !pierced.contains(&true) {
+    let empty = garment.empty_openings(skeleton);
+    if empty.is_empty() {
         return Vec::new();
     }
-    let empty = garment.empty_openings(skeleton);
+    let pierced: Vec<bool> = bones.iter().map(|&bone| garment.passes_cloth(bone)).collect();
     let mut found: Vec<(usize, TurnedLimb)> = Vec::new();
     let mut taken = vec![false; skeleton.joints.len()];
     let directed = (0u32..).zip(&skeleton.bones).flat_map(|(bone, &[a, b])| [(bone, a, b), (bone, b, a)]);
@@ -53,7 +62,8 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         let root = skeleton.joints[joint as usize];
         let is_own = |&k: &usize| k == bone as usize || skeleton.bones[k].iter().all(|j| limb.contains(j));
         let own: Vec<usize> = (0..bones.len()).filter(is_own).collect();
-        if !own.iter().any(|&k| pierced[k]) {
+        let is_pierced = own.iter().any(|&k| pierced[k]);
+        if !is_pierced && has_opening(garment, skeleton, &own) {
             continue;
         }
         let far = |&j: &u32| skeleton.joints[j as usize].distance_squared(root);
@@ -84,7 +94,9 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
             let [whole, reaching] = [0.0, LEAF_REACH].map(|reach| moved.lengthened(reach));
             let through = own.iter().any(|&k2| garment.goes_through(k, reaching[k2]));
             let passing = own.iter().filter(|&&k| garment.passes_cloth(whole[k])).count();
-            if through && passing == 0 {
+            let way = || own.iter().map(|&k2| whole[k2]);
+            let reach = middle.distance(root);
+            if through && passing == 0 && (is_pierced || is_in_sleeve(garment, way(), root, reach, along.length())) {
                 found.push((limb.len(), TurnedLimb { bone, joint, opening: middle, degrees }));
             }
         }
@@ -101,6 +113,37 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         }
     }
     limbs
+}
+
+/// Whether these bones go through an opening that no other bone goes through.
+fn has_opening(garment: &Threaded<'_>, skeleton: &Skeleton, own: &[usize]) -> bool {
+    let segments = skeleton.lengthened(LEAF_REACH);
+    (0..garment.openings()).any(|opening| {
+        let mut through = (0..segments.len()).filter(|&k| garment.goes_through(opening, segments[k])).peekable();
+        through.peek().is_some() && through.all(|k| own.contains(&k))
+    })
+}
+
+/// Whether cloth is close around a limb of this `length` most of the way, along its `bones`, from `root` to what is `reach` away.
+fn is_in_sleeve(
+    garment: &Threaded<'_>,
+    bones: impl Iterator<Item = [DVec3; 2]> + Clone,
+    root: DVec3,
+    reach: f64,
+    length: f64,
+) -> bool {
+    let points = bones.flat_map(|[a, b]| (0..=ALONG).map(move |k| (a.lerp(b, k as f64 / ALONG as f64), b - a)));
+    SLEEVE.iter().all(|share| {
+        let beside = |p: DVec3| (p.distance(root) - share * reach).abs();
+        let nearest = points.clone().min_by(|a, b| beside(a.0).total_cmp(&beside(b.0)));
+        let Some((p, along)) = nearest else { return false };
+        let (u, v) = along.normalize_or(DVec3::Z).any_orthonormal_pair();
+        let towards = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / AROUND.1 as f64;
+            p + NARROW * length * (maths::cos(angle) * u + maths::sin(angle) * v)
+        };
+        (0..AROUND.1).filter(|&k| garment.passes_cloth([p, towards(k)])).count() >= AROUND.0
+    })
 }
 
 /// The joints that `from` leads to without passing `bone`.
