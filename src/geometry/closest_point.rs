@@ -50,6 +50,9 @@ pub struct ClosestPoint {
     corners: Vec<[DVec3; 3]>,
     /// The mesh's index of each entry of `corners`.
     triangles: Vec<u32>,
+    /// By how much boxes are wider than what is in them: a triangle's rounded distance must not fall below that of its box, else
+    /// pruning would depend on the path.
+    slack: f64,
 }
 
 impl ClosestPoint {
@@ -58,18 +61,17 @@ impl ClosestPoint {
         let of = |t: u32| mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]);
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
         let centres: Vec<DVec3> = order.iter().map(|&t| of(t).iter().sum::<DVec3>() / 3.0).collect();
-        // A triangle's rounded distance must not fall below that of its box, else pruning would depend on the path.
         let largest = mesh.positions.iter().fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
-        let slack = DVec3::splat(1e-14 * largest);
+        let slack = 1e-14 * largest;
         let mut nodes = Vec::with_capacity(2 * order.len().div_ceil(LEAF_SIZE));
         if !order.is_empty() {
             let bounds = |t: u32| {
                 let [a, b, c] = of(t);
-                (a.min(b).min(c) - slack, a.max(b).max(c) + slack)
+                (a.min(b).min(c) - DVec3::splat(slack), a.max(b).max(c) + DVec3::splat(slack))
             };
             build(&mut nodes, &mut order, 0, &bounds, &centres);
         }
-        Self { nodes, corners: order.iter().map(|&t| of(t)).collect(), triangles: order }
+        Self { nodes, corners: order.iter().map(|&t| of(t)).collect(), triangles: order, slack }
     }
 
     /// Bytes that it holds.
@@ -204,6 +206,13 @@ impl ClosestPoint {
         }
     }
 
+    /// Squared distance to the box of a triangle, which takes a fraction of that to the triangle.
+    #[inline]
+    fn box_distance_squared(&self, p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        ((low - p).max(p - high) - DVec3::splat(self.slack)).max(DVec3::ZERO).length_squared()
+    }
+
     /// Squared distance and slot of the closest triangle.
     fn search(&self, p: DVec3, hint: Option<usize>) -> Option<(f64, usize)> {
         let root = self.nodes.first()?;
@@ -226,6 +235,9 @@ impl ClosestPoint {
             if node.count > 0 {
                 let from = node.start as usize;
                 for (i, corners) in self.corners[from..from + node.count as usize].iter().enumerate() {
+                    if self.box_distance_squared(p, corners) > best {
+                        continue;
+                    }
                     let squared = closest_on_triangle(p, corners).distance_squared(p);
                     if squared < best {
                         (best, slot) = (squared, from + i);

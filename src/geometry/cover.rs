@@ -3,10 +3,11 @@
 //! In a sleeve that is nearly 1, at a cuff a half, beyond it a few hundredths. Holes in the cloth, the number of its pieces and
 //! their winding make no difference.
 
+use std::sync::LazyLock;
+
 use glam::DVec3;
 
 use super::closest_point::ClosestPoint;
-
 use crate::maths;
 
 /// Directions in which a point looks.
@@ -16,7 +17,8 @@ const CONE: f64 = 0.64;
 
 /// The share of [`DIRECTIONS`], spread evenly, in which `surface` is seen from `p`.
 pub fn cover(surface: &ClosestPoint, p: DVec3) -> f64 {
-    (0..DIRECTIONS).filter(|&k| surface.meets_ray(p, direction(k, DIRECTIONS))).count() as f64 / DIRECTIONS as f64
+    static SPREAD: LazyLock<[DVec3; DIRECTIONS]> = LazyLock::new(|| std::array::from_fn(|k| direction(k, DIRECTIONS)));
+    SPREAD.iter().filter(|&&d| surface.meets_ray(p, d)).count() as f64 / DIRECTIONS as f64
 }
 
 /// The share of directions within some 50 degrees of `axis`, a unit vector, in which `surface` is seen from `p`.

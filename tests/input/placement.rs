@@ -4,10 +4,12 @@ use std::sync::LazyLock;
 use std::time::Instant;
 
 use bespoke::error::Result;
+use bespoke::geometry::closest_point::closest_on_segment;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{Diagnostic, Severity, Subject};
 use bespoke::input::placement;
+use bespoke::input::placement::bones::Bones;
 use bespoke::input::placement::scene::Scene;
 use bespoke::input::placement::size::Surroundings;
 use bespoke::input::skeleton::Skeleton;
@@ -17,6 +19,7 @@ use closet::garments::{Garment, garment};
 use closet::skeleton::{ARMS, BONES, LEGS};
 use closet::{Kind, Sample, sample};
 use glam::{DQuat, DVec3};
+use testing::Random;
 
 /// A garment, the body that it was designed on, and the one to dress.
 #[derive(Clone)]
@@ -487,6 +490,31 @@ fn good_pairs_are_not_flagged() {
             let (turn, found) = inputs.check(true);
             assert!(found.is_empty(), "{pair}: {found:?}");
             assert_eq!(turn.unwrap(), AxisTurn::IDENTITY);
+        }
+    }
+}
+
+#[test]
+fn distances_from_bones_agree_with_brute_force() {
+    let mut random = Random::new(5);
+    for count in 0..12 {
+        let mut place = || DVec3::from_array(std::array::from_fn(|_| 10.0 * random.signed()));
+        let mut bones: Vec<([DVec3; 2], [u32; 2])> =
+            (0..count).map(|k: u32| ([place(), place()], [k / 2, (k * k) % 7])).collect();
+        // Two joints in one place.
+        if let Some(bone) = bones.get_mut(3) {
+            bone.0[1] = bone.0[0];
+        }
+        let points: Vec<DVec3> = (0..50).map(|_| place()).chain(bones.iter().flat_map(|b| b.0)).collect();
+        let near = Bones::new(&bones, true);
+        for p in points {
+            for joint in [None].into_iter().chain((0..9).map(Some)) {
+                let own = bones.iter().filter(|(_, joints)| joint.is_none_or(|j| joints.contains(&j)));
+                let each = own.map(|&([a, b], _)| closest_on_segment(p, a, b - a).distance(p));
+                let brute = each.fold(f64::INFINITY, f64::min);
+                let found = near.distance(p, joint);
+                assert!(found == brute || (found - brute).abs() < 1e-12, "{count} bones, {joint:?}: {found}, {brute}");
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 //! one body in the other's pose looks like it.
 
 pub mod alignment;
+pub mod bones;
 pub mod evidence;
 pub mod front;
 pub mod limb;

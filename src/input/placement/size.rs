@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::geometry::closest_point::closest_on_segment;
+use super::bones::Bones;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::spread::spread;
 use crate::input::coordinate_system::AxisTurn;
@@ -109,7 +109,7 @@ pub struct Surroundings {
     points: Vec<Point>,
     /// Corners of every so many triangles.
     corners: Vec<Point>,
-    bones: Vec<([DVec3; 2], [u32; 2])>,
+    bones: Bones,
     /// Root mean square of the distances of the points from their mean.
     radius: f64,
     /// The longest sides of the boxes around mesh and joints.
@@ -144,7 +144,7 @@ impl Surroundings {
         let radius = (square / points.len().max(1) as f64).sqrt();
         let used = mesh.triangles.iter().flatten().map(|&v| mesh.positions[v as usize]);
         let extents = [longest_side(used), longest_side(skeleton.joints.iter().copied())];
-        Self { points, corners, bones, radius, extents, expected }
+        Self { points, corners, bones: Bones::new(&bones, skin.is_some()), radius, extents, expected }
     }
 
     /// The mean distance from the bones, once the mesh has been mended.
@@ -154,14 +154,7 @@ impl Surroundings {
     }
 
     fn distance_of(&self, &(p, joint): &Point, factor: f64, turn: AxisTurn) -> f64 {
-        self.distance_at(factor * turn.apply(p), joint)
-    }
-
-    /// The distance of a place from the bones, or from those at a joint.
-    fn distance_at(&self, p: DVec3, joint: Option<u32>) -> f64 {
-        let own = self.bones.iter().filter(|(_, joints)| joint.is_none_or(|j| joints.contains(&j)));
-        let squares = own.map(|([a, b], _)| p.distance_squared(closest_on_segment(p, *a, *b - *a)));
-        squares.fold(f64::INFINITY, f64::min).sqrt()
+        self.bones.distance(factor * turn.apply(p), joint)
     }
 
     /// How far the surface is from the bones, in sizes of the skeleton: a median, for a ground plane in the body's file can
@@ -191,7 +184,7 @@ impl Surroundings {
 
     /// The same of the mesh as it is, once each of its points has been moved.
     pub(super) fn cost_of_moved(&self, map: impl Fn(DVec3) -> DVec3) -> f64 {
-        let sum: f64 = self.points.iter().map(|&(p, joint)| self.distance_at(map(p), joint)).sum();
+        let sum: f64 = self.points.iter().map(|&(p, joint)| self.bones.distance(map(p), joint)).sum();
         self.cost_at(1.0, sum / self.points.len().max(1) as f64)
     }
 
@@ -262,9 +255,9 @@ impl Surroundings {
     /// The mesh with its mean in the middle of the bones, its size and axes as they are.
     fn moved_to_bones(&self) -> Self {
         let mean = self.points.iter().map(|p| p.0).sum::<DVec3>() / self.points.len().max(1) as f64;
-        let length = |[a, b]: [DVec3; 2]| a.distance(b);
-        let whole: f64 = self.bones.iter().map(|b| length(b.0)).sum();
-        let middle: DVec3 = self.bones.iter().map(|b| 0.5 * length(b.0) * (b.0[0] + b.0[1])).sum();
+        let bones = self.bones.segments();
+        let whole: f64 = bones.iter().map(|[a, b]| a.distance(*b)).sum();
+        let middle: DVec3 = bones.iter().map(|&[a, b]| 0.5 * a.distance(b) * (a + b)).sum();
         let away = middle / whole.max(f64::MIN_POSITIVE) - mean;
         let moved = |points: &[Point]| points.iter().map(|&(p, joint)| (p + away, joint)).collect();
         Self { points: moved(&self.points), corners: moved(&self.corners), bones: self.bones.clone(), ..*self }

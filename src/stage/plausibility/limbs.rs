@@ -162,7 +162,11 @@ fn samples(bone: u32, parts: &[Part], outcome: &Outcome<'_>, trees: &[ClosestPoi
     let sample = |&&Part { triangle, parameter, .. }: &&Part| {
         let on_body = outcome.body.centre(triangle);
         let on_source = outcome.source.point_at(bone, parameter);
-        Sample { triangle, parameter, cover: [cover(&trees[0], on_source), cover(&trees[1], on_body)] }
+        let in_design = cover(&trees[0], on_source);
+        // What is neither inside nor outside in the design is not asked about the result.
+        let is_asked = !(OUTSIDE..=INSIDE).contains(&in_design);
+        let in_result = if is_asked { cover(&trees[1], on_body) } else { in_design };
+        Sample { triangle, parameter, cover: [in_design, in_result] }
     };
     taken.par_iter().map(sample).collect()
 }
