@@ -14,6 +14,7 @@
 //! | step | file | literature |
 //! | --- | --- | --- |
 //! | approximate minimum degree ordering (faer's) | `ordering` | \[1\] |
+//! | nested dissection of large garments (feral-metis') | `ordering` | \[8\] |
 //! | elimination tree, postorder, column counts by row subtrees | `supernodes` | \[2\] |
 //! | relaxed supernodes, here by a model of a front's time | `supernodes` | \[3\] |
 //! | frontal matrices, contribution blocks, extend-add by relative indices | `symbolic`, `numeric` | \[4\], \[5\] |
@@ -32,6 +33,8 @@
 //! 6. J. R. Gilbert, E. G. Ng, B. W. Peyton: An efficient algorithm to compute row and column counts for sparse Cholesky
 //!    factorization. SIAM J. Matrix Anal. Appl. 15(4), 1994.
 //! 7. A. van der Sluis: Condition numbers and equilibration of matrices. Numerische Mathematik 14, 1969.
+//! 8. G. Karypis, V. Kumar: A fast and high quality multilevel scheme for partitioning irregular graphs. SIAM J. Sci. Comput.
+//!    20(1), 1998.
 
 mod buffer;
 mod kernel;
@@ -54,7 +57,7 @@ use crate::simd::lanes::Scalar;
 use buffer::Buffer;
 use numeric::Factorisation;
 pub(super) use ordering::Graph;
-use ordering::minimum_degree;
+use ordering::fill_reducing;
 use solve::Solve;
 use supernodes::Supernodes;
 use symbolic::Symbolic;
@@ -164,8 +167,8 @@ impl Factor {
     pub fn analyse(&mut self, limit: MemoryLimit, pattern: &Pattern) -> Result<()> {
         self.symbolic = Symbolic::default();
         let failed = |reason: &str| Error::new(ErrorKind::Internal, format!("the symbolic factorisation {reason}"));
-        let order = minimum_degree(pattern).map_err(|_| failed("ran out of memory or indices"))?;
         let graph = Graph::new(pattern);
+        let order = fill_reducing(pattern, &graph).map_err(|_| failed("ran out of memory or indices"))?;
         let symbolic = Symbolic::new(&graph, Supernodes::new(&graph, order))
             .ok_or_else(|| failed("has a front that is too large"))?;
         drop(graph);
