@@ -2,6 +2,7 @@
 //! what a garment needs to move with them.
 
 pub mod body_part;
+pub mod clothed;
 pub mod common_skeleton;
 pub mod hands;
 pub mod joint_map;

@@ -26,8 +26,8 @@ const HARMLESS: f64 = 20.0;
 /// inflation mostly takes all limbs along, which costs less.
 const LARGE: f64 = 60.0;
 
-/// The bones that are turned, by the landmarks at their ends; each after those that it hangs on.
-const LIMBS: [[Landmark; 2]; 8] = [
+/// The bones that are turned, by the landmarks at their ends; each after the one that it hangs on, if any.
+pub const LIMBS: [[Landmark; 2]; 8] = [
     [Landmark::Shoulder(Side::Left), Landmark::Elbow(Side::Left)],
     [Landmark::Elbow(Side::Left), Landmark::Wrist(Side::Left)],
     [Landmark::Shoulder(Side::Right), Landmark::Elbow(Side::Right)],
@@ -50,8 +50,8 @@ pub struct Posing {
     movers: [Option<u32>; Landmark::COUNT],
     /// The joint that moves what has no weights.
     base: u32,
-    /// The largest angle between the directions of a limb.
-    difference: f64,
+    /// The angle between the directions of each of [`LIMBS`].
+    differences: [f64; LIMBS.len()],
 }
 
 impl Posing {
@@ -79,11 +79,11 @@ impl Posing {
             turns: vec![DQuat::IDENTITY; rig.joints.len()],
             movers: Landmark::ALL.map(|landmark| mover(landmark, reading)),
             base: joint_of(Landmark::Pelvis).or(order.first().copied())?,
-            difference: 0.0,
+            differences: [0.0; LIMBS.len()],
         };
         posing.order = sorted(&posing.parents);
         let mut whole = [DQuat::IDENTITY; Landmark::COUNT];
-        for limb in LIMBS {
+        for (k, limb) in LIMBS.into_iter().enumerate() {
             let [from, _] = limb;
             // The turn of the limb that this one goes on from.
             let before = match from {
@@ -97,7 +97,7 @@ impl Posing {
                 continue;
             };
             let want = (into_own * want).normalize_or(have);
-            posing.difference = posing.difference.max(turn::angle_between(have, want));
+            posing.differences[k] = turn::angle_between(have, want);
             let carried = before * have;
             if turn::angle_between(carried, want).to_degrees() < HARMLESS {
                 continue;
@@ -111,12 +111,16 @@ impl Posing {
 
     /// The largest angle between the directions that a limb has in the two poses, in degrees.
     pub fn difference(&self) -> f64 {
-        self.difference.to_degrees()
+        self.differences.into_iter().fold(0.0, f64::max).to_degrees()
     }
 
-    /// Whether the poses differ so much that the body has to be posed, before anything else is tried.
-    pub fn is_large(&self) -> bool {
-        self.difference() >= LARGE
+    /// Whether limbs differ so much that the body has to be posed, before anything else is tried; for each of [`LIMBS`] it is asked
+    /// whether the garment is on it.
+    pub fn is_large(&self, clothed: impl FnOnce() -> [bool; LIMBS.len()]) -> bool {
+        let is_large = |difference: f64| difference.to_degrees() >= LARGE;
+        // Without large turns nobody has to look.
+        self.differences.into_iter().any(is_large)
+            && self.differences.into_iter().zip(clothed()).any(|(difference, on)| on && is_large(difference))
     }
 
     /// The largest angle by which a joint turns.

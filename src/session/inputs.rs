@@ -375,7 +375,7 @@ impl Inputs {
             feet,
         };
         let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
-        let Some(way) = way.as_ref().filter(|way| way.posing.is_large()) else {
+        let Some(way) = way.as_ref().filter(|way| way.is_large) else {
             let only = self.solve_in(&design, &stand, cancel, diagnostics)?;
             let other = way.map(|way| (design, way));
             return Ok(Posed { first: only, own: None, other, rig_seconds, own_seconds: 0.0 });

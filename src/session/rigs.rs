@@ -17,10 +17,11 @@ use crate::input::diagnostic::Diagnostic;
 use crate::input::rig::Rig;
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
+use crate::rig::clothed::clothed;
 use crate::rig::common_skeleton::CommonSkeleton;
 use crate::rig::joint_map::{CallersPair, JointMap};
 use crate::rig::places::Character;
-use crate::rig::posing::Posing;
+use crate::rig::posing::{LIMBS, Posing};
 use crate::rig::reading::Reading;
 use crate::rig::worn::Worn;
 use crate::stage::setup::layer_skin::skin_with_layers;
@@ -178,9 +179,14 @@ impl Inputs {
 
     /// The skeleton that the rigs have in common for the garment.
     fn common_skeleton(&self, source: &PosedRig, target: &PosedRig, map: &JointMap) -> Result<CommonSkeleton> {
-        let mesh = self.garment.as_ref().map(|garment| mesh_to_internal(&self.source_coordinate_system, &garment.0));
+        let mesh = self.internal_garment();
         let garment = mesh.as_ref().map(|mesh| Worn { mesh, skin: self.garment_skin() });
         CommonSkeleton::new(source.character(), target.character(), map, garment)
+    }
+
+    /// The garment in the internal coordinate system.
+    fn internal_garment(&self) -> Option<TriangleMesh> {
+        self.garment.as_ref().map(|garment| mesh_to_internal(&self.source_coordinate_system, &garment.0))
     }
 
     /// The way of the target from the source's pose, where that is another one.
@@ -191,7 +197,9 @@ impl Inputs {
         let Some(posing) = Posing::new(target.character(), reading, &order, own, others) else { return Ok(None) };
         let body = Body::new(avatar, &self.layers)?;
         let system = self.target_coordinate_system;
+        let clothed = || self.internal_garment().map_or([true; LIMBS.len()], |garment| clothed(&garment, others));
         Ok(Some(Way {
+            is_large: posing.is_large(clothed),
             posing: Arc::new(posing),
             common: common.clone(),
             system,

@@ -14,6 +14,8 @@ use crate::rig::posing::Posing;
 #[derive(Clone)]
 pub(super) struct Way {
     pub(super) posing: Arc<Posing>,
+    /// Limbs with the garment on them turn by much.
+    pub(super) is_large: bool,
     pub(super) common: Arc<CommonSkeleton>,
     /// In which body and layers are read.
     pub(super) system: CoordinateSystem,

@@ -4,11 +4,17 @@ use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::rig::{Rig, RigJoint};
 use bespoke::input::skin::SkinWeights;
 use bespoke::rig::body_part::Side;
+use bespoke::rig::clothed::clothed;
 use bespoke::rig::landmark::Landmark;
 use bespoke::rig::places::{Character, index, places};
-use bespoke::rig::posing::Posing;
+use bespoke::rig::posing::{LIMBS, Posing};
 use bespoke::rig::reading::Reading;
 use glam::{DMat4, DVec3};
+
+use super::limbs::tube;
+
+/// A garment on all limbs.
+const EVERYWHERE: [bool; LIMBS.len()] = [true; LIMBS.len()];
 
 /// A person whose arms are turned down from the horizontal by so many degrees.
 fn person(degrees: f64) -> Rig {
@@ -90,10 +96,47 @@ fn the_own_pose_is_the_end_of_the_way() {
 fn small_differences_are_known_and_are_no_large_ones() {
     for (own, other) in [(45.0, 0.0), (45.0, 80.0), (25.0, 0.0)] {
         let (posing, _) = posing(&person(own), &person(other)).expect("there is a way");
-        assert!((posing.difference() - f64::abs(own - other)).abs() < 1e-9 && !posing.is_large());
+        assert!((posing.difference() - f64::abs(own - other)).abs() < 1e-9 && !posing.is_large(|| EVERYWHERE));
     }
-    assert!(posing(&person(80.0), &person(0.0)).expect("80 degrees are far").0.is_large());
+    assert!(posing(&person(80.0), &person(0.0)).expect("80 degrees are far").0.is_large(|| EVERYWHERE));
     assert!(posing(&person(15.0), &person(0.0)).is_none());
+}
+
+/// A tube around the vertical through `x` and `z`.
+fn upright([x, z]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> TriangleMesh {
+    let mut mesh = tube(low, high, radius, 8, 16);
+    mesh.positions.iter_mut().for_each(|p| *p = DVec3::new(x + p.y, p.x, z + p.z));
+    mesh
+}
+
+#[test]
+fn only_limbs_under_the_garment_make_the_difference_large() {
+    // Arms that hang beside trousers turn by 80 degrees.
+    let (own, others) = (person(80.0), person(0.0));
+    let (way, there) = posing(&own, &others).expect("80 degrees are far");
+    let (back, here) = posing(&others, &own).expect("80 degrees are far");
+    let on_both_legs = upright([0.0, 0.0], 0.2, [0.2, 1.05]);
+    let [upper, lower] = [0, 1].map(|k| LIMBS.iter().position(|limb| limb[k] == Landmark::Elbow(Side::Left)).unwrap());
+    for places in [&there, &here] {
+        let legs = clothed(&on_both_legs, places);
+        assert_eq!(
+            legs,
+            LIMBS.map(|[from, _]| matches!(from, Landmark::Hip(_) | Landmark::Knee(_))),
+            "arms: {places:?}"
+        );
+        assert!(!way.is_large(|| legs) && !back.is_large(|| legs));
+    }
+    // A bracelet near the wrist of a hanging arm is on all of that arm, and on nothing else.
+    let wrist = here[index(Landmark::Wrist(Side::Left))].expect("a wrist");
+    let bracelet = clothed(&upright([wrist.x, wrist.z], 0.05, [wrist.y - 0.06, wrist.y + 0.06]), &here);
+    let arm = [upper, lower];
+    assert_eq!(
+        bracelet.iter().enumerate().filter(|(_, on)| **on).map(|(k, _)| k).collect::<Vec<_>>(),
+        [arm[1], arm[0]]
+    );
+    assert!(back.is_large(|| bracelet));
+    // Where a limb is not known, nobody can say.
+    assert_eq!(clothed(&on_both_legs, &[None; Landmark::COUNT]), EVERYWHERE);
 }
 
 #[test]
