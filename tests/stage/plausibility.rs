@@ -299,6 +299,23 @@ fn cloth_that_is_drawn_out_here_and_shrunk_there_is_found() {
     assert_eq!(findings(&design, &scale(9.0, 9.0)).distorted, None);
 }
 
+/// Two bands around the elbow, of which one half stands off. Neither is large in the design, and one is in the result.
+#[test]
+fn a_small_piece_that_became_large_is_judged_as_such() {
+    let lifted = |half: f64, times: f64| {
+        let design = tube(&rings(0.5 - half, 0.5 + half, 6, 0.16), 48, false);
+        let out = |p: DVec3| if p.y > 0.0 { DVec3::new(p.x, times * p.y, times * p.z) } else { p };
+        let result = moved(&design, out);
+        let [before, now] = [&design, &result].map(|mesh| mesh.areas().iter().sum::<f64>());
+        println!("{half} {times}: area {before} then, {now} now");
+        assert!(before < 0.2, "{before}");
+        findings(&design, &result).lifted
+    };
+    assert!(lifted(0.05, 6.0).is_some());
+    assert_eq!(lifted(0.05, 2.0), None);
+    assert_eq!(lifted(0.008, 6.0), None, "a necklace lies where it finds room");
+}
+
 #[test]
 fn cloth_that_stands_off_over_a_fin_is_found() {
     let design = sleeve(48, 40);

@@ -19,7 +19,8 @@ const MORE: f64 = 3.0;
 const BEYOND: (f64, f64) = (1.2, 0.9);
 /// So much of the cloth may: of the closet's garments 0.07 at most do.
 const MOST: f64 = 0.1;
-/// Below this distance from a bone none is told from another, and cloth of less area, such as a necklace, lies where it finds room.
+/// Below this distance from a bone none is told from another, and cloth of less area, such as a necklace, lies where it finds room:
+/// of less area both in the design and in the result, for sandals that were blown up to the knees are no small thing any more.
 const LEAST_DISTANCE: f64 = 0.02;
 const LEAST_AREA: f64 = 0.25;
 
@@ -28,7 +29,8 @@ pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted>
     let Outcome { design, result, source, target, collision_only, .. } = *outcome;
     let areas = design.areas();
     let whole: f64 = areas.iter().sum();
-    if whole < LEAST_AREA || !collision_only.is_empty() {
+    let largest = whole.max(result.areas().iter().sum());
+    if largest < LEAST_AREA || !collision_only.is_empty() {
         return None;
     }
     let (before, now) = (distances(design, source, graph), distances(result, target, graph));
