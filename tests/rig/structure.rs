@@ -262,3 +262,26 @@ fn rigs_without_names_are_read_rightly_or_said_to_be_unsure() {
         assert!(share > least, "with skin {skin} {share:.3} of the joints are known for sure");
     }
 }
+
+/// The legs and the hips hang on one joint in the belly, which stands where the hips are elsewhere: nothing tells one from the other.
+#[test]
+fn hips_below_what_the_legs_hang_on_are_said_to_be_unsure() {
+    let mut random = Random::new(17);
+    for skin in [true, false] {
+        let (mut known, mut all) = (0, 0);
+        for case in 0..CASES / 4 {
+            let (mut rig, has_toes) = person(&mut random);
+            let joint_of = |part| rig.truth.iter().position(|truth| *truth == Some(part));
+            let hips = joint_of(BodyPart::Hips).unwrap();
+            let legs = [Side::Left, Side::Right].map(|side| joint_of(BodyPart::UpperLeg(side)).unwrap());
+            let above = rig.places[hips] + DVec3::new(0.0, 0.03 + 0.08 * random.unit(), 0.08 * random.signed());
+            let belly = rig.add(None, rig.parents[hips], above, 1.0);
+            [hips, legs[0], legs[1]].into_iter().for_each(|joint| rig.parents[joint] = Some(belly));
+            let (wrong, own, of) = judged(&rig.changed(&mut random, has_toes), skin);
+            assert!(wrong.is_empty(), "case {case}, skin {skin}: {}", wrong.join("; "));
+            (known, all) = (known + own, all + of);
+        }
+        println!("skin {skin}: {known} of {all} known");
+        assert!(2 * known > all, "with skin {skin} {known} of {all} joints are known for sure");
+    }
+}

@@ -16,6 +16,9 @@ const UNSURE: f64 = 0.5;
 const AS_LIKELY: f64 = 0.25;
 /// Hips are nearer to the middle between the legs than this share of the way to the arms.
 const NEAR_HIPS: f64 = 0.3;
+/// The spine rises from the hips: a joint of the trunk that is above its first one by less than this share of the way to the arms may be
+/// the hips as well.
+const RISES: f64 = 0.02;
 /// Legs go on along the trunk with at least this cosine.
 const LEAST_ON: f64 = 0.3;
 /// A joint nearer to the trunk's axis than this share of what lies beyond it is that of a collar bone.
@@ -90,7 +93,7 @@ impl Person {
             if sure { SURE } else { UNSURE }
         };
         let (leg_sure, arm_sure) = (sure_of(&legs), sure_of(&arms));
-        self.read_trunk(tree, &legs, &mut parts);
+        self.read_trunk(tree, up, &legs, &mut parts);
         for k in 0..2 {
             let side = if k == left_leg { Side::Left } else { Side::Right };
             let way = &self.legs.pair[k].way;
@@ -125,8 +128,9 @@ impl Person {
         parts
     }
 
-    /// Hips and spine. What comes before the first joint near the legs stands elsewhere, such as on the floor.
-    fn read_trunk(&self, tree: &Tree<'_>, legs: &[Segments; 2], parts: &mut [Option<(BodyPart, f64)>]) {
+    /// Hips and spine. What comes before the first joint near the legs stands elsewhere, such as on the floor; and where the legs hang
+    /// on a joint in the belly, as the hips below it do, either may be the hips.
+    fn read_trunk(&self, tree: &Tree<'_>, up: DVec3, legs: &[Segments; 2], parts: &mut [Option<(BodyPart, f64)>]) {
         let sure = if self.sure { SURE } else { UNSURE };
         let hips = limbs::middle(tree, &self.legs, legs.map(|own| own.at[0]));
         let from_hips = |joint: u32| hips.map_or(0.0, |hips| tree.place(joint).distance(hips));
@@ -135,7 +139,13 @@ impl Person {
         let is_near = |&joint: &u32| from_hips(joint) < NEAR_HIPS * tree.length(joint, self.arms.joint);
         let nearest = || (0..below.len()).min_by(|&a, &b| from_hips(below[a]).total_cmp(&from_hips(below[b])));
         let first = below.iter().position(is_near).or_else(nearest).unwrap_or(0);
+        let rises = |joint: u32| {
+            let from = self.trunk[first];
+            (tree.place(joint) - tree.place(from)).dot(up) > RISES * tree.length(from, self.arms.joint)
+        };
+        let lower = self.trunk.iter().rposition(|&joint| !rises(joint)).unwrap_or(first);
         for (k, &joint) in self.trunk.iter().enumerate().skip(first) {
+            let sure = if lower > first && k <= lower { UNSURE } else { sure };
             parts[joint as usize] = Some((if k == first { BodyPart::Hips } else { BodyPart::Spine }, sure));
         }
     }
