@@ -210,13 +210,16 @@ fn garments_of_real_size_agree_with_faer() {
 
 #[test]
 fn large_garments_agree_with_faer_in_another_order() {
-    // On both sides of the size from which the order is by nested dissection, in two separate parts as well.
+    // On both sides of the size from which the order is by nested dissection; in two separate parts, in none that hang together, and
+    // around one vertex.
     let mut random = Random::new(17);
     for (width, height) in [(141, 141), (142, 142), (40, 600)] {
         agrees_with_faer(&sheet(width, height, 50, &mut random), &mut random);
     }
     let one = |from: u32| (0..11_000_u32).map(move |v| (from + v, from + v + 1));
     agrees_with_faer(&pattern(22_002, one(0).chain(one(11_001))), &mut random);
+    agrees_with_faer(&pattern(20_001, []), &mut random);
+    agrees_with_faer(&pattern(20_001, (1..20_001).map(|v| (0, v))), &mut random);
 }
 
 #[test]
