@@ -22,12 +22,12 @@ pub(super) struct OtherPose {
     pub(super) turn: AxisTurn,
 }
 
-/// The attempt in the target's own pose that came farthest.
-pub(super) struct OwnPose {
+/// The attempt in the pose that was tried first, where that came farthest.
+pub(super) struct FirstPose {
     /// Where it stalled.
     pub(super) t: f64,
-    /// By how many degrees the poses differ.
-    pub(super) difference: f64,
+    /// By how many degrees the poses differ, where the target was posed after it; none where it was posed for it.
+    pub(super) degrees: Option<f64>,
     pub(super) problem: Arc<Problem>,
     pub(super) body: Arc<Body>,
     /// None where memory is short.
@@ -54,10 +54,10 @@ impl OtherPose {
     }
 }
 
-impl OwnPose {
-    /// What is said of a result that was found in the source's pose.
-    pub(super) fn diagnostic(&self) -> Diagnostic {
-        Diagnostic::SolvedPosed { stalled_at: self.t, degrees: self.difference }
+impl FirstPose {
+    /// What is said of a result that was found in the source's pose; of the own one there is nothing to say.
+    pub(super) fn diagnostic(&self) -> Option<Diagnostic> {
+        Some(Diagnostic::SolvedPosed { stalled_at: self.t, degrees: self.degrees? })
     }
 
     /// Lets go of where it had stalled.

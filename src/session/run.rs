@@ -9,7 +9,7 @@ use super::context::Context;
 use super::fault::Fault;
 use super::field_task::FieldTask;
 use super::inputs::{Inputs, Posed, Setting};
-use super::other_pose::{OtherPose, OwnPose};
+use super::other_pose::{FirstPose, OtherPose};
 use super::reposing::Reposing;
 use crate::control::{Cancel, Stage};
 use crate::error::{Error, ErrorKind, Result};
@@ -50,8 +50,8 @@ pub(super) struct Run {
     pub(super) reposing: Option<Box<Reposing>>,
     /// What the target's own pose can be exchanged for.
     pub(super) other_pose: Option<Box<OtherPose>>,
-    /// What came of the target's own pose, once it was exchanged.
-    pub(super) own_pose: Option<Box<OwnPose>>,
+    /// What came of the pose that was tried first, once it was exchanged.
+    pub(super) first_pose: Option<Box<FirstPose>>,
     /// What closed that way, and how each joint of the target rig moves into the pose in which the garment stays.
     pub(super) blocked: Option<(Diagnostic, Vec<DAffine3>)>,
     /// Where an earlier attempt came farthest.
@@ -155,7 +155,7 @@ impl Run {
             blocked: None,
             reposing: own.map(|(own, way)| Box::new(Reposing::new(Arc::new(own.problem), Arc::new(own.body), way))),
             other_pose: other,
-            own_pose: None,
+            first_pose: None,
             farthest: None,
             field,
             fit_began_at: Vec::new(),
@@ -229,7 +229,7 @@ impl Run {
                 let limited = check_limit(inflation.attempted(), options, self.state.t);
                 self.is_limited = limited.is_err();
                 let ended = match limited {
-                    Err(error) if self.attempts.settings().is_none() && self.own_pose.is_none() => {
+                    Err(error) if self.attempts.settings().is_none() && self.first_pose.is_none() => {
                         return Err(self.explained(error));
                     }
                     limited => {
@@ -258,8 +258,8 @@ impl Run {
             let as_designed = self.attempts.settings().is_some_and(|settings| settings.as_designed);
             let untangling = if as_designed { None } else { self.problem.untangling() };
             // Where the way back is closed, that is told.
-            let brought_back = self.own_pose.as_ref().filter(|_| self.blocked.is_none());
-            let posed = brought_back.map(|own| own.diagnostic());
+            let brought_back = self.first_pose.as_ref().filter(|_| self.blocked.is_none());
+            let posed = brought_back.and_then(|first| first.diagnostic());
             self.shortfalls = posed.into_iter().chain(self.attempts.adjustment()).chain(untangling).collect();
             self.shortfalls.extend(finish::finish(&self.problem, &mut self.objective, &mut self.state)?);
             self.newton.forget_values();
@@ -340,8 +340,8 @@ impl Run {
             {
                 (self.objective, self.state) = *farthest;
             }
-            if let Some(t) = self.return_to_own_pose() {
-                error.message = stalled_message(t) + "; the avatar in the pose of the design did not help";
+            if let Some((t, other)) = self.return_to_first_pose() {
+                error.message = stalled_message(t) + &format!("; {other} did not help");
             } else if self.attempts.settings().is_some() {
                 error.message = stalled_message(self.state.t);
             }
@@ -380,7 +380,7 @@ impl Run {
             objective.contact.set_inflation_dhat(settings.inflation_dhat);
         }
         self.farthest = None;
-        self.own_pose.iter_mut().for_each(|own| own.forget_stalled());
+        self.first_pose.iter_mut().for_each(|first| first.forget_stalled());
         self.take_up(objective)?;
         self.step = Step::Fit(FitStage::begin(&mut self.objective, &self.state, &self.options));
         self.report.fit.collect(&mut self.newton, &mut self.objective, clock);
@@ -426,7 +426,7 @@ impl Run {
     fn check_memory(&mut self) -> Result<()> {
         let (contacts, system) = (self.objective.memory(), self.newton.memory());
         let kept = self.farthest.as_ref().map_or(0, |farthest| farthest.0.memory())
-            + self.own_pose.as_ref().map_or(0, |own| own.memory());
+            + self.first_pose.as_ref().map_or(0, |first| first.memory());
         self.report.memory = self.held + self.field_memory() + contacts + system + kept;
         let limit = self.remaining_budget();
         let parts = [

@@ -14,6 +14,7 @@ use bespoke::options::Options;
 use bespoke::rig::joint_map::{JointMap, Reason};
 use bespoke::session::{Budget, Precision, Session};
 use closet::avatars::Avatar;
+use closet::mesh::Mesh;
 use closet::rigs::{Body, Character, Naming, Pose, Role, SIDES, character, y_up};
 use closet::{Sample, garments};
 use glam::{DAffine3, DMat4, DVec3};
@@ -31,12 +32,21 @@ fn slim(naming: Naming) -> Character {
     character(&SLIM, naming).placed(y_up())
 }
 
-/// The vest on the mannequin, on its rig.
-fn vest(source: &Character) -> Character {
+/// A garment of the closet on the mannequin, on its rig.
+fn worn(source: &Character, mesh: &Mesh) -> Character {
     let frame = y_up();
-    let mut mesh = VEST.mesh.clone();
+    let mut mesh = mesh.clone();
     mesh.positions.iter_mut().for_each(|p| *p = frame.transform_point3(*p));
     source.wears(&mesh)
+}
+
+/// The vest, which has no sleeves.
+fn vest(source: &Character) -> Character {
+    worn(source, &VEST.mesh)
+}
+
+fn sweater(source: &Character) -> Character {
+    worn(source, &garments::garment(garments::Garment::Sweater).mesh)
 }
 
 /// A garment that the source wears on its way to the target, both by their rigs.
@@ -132,9 +142,12 @@ fn pairs_of_the_caller_win() {
 #[test]
 fn every_pose_ends_in_the_targets_own() {
     let (body, other) = (mannequin(Naming::Mixamo), slim(Naming::Unreal));
-    let worn = vest(&body);
-    let mut reposed = 0;
-    for (source_pose, target_pose) in [(Pose::A, Pose::T), (Pose::T, Pose::ARMS_DOWN), (Pose::ARMS_DOWN, Pose::T)] {
+    // Whose sleeves have to turn needs the way: small turns need nothing, nor do arms beside a vest.
+    for (worn, source_pose, target_pose, needs_way) in [
+        (vest(&body), Pose::A, Pose::T, false),
+        (sweater(&body), Pose::T, Pose::ARMS_DOWN, true),
+        (vest(&body), Pose::ARMS_DOWN, Pose::T, false),
+    ] {
         let motions = body.motions(&source_pose);
         let (source, garment) = (body.moved(&motions), worn.moved(&motions));
         let target = other.posed(&target_pose);
@@ -148,7 +161,7 @@ fn every_pose_ends_in_the_targets_own() {
                 break;
             }
         }
-        reposed += usize::from(was_reposed);
+        assert_eq!(was_reposed, needs_way);
         assert!(session.verify(Precision::F32).unwrap().is_clean());
         let apart = session
             .avatar_positions()
@@ -159,7 +172,6 @@ fn every_pose_ends_in_the_targets_own() {
             .fold(0.0, f64::max);
         assert!(apart < 1e-5, "the avatar ends {apart} from where it was given");
     }
-    assert!((1..3).contains(&reposed), "small turns need nothing, large ones a pose: {reposed}");
 }
 
 /// The mean distance of a garment's surface from a body.
@@ -174,29 +186,26 @@ fn mean_distance(positions: Vec<DVec3>, garment: &Character, body: &Character) -
 #[test]
 fn the_fit_is_the_same_whichever_pose_a_garment_is_given_in() {
     let body = mannequin(Naming::Mixamo);
-    let frame = y_up();
-    let mut mesh = garments::garment(garments::Garment::Trousers).mesh;
-    mesh.positions.iter_mut().for_each(|p| *p = frame.transform_point3(*p));
-    let (worn, target) = (body.wears(&mesh), slim(Naming::Unreal).posed(&Pose::T));
+    let trousers = garments::garment(garments::Garment::Trousers).mesh;
+    let (worn, target) = (worn(&body, &trousers), slim(Naming::Unreal).posed(&Pose::T));
     let distances = [Pose::T, Pose::ARMS_DOWN].map(|pose| {
         let motions = body.motions(&pose);
         let (source, garment) = (body.moved(&motions), worn.moved(&motions));
         let mut session = session(&garment, &source, &target);
         session.set_source_avatar(dressing::mesh(&source)).unwrap();
         dressed(&mut session, "trousers in another pose");
-        let was_reposed = session.report().repose.iterations > 0;
-        assert_eq!(was_reposed, pose == Pose::ARMS_DOWN);
+        assert_eq!(session.report().repose.iterations, 0, "arms beside trousers need no way");
         mean_distance(session.garment_positions().unwrap(), &garment, &target)
     });
     let mean = 0.5 * (distances[0] + distances[1]);
-    assert!(distances.iter().all(|distance| (distance / mean - 1.0).abs() < 0.05), "{distances:?}");
+    assert!(distances.iter().all(|distance| (distance / mean - 1.0).abs() < 0.01), "{distances:?}");
 }
 
 #[test]
 fn a_cancel_on_the_way_to_the_targets_pose() {
     let body = mannequin(Naming::Mixamo);
     let motions = body.motions(&Pose::T);
-    let (source, garment) = (body.moved(&motions), vest(&body).moved(&motions));
+    let (source, garment) = (body.moved(&motions), sweater(&body).moved(&motions));
     let mut session = session(&garment, &source, &slim(Naming::Vrm).posed(&Pose::ARMS_DOWN));
     session.prepare().unwrap();
     while session.step(Budget { iterations: 1, ..Budget::default() }).unwrap() != Stage::Repose {
