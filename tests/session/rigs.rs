@@ -299,6 +299,27 @@ fn where_the_own_pose_is_wedged_that_of_the_design_is_tried() {
     assert_eq!(run(), run());
 }
 
+/// The arms of a heavy body lie in its flesh where they hang, and leave no room for sleeves; it stands with arms held out.
+#[test]
+fn where_the_pose_of_the_design_is_wedged_the_own_pose_is_tried() {
+    let mannequin = mannequin(Naming::Mixamo);
+    let source = mannequin.posed(&Pose::ARMS_DOWN);
+    let target = character(&Body::Avatar(Avatar::Heavy).model(), Naming::Unreal).placed(y_up()).posed(&Pose::T);
+    let design = sweater(&mannequin);
+    let mut given = session(&design, &mannequin, &source);
+    dressed(&mut given, "the mannequin with arms down");
+    let mut garment = source.clone();
+    garment.mesh = Mesh { positions: given.garment_positions().unwrap(), triangles: design.mesh.triangles };
+    let mut session = session(&garment, &source, &target);
+    session.set_source_avatar(dressing::mesh(&source)).unwrap();
+    dressed(&mut session, "the heavy body");
+    assert_eq!(session.report().repose.iterations, 0);
+    let distance = mean_distance(session.garment_positions().unwrap(), &garment, &target);
+    assert!(distance < 0.05, "{distance} m from the body");
+    let is_posed = |kind| matches!(kind, DiagnosticKind::PoseBlocked | DiagnosticKind::SolvedPosed);
+    assert!(!session.diagnostics().iter().any(|diagnostic| is_posed(diagnostic.kind())));
+}
+
 /// What lies so far outside of a part of a body: of triangles all of whose corners are in it.
 fn patch(body: &Character, offset: f64, is_in: impl Fn(usize) -> bool) -> Character {
     let mut mesh = body.mesh.clone();
