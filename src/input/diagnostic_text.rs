@@ -522,7 +522,7 @@ fn misplaced(f: &mut Formatter<'_>, bone: Bone, place: LimbPlace) -> Result {
     match place {
         LimbPlace::OutOfOpening { vertex } => write!(
             f,
-            "result: {name} goes through the opening at garment vertex {vertex} in the design, and nothing goes through it now; \
+            "result: {name} belongs into the opening at garment vertex {vertex} by the design, and nothing goes through it now; \
              {cause}"
         ),
         LimbPlace::Inside { triangle, share } => write!(

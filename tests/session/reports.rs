@@ -6,12 +6,16 @@ use bespoke::error::ErrorKind;
 use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::cover::cover;
 use bespoke::geometry::mesh::TriangleMesh;
-use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Element, Severity, Subject};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Element, LimbPlace, Severity, Subject};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
 use bespoke::session::{Precision, Session};
 use bespoke::verify::intersections;
-use glam::DVec3;
+use closet::Sample;
+use closet::avatars::{Avatar, avatar};
+use closet::garments::{Garment, garment};
+use closet::skeleton::{ARMS, BONES};
+use glam::{DQuat, DVec3};
 use testing::Random;
 
 use crate::blocked::two_boxes;
@@ -119,6 +123,55 @@ fn a_hand_that_is_pulled_back_comes_out_of_its_sleeve_or_is_said() {
     let is_hand = |d: &Diagnostic| matches!(d, Diagnostic::LimbMisplaced { bone, .. } if bone.index == 1);
     assert!(shut.diagnostics().iter().any(is_hand), "{:?}", shut.diagnostics());
     assert_eq!(out_of_sleeve(&shut, &garment, &body), 0.0);
+}
+
+/// A sweater whose skeleton's arms are lowered by so many degrees beside its sleeves, on the slim body.
+fn with_lowered_arms(degrees: f64) -> Session {
+    let (sweater, body) = (garment(Garment::Sweater), avatar(Avatar::Slim));
+    let mut joints = sweater.skeleton.joints.to_vec();
+    for [shoulder, elbow, wrist] in ARMS {
+        let at = joints[shoulder];
+        let turn = DQuat::from_axis_angle(DVec3::Y, at.x.signum() * degrees.to_radians());
+        for j in [elbow, wrist] {
+            joints[j] = at + turn * (joints[j] - at);
+        }
+    }
+    let mesh = |sample: &Sample| TriangleMesh {
+        positions: sample.mesh.positions.clone(),
+        triangles: sample.mesh.triangles.clone(),
+    };
+    let mut session = Session::new();
+    session.set_garment(mesh(&sweater), Precision::F64).unwrap();
+    session.set_source_skeleton(Skeleton { joints, bones: BONES.to_vec() }).unwrap();
+    session.set_target_avatar(mesh(&body)).unwrap();
+    let target = Skeleton { joints: body.skeleton.joints.to_vec(), bones: BONES.to_vec() };
+    session.set_target_skeleton(target).unwrap();
+    session
+}
+
+/// Arms that are a little beside their sleeves find their way into them. By more they do not: that is said of the result, and from
+/// where it is sure on before the work.
+#[test]
+fn arms_beside_their_sleeves_come_into_them_or_it_is_said() {
+    let mut near = with_lowered_arms(15.0);
+    assert_eq!(near.run().unwrap(), Stage::Done);
+    assert!(near.verify(Precision::F64).unwrap().is_clean());
+
+    let mut beside = with_lowered_arms(32.0);
+    assert_eq!(beside.run().unwrap_err().kind, ErrorKind::ImplausibleResult);
+    assert!(beside.verify(Precision::F64).unwrap().is_clean());
+    let misplaced = beside.diagnostics().iter().filter_map(|d| match d {
+        Diagnostic::LimbMisplaced { bone, place: LimbPlace::OutOfOpening { .. } } => Some(bone.joints),
+        _ => None,
+    });
+    let misplaced: Vec<[u32; 2]> = misplaced.collect();
+    for [shoulder, elbow, _] in ARMS {
+        assert!(misplaced.contains(&[shoulder as u32, elbow as u32]), "{misplaced:?}");
+    }
+
+    let mut refused = with_lowered_arms(45.0);
+    assert_eq!(refused.run().unwrap_err().kind, ErrorKind::NotEnclosed);
+    assert_eq!((iterations(&refused), refused.stage()), (0, Stage::Setup));
 }
 
 fn iterations(session: &Session) -> u32 {

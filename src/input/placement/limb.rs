@@ -11,8 +11,8 @@ use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 use crate::maths;
 
-/// A limb that is turned by less than this, in degrees, is in the garment.
-const LEAST: f64 = 25.0;
+/// A limb that meets no cloth is not turned by more than this, in degrees.
+const MOST: f64 = 120.0;
 /// An opening that a limb is made for is no farther from where that begins than this, in lengths of the limb, and no nearer.
 const REACH: [f64; 2] = [0.3, 1.5];
 /// A limb may go through an opening that is longer around than this share of the limb's length, and so many are tried.
@@ -39,8 +39,8 @@ pub struct TurnedLimb {
     pub degrees: f64,
 }
 
-/// The limbs of `skeleton` that are turned against the garment.
-pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
+/// The limbs of `skeleton` that are turned against the garment by `least` degrees or more.
+pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton, least: f64) -> Vec<TurnedLimb> {
     if skeleton.bones.len() > MOST_BONES {
         return Vec::new();
     }
@@ -50,6 +50,9 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         return Vec::new();
     }
     let pierced: Vec<bool> = bones.iter().map(|&bone| garment.passes_cloth(bone)).collect();
+    // On one without a branch, such as an arm's, each end is the other's limb, and bones may end where a sleeve goes on.
+    let is_branched = (0..skeleton.joints.len() as u32)
+        .any(|joint| skeleton.bones.iter().filter(|bone| bone.contains(&joint)).count() > 2);
     let mut found: Vec<(usize, TurnedLimb)> = Vec::new();
     let mut taken = vec![false; skeleton.joints.len()];
     let directed = (0u32..).zip(&skeleton.bones).flat_map(|(bone, &[a, b])| [(bone, a, b), (bone, b, a)]);
@@ -63,7 +66,7 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         let is_own = |&k: &usize| k == bone as usize || skeleton.bones[k].iter().all(|j| limb.contains(j));
         let own: Vec<usize> = (0..bones.len()).filter(is_own).collect();
         let is_pierced = own.iter().any(|&k| pierced[k]);
-        if !is_pierced && has_opening(garment, skeleton, &own) {
+        if !is_pierced && (!is_branched || has_opening(garment, skeleton, &own)) {
             continue;
         }
         let far = |&j: &u32| skeleton.joints[j as usize].distance_squared(root);
@@ -82,7 +85,7 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
         for k in near.into_iter().take(TRIED) {
             let middle = garment.opening(k).0;
             let degrees = turn::angle_between(along, middle - root).to_degrees();
-            if degrees < LEAST {
+            if degrees < least {
                 continue;
             }
             let rotation = turn::arc(along.normalize(), (middle - root).normalize());
@@ -96,7 +99,10 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton) -> Vec<TurnedLimb> {
             let passing = own.iter().filter(|&&k| garment.passes_cloth(whole[k])).count();
             let way = || own.iter().map(|&k2| whole[k2]);
             let reach = middle.distance(root);
-            if through && passing == 0 && (is_pierced || is_in_sleeve(garment, way(), root, reach, along.length())) {
+            if through
+                && passing == 0
+                && (is_pierced || degrees <= MOST && is_in_sleeve(garment, way(), root, reach, along.length()))
+            {
                 found.push((limb.len(), TurnedLimb { bone, joint, opening: middle, degrees }));
             }
         }

@@ -38,8 +38,10 @@ const USUAL: f64 = 90.0;
 const GARMENT_TURNED: f64 = 25.0;
 const BODY_TURNED: f64 = 30.0;
 const BODY_TURNED_WITH_SKIN: f64 = 60.0;
-/// The same for a limb of the source skeleton against its sleeve or leg; by less the garment finds its way to where it belongs.
+/// The same for a limb of the source skeleton against its sleeve or leg; by less the garment may find its way to where it belongs,
+/// which the result is asked about, and from so many degrees on there is a warning.
 const LIMB_TURNED: f64 = 38.0;
+const LIMB_TOLD: f64 = 25.0;
 
 /// Compares the inputs, and adds what is found to `diagnostics`. Returns the turn of the target after which both bodies face the
 /// same way, or are nearest to that. With `strict` the target is refused instead, where it is turned by more than a right angle. A
@@ -157,7 +159,7 @@ fn limbs(scene: &Scene<'_>) -> Vec<Diagnostic> {
         degrees: limb.degrees,
         gross: limb.degrees >= LIMB_TURNED,
     };
-    limb::turned(&Threaded::new(scene.garment), skeleton).into_iter().map(said).collect()
+    limb::turned(&Threaded::new(scene.garment), skeleton, LIMB_TOLD).into_iter().map(said).collect()
 }
 
 /// The target against the source: the turn between them, and whether left is left.

@@ -44,7 +44,7 @@ pub struct Outcome<'a> {
 /// Where a limb is that should be elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Misplacement {
-    /// The bone went through an opening of the design, and nothing of the body goes through it now.
+    /// The bone went through an opening of the design, or should have, and nothing of the body goes through it now.
     OutOfOpening {
         /// The bone.
         bone: u32,
@@ -85,6 +85,16 @@ pub enum Misplacement {
 }
 
 impl Misplacement {
+    /// The bone that it is about.
+    pub fn bone(&self) -> u32 {
+        match *self {
+            Self::OutOfOpening { bone, .. }
+            | Self::Inside { bone, .. }
+            | Self::Beside { bone, .. }
+            | Self::Swallowed { bone, .. } => bone,
+        }
+    }
+
     /// Whether nobody would wear the result.
     pub fn is_gross(&self) -> bool {
         !matches!(self, Self::Swallowed { is_gross: false, .. })
@@ -157,6 +167,11 @@ pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cance
     let mut misplaced = opening::empty_openings(outcome, &openings);
     cancel.check()?;
     misplaced.extend(limbs::misplaced(outcome, &graph, &openings, cancel)?);
+    cancel.check()?;
+    let missed = opening::missed_openings(outcome, &openings);
+    let is_new = |limb: &Misplacement| misplaced.iter().all(|known| known.bone() != limb.bone());
+    let missed: Vec<Misplacement> = missed.into_iter().filter(is_new).collect();
+    misplaced.extend(missed);
     cancel.check()?;
     misplaced.extend(swallowed::swallowed(outcome, &graph, cancel)?);
     cancel.check()?;

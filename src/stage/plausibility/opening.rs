@@ -9,11 +9,18 @@ use glam::DVec3;
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::input::placement::evidence::Threaded;
+use crate::input::placement::limb::{self, TurnedLimb};
 use crate::stage::start::winding::{Winding, windings_of_loops};
 
 /// Nothing goes through an opening where what the body's surface cuts out of it is below this share of its area, and the
 /// curve in which it cuts is below this share of its length.
 const NOTHING: [f64; 2] = [0.02, 0.1];
+
+/// A limb of the source skeleton that is turned by less than this, in degrees, is in its sleeve or leg.
+const BESIDE: f64 = 15.0;
+/// One that is turned by more than this and was not refused before the work is what the caller trusts.
+const ELSEWHERE: f64 = 60.0;
 
 /// A surface that a closed curve spans.
 pub struct Disc {
@@ -143,6 +150,19 @@ pub(super) fn empty_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec
             is_empty(opening, winding).then(|| Misplacement::OutOfOpening { bone, vertex: opening.vertices[0] })
         })
         .collect()
+}
+
+/// The limbs that pass beside the opening that they were made for in the design, where nothing of the body goes through it in the
+/// result: they have not found their way.
+pub(super) fn missed_openings(outcome: &Outcome<'_>, openings: &[Opening]) -> Vec<Misplacement> {
+    let missed = |limb: TurnedLimb| {
+        let distance = |opening: &Opening| opening.disc(outcome.design).middle.distance_squared(limb.opening);
+        let own = openings.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let vertex = own.vertices[0];
+        nothing_goes_through(own, outcome).then_some(Misplacement::OutOfOpening { bone: limb.bone, vertex })
+    };
+    let limbs = limb::turned(&Threaded::new(outcome.design), outcome.source, BESIDE);
+    limbs.into_iter().filter(|limb| limb.degrees < ELSEWHERE).filter_map(missed).collect()
 }
 
 /// Whether no part of the body goes through the opening in the result.
