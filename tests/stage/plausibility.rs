@@ -316,6 +316,24 @@ fn a_small_piece_that_became_large_is_judged_as_such() {
     assert_eq!(lifted(0.008, 6.0), None, "a necklace lies where it finds room");
 }
 
+/// A sleeve whose cuff is drawn out over something, at the end of the limb and before it.
+#[test]
+fn a_cuff_may_lie_over_what_ends_the_limb() {
+    let lifted = |from: f64, to: f64, ends: [f64; 2]| {
+        let design = tube(&rings(ends[0], ends[1], 40, 0.16), 48, false);
+        let out = |p: DVec3| {
+            let is_over = p.y > 0.0 && (from..=to).contains(&p.x);
+            if is_over { DVec3::new(p.x, 6.0 * p.y, 6.0 * p.z) } else { p }
+        };
+        findings(&design, &moved(&design, out)).lifted
+    };
+    let whole = [0.4, 1.2];
+    assert_eq!(lifted(0.92, 1.2, whole), None);
+    assert!(lifted(0.45, 0.8, whole).is_some());
+    // Most of a mitten is there.
+    assert!(lifted(0.92, 1.2, [0.85, 1.2]).is_some());
+}
+
 #[test]
 fn cloth_that_stands_off_over_a_fin_is_found() {
     let design = sleeve(48, 40);

@@ -23,6 +23,9 @@ const MOST: f64 = 0.1;
 /// of less area both in the design and in the result, for sandals that were blown up to the knees are no small thing any more.
 const LEAST_DISTANCE: f64 = 0.02;
 const LEAST_AREA: f64 = 0.25;
+/// From this share of the last bone of a limb on, a hem or cuff of the design may lie over what ends the limb, as trousers over the
+/// toes of a boot. A garment of which more than half is there, such as a shoe, is judged there.
+const END: f64 = 0.8;
 
 /// The cloth that stands off, where that is gross; none where the caller wants what is under it to be there.
 pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted> {
@@ -33,21 +36,38 @@ pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted>
     if largest < LEAST_AREA || !collision_only.is_empty() {
         return None;
     }
-    let (before, now) = (distances(design, source, graph), distances(result, target, graph));
-    let ratio = |t: usize| now[t].max(LEAST_DISTANCE) / before[t].max(LEAST_DISTANCE);
+    let (before, now) = (places(design, source, graph), places(result, target, graph));
+    let at_ends: f64 = before.iter().zip(&areas).filter(|(place, _)| place.at_end).map(|(_, area)| area).sum();
+    let is_judged = |t: usize| !before[t].at_end || at_ends > 0.5 * whole;
+    let ratio = |t: usize| now[t].distance.max(LEAST_DISTANCE) / before[t].distance.max(LEAST_DISTANCE);
     let near = quantile((0..areas.len()).map(|t| (ratio(t), areas[t])).collect(), NEAR)?;
-    let far = BEYOND.0 * quantile(before.iter().copied().zip(areas.iter().copied()).collect(), BEYOND.1)?;
-    let stands_off: Vec<usize> = (0..areas.len()).filter(|&t| ratio(t) > MORE * near && now[t] > far).collect();
+    let far =
+        BEYOND.0 * quantile(before.iter().map(|place| place.distance).zip(areas.iter().copied()).collect(), BEYOND.1)?;
+    let is_off = |&t: &usize| is_judged(t) && ratio(t) > MORE * near && now[t].distance > far;
+    let stands_off: Vec<usize> = (0..areas.len()).filter(is_off).collect();
     let area: f64 = stands_off.iter().map(|&t| areas[t]).sum();
     let farthest = stands_off.into_iter().max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)).then(b.cmp(&a)))?;
     (area > MOST * whole).then(|| Lifted { triangle: farthest as u32, times: ratio(farthest) / near })
 }
 
-/// The distance of each triangle from the nearest bone.
-fn distances(mesh: &TriangleMesh, skeleton: &Skeleton, graph: &BoneGraph) -> Vec<f64> {
-    let mut distances = vec![0.0; mesh.triangles.len()];
-    for part in parts_of_bones(mesh, skeleton, graph).into_iter().flatten() {
-        distances[part.triangle as usize] = part.distance;
+/// Where a triangle is.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    /// From the nearest bone.
+    distance: f64,
+    /// At the end of a limb, or beyond.
+    at_end: bool,
+}
+
+/// The place of each triangle.
+fn places(mesh: &TriangleMesh, skeleton: &Skeleton, graph: &BoneGraph) -> Vec<Place> {
+    let mut places = vec![Place::default(); mesh.triangles.len()];
+    for (bone, parts) in skeleton.bones.iter().zip(parts_of_bones(mesh, skeleton, graph)) {
+        let [first, last] = bone.map(|joint| graph.is_leaf(joint));
+        for part in parts {
+            let at_end = last && part.parameter > END || first && part.parameter < 1.0 - END;
+            places[part.triangle as usize] = Place { distance: part.distance, at_end };
+        }
     }
-    distances
+    places
 }
