@@ -93,8 +93,10 @@ proptest! {
         let mut session = scene.session().unwrap();
         control(&mut session, &scene, &mut Random::new(recipe.seed)).unwrap();
         let (_, error) = walk(&scene, session, MOST).map_err(TestCaseError::fail)?;
-        // Pins that pull the garment into the body may make the inflation stall, and are allowed nothing worse.
-        prop_assert!(matches!(error, None | Some(ErrorKind::InflationStalled)), "{:?}", error);
+        // Pins that pull the garment into the body may make the inflation stall, those that pull it away may draw cloth off its
+        // limbs; they are allowed nothing worse.
+        let allowed = matches!(error, None | Some(ErrorKind::InflationStalled | ErrorKind::ImplausibleResult));
+        prop_assert!(allowed, "{:?}", error);
     }
 
     /// Whatever is wrong with a scene: no step makes it worse, and what stops it is not this library.

@@ -1,4 +1,5 @@
-//! A hat with its crown filled, through which the head goes that it was made for.
+//! A hat with its crown filled, through which the head goes that it was made for: so shallow below the filling that no start is found
+//! with the head alone. Deeper ones need no second try.
 
 use std::f64::consts::TAU;
 
@@ -9,11 +10,14 @@ use glam::DVec3;
 /// Vertices once around the hat.
 const AROUND: u32 = 16;
 /// The brim's height, from the head's joint to the top of the head, and its radius and the hat's height in radii of the head.
-const BRIM: f64 = 0.75;
-const WIDTH: f64 = 1.2;
+const BRIM: f64 = 0.7;
+const WIDTH: f64 = 1.15;
 const CROWN: f64 = 0.7;
-/// Radius and height from the middle of the filling over the brim to the crown, as shares.
-const PROFILE: [[f64; 2]; 7] = [[0.02, 0.0], [1.0, 0.0], [1.0, 0.4], [0.9, 0.7], [0.5, 0.95], [0.1, 1.0], [0.01, 1.0]];
+/// Height of the filling, as a share.
+const FILLING: f64 = 0.35;
+/// Radius and height from the filling down the inner wall, over the brim and up to the crown, as shares.
+const PROFILE: [[f64; 2]; 7] =
+    [[0.94, FILLING], [0.96, 0.0], [1.0, 0.0], [1.0, 0.6], [0.9, 0.8], [0.5, 0.95], [0.1, 1.0]];
 
 /// The hat, who wears it, and a body with a large head; no rig has a joint at the top of the head.
 pub struct PiercedHat {
@@ -37,8 +41,9 @@ impl PiercedHat {
         let centre = skull.iter().sum::<DVec3>() / skull.len() as f64;
         let radius = skull.iter().map(|p| (p.x - centre.x).hypot(p.z - centre.z)).fold(0.0, f64::max);
         let mut mesh = Mesh::default();
+        let height = |share: f64| head + BRIM * (top - head) + CROWN * radius * share;
         for [wide, high] in PROFILE {
-            let y = head + BRIM * (top - head) + CROWN * radius * high;
+            let y = height(high);
             let on_ring = |k: u32| {
                 let (sin, cos) = (TAU * f64::from(k) / f64::from(AROUND)).sin_cos();
                 let r = WIDTH * radius * wide;
@@ -51,6 +56,15 @@ impl PiercedHat {
                 let [a, b] = [k, (k + 1) % AROUND].map(|k| ring * AROUND + k);
                 mesh.triangles.extend([[a, a + AROUND, b], [b, a + AROUND, b + AROUND]]);
             }
+        }
+        // The middles of filling and crown.
+        let middle = |share: f64| DVec3::new(centre.x, height(share), centre.z);
+        mesh.positions.extend([middle(FILLING), middle(1.0)]);
+        let rings = PROFILE.len() as u32;
+        for k in 0..AROUND {
+            let [a, b] = [k, (k + 1) % AROUND];
+            let last = (rings - 1) * AROUND;
+            mesh.triangles.extend([[rings * AROUND, a, b], [last + a, rings * AROUND + 1, last + b]]);
         }
         Self { hat: source.wears(&mesh), source, target }
     }
