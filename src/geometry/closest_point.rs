@@ -38,8 +38,20 @@ struct Node {
 impl Node {
     #[inline]
     fn distance_squared(&self, p: DVec3) -> f64 {
-        (self.low - p).max(p - self.high).max(DVec3::ZERO).length_squared()
+        box_distance_squared(self.low, self.high, p)
     }
+}
+
+/// Squared distance of `p` from the box between two corners.
+#[inline]
+fn box_distance_squared(low: DVec3, high: DVec3, p: DVec3) -> f64 {
+    (low - p).max(p - high).max(DVec3::ZERO).length_squared()
+}
+
+/// The box of a triangle, wider by `slack` all around.
+#[inline]
+fn bounds(&[a, b, c]: &[DVec3; 3], slack: f64) -> (DVec3, DVec3) {
+    (a.min(b).min(c) - DVec3::splat(slack), a.max(b).max(c) + DVec3::splat(slack))
 }
 
 /// A search tree over the triangles of a mesh, which may be open, intersect itself or be degenerate.
@@ -65,11 +77,7 @@ impl ClosestPoint {
         let slack = 1e-14 * largest;
         let mut nodes = Vec::with_capacity(2 * order.len().div_ceil(LEAF_SIZE));
         if !order.is_empty() {
-            let bounds = |t: u32| {
-                let [a, b, c] = of(t);
-                (a.min(b).min(c) - DVec3::splat(slack), a.max(b).max(c) + DVec3::splat(slack))
-            };
-            build(&mut nodes, &mut order, 0, &bounds, &centres);
+            build(&mut nodes, &mut order, 0, &|t| bounds(&of(t), slack), &centres);
         }
         Self { nodes, corners: order.iter().map(|&t| of(t)).collect(), triangles: order, slack }
     }
@@ -206,13 +214,6 @@ impl ClosestPoint {
         }
     }
 
-    /// Squared distance to the box of a triangle, which takes a fraction of that to the triangle.
-    #[inline]
-    fn box_distance_squared(&self, p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        ((low - p).max(p - high) - DVec3::splat(self.slack)).max(DVec3::ZERO).length_squared()
-    }
-
     /// Squared distance and slot of the closest triangle.
     fn search(&self, p: DVec3, hint: Option<usize>) -> Option<(f64, usize)> {
         let root = self.nodes.first()?;
@@ -235,7 +236,9 @@ impl ClosestPoint {
             if node.count > 0 {
                 let from = node.start as usize;
                 for (i, corners) in self.corners[from..from + node.count as usize].iter().enumerate() {
-                    if self.box_distance_squared(p, corners) > best {
+                    // Takes a fraction of the distance to the triangle.
+                    let (low, high) = bounds(corners, self.slack);
+                    if box_distance_squared(low, high, p) > best {
                         continue;
                     }
                     let squared = closest_on_triangle(p, corners).distance_squared(p);
