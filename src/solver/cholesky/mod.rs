@@ -168,7 +168,7 @@ impl Factor {
         self.symbolic = Symbolic::default();
         let failed = |reason: &str| Error::new(ErrorKind::Internal, format!("the symbolic factorisation {reason}"));
         let graph = Graph::new(pattern);
-        let order = fill_reducing(pattern, &graph).map_err(|_| failed("ran out of memory or indices"))?;
+        let order = fill_reducing(pattern, &graph).ok_or_else(|| failed("ran out of memory or indices"))?;
         let symbolic = Symbolic::new(&graph, Supernodes::new(&graph, order))
             .ok_or_else(|| failed("has a front that is too large"))?;
         drop(graph);

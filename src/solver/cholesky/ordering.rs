@@ -73,21 +73,14 @@ impl Graph {
 /// From so many vertices on, nested dissection needs fewer operations than minimum degree, and gains more than its ordering costs.
 const DISSECTED_FROM: usize = 20_000;
 
-/// Why there is no order.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TooLarge;
-
-/// The vertices in an order of elimination with little fill.
-///
-/// # Errors
-/// [`TooLarge`] where memory or the indices run out.
-pub(super) fn fill_reducing(pattern: &Pattern, graph: &Graph) -> Result<Vec<u32>, TooLarge> {
+/// The vertices in an order of elimination with little fill; none where memory or the indices run out.
+pub(super) fn fill_reducing(pattern: &Pattern, graph: &Graph) -> Option<Vec<u32>> {
     let dissected = (graph.vertex_count() >= DISSECTED_FROM).then(|| nested_dissection(graph)).flatten();
-    dissected.map_or_else(|| minimum_degree(pattern).map_err(|_| TooLarge), Ok)
+    dissected.or_else(|| minimum_degree(pattern).ok())
 }
 
 /// The vertices in an approximate minimum degree order, computed by faer.
-pub(super) fn minimum_degree(pattern: &Pattern) -> Result<Vec<u32>, FaerError> {
+fn minimum_degree(pattern: &Pattern) -> Result<Vec<u32>, FaerError> {
     let n = pattern.vertex_count();
     let mut col_ptr = vec![0u32];
     let mut rows = Vec::new();
@@ -110,7 +103,7 @@ pub(super) fn minimum_degree(pattern: &Pattern) -> Result<Vec<u32>, FaerError> {
 }
 
 /// The vertices in an order by nested dissection, computed by feral-metis from a fixed seed; none where it fails.
-pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
+fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     let n = graph.vertex_count();
     let mut starts = vec![0_i32];
     let mut rows: Vec<i32> = Vec::new();
