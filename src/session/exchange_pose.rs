@@ -42,9 +42,8 @@ impl Run {
             problem.settle_carried(&*self.context.shared.field(&problem.fitted, options, &stop)?);
         }
         stop.check()?;
-        let memory = problem.memory();
+        self.held += problem.memory();
         self.exchange(Arc::new(problem), Arc::new(body), Some(other.way.posing.difference()))?;
-        self.held += memory;
         if let Some(first) = &self.first_pose {
             let reposing = Reposing::new(first.problem.clone(), first.body.clone(), other.way);
             self.reposing = Some(Box::new(reposing));
@@ -66,7 +65,7 @@ impl Run {
         let objective = problem.inflation_objective(&self.options, &stop, &mut Vec::new())?;
         stop.check()?;
         let state = State { x: problem.initial_state(false).0.to_vec(), t: 0.0 };
-        let budget = self.remaining_budget().reserving(problem.memory() + objective.memory());
+        let budget = self.remaining_budget().reserving(objective.memory());
         self.newton = Newton::new(state.x.len(), &objective.terms(), budget, stop)?;
         let stalled = (std::mem::replace(&mut self.objective, objective), std::mem::replace(&mut self.state, state));
         let farthest = match self.farthest.take() {
