@@ -107,13 +107,25 @@ impl<K, V> Drop for AtWork<'_, K, V> {
 #[derive(Clone)]
 pub struct MeshBits(pub Arc<TriangleMesh>);
 
+/// Points as a key, likewise.
+#[derive(Clone)]
+pub struct PointBits(pub Vec<DVec3>);
+
 impl PartialEq for MeshBits {
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (&*self.0, &*other.0);
-        let same_bits = |(p, q): (&DVec3, &DVec3)| p.to_array().map(f64::to_bits) == q.to_array().map(f64::to_bits);
-        Arc::ptr_eq(&self.0, &other.0)
-            || a.positions.len() == b.positions.len()
-                && a.triangles == b.triangles
-                && a.positions.iter().zip(&b.positions).all(same_bits)
+        Arc::ptr_eq(&self.0, &other.0) || a.triangles == b.triangles && are_same(&a.positions, &b.positions)
     }
+}
+
+impl PartialEq for PointBits {
+    fn eq(&self, other: &Self) -> bool {
+        are_same(&self.0, &other.0)
+    }
+}
+
+/// Whether all numbers have the same bits.
+fn are_same(a: &[DVec3], b: &[DVec3]) -> bool {
+    let same_bits = |(p, q): (&DVec3, &DVec3)| p.to_array().map(f64::to_bits) == q.to_array().map(f64::to_bits);
+    a.len() == b.len() && a.iter().zip(b).all(same_bits)
 }

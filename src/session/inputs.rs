@@ -481,7 +481,7 @@ impl Inputs {
                 weld: weld.clone(),
                 coordinate_error: target_system.metres_per_unit * precision.error_near(&body.mesh),
                 turns: !self.options.strict && !told.trusted,
-                known_intersections: self.shared.intersections(),
+                known: self.shared.garment(),
             },
             &self.options,
             cancel,

@@ -22,7 +22,7 @@ use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
 use crate::memo::{Memo, MeshBits};
 use crate::sdf::{Field, FieldOptions};
-use crate::stage::setup::problem::KnownIntersections;
+use crate::stage::setup::known_garment::KnownGarment;
 use crate::stage::start::joints::{Figure, Flesh};
 
 /// Distance fields that are kept of an avatar. Sessions ask for one, but where the avatar is posed for a garment, or its skeleton
@@ -85,7 +85,7 @@ struct AvatarMemo {
 struct GarmentMemo {
     /// By the garment, and the bits of the distance at which seams are closed.
     welds: Memo<(MeshBits, u64), (Arc<Weld>, Vec<Diagnostic>)>,
-    intersections: KnownIntersections,
+    known: Arc<KnownGarment>,
     flesh: Memo<MeshBits, Flesh>,
 }
 
@@ -94,6 +94,8 @@ struct GarmentMemo {
 pub(super) struct Shared {
     avatar: Option<Arc<AvatarMemo>>,
     garment: Option<Arc<GarmentMemo>>,
+    /// Of a garment that is not shared: what its own problems have in common.
+    own: Arc<KnownGarment>,
 }
 
 impl Session {
@@ -147,7 +149,7 @@ impl Session {
             followers: inputs.followers.clone(),
             coordinate_system: inputs.source_coordinate_system,
         };
-        let memo = GarmentMemo { welds: Memo::new(OTHERS), intersections: Memo::new(OTHERS), flesh: Memo::new(OTHERS) };
+        let memo = GarmentMemo { welds: Memo::new(OTHERS), known: Arc::default(), flesh: Memo::new(OTHERS) };
         Ok(SharedGarment { side: side.into(), memo: memo.into() })
     }
 
@@ -205,6 +207,7 @@ impl Shared {
     /// Shares nothing of the garment any more.
     pub(super) fn forget_garment(&mut self) {
         self.garment = None;
+        self.own = Arc::default();
     }
 
     /// The distance field of a target.
@@ -238,9 +241,9 @@ impl Shared {
         Ok((*known).clone())
     }
 
-    /// Which triangles of a garment intersect as designed, as far as that is known.
-    pub(super) fn intersections(&self) -> Option<&KnownIntersections> {
-        self.garment.as_ref().map(|memo| &memo.intersections)
+    /// What is known of the garment.
+    pub(super) fn garment(&self) -> Arc<KnownGarment> {
+        self.garment.as_ref().map_or_else(|| self.own.clone(), |memo| memo.known.clone())
     }
 
     /// A skeleton with its body.

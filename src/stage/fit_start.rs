@@ -22,7 +22,7 @@ impl Problem {
     /// point aims at the clearance that it had there, in proportion to the limb around which it is.
     ///
     /// # Errors
-    /// `InvalidArgument` for a clearance that is not finite.
+    /// `InvalidArgument` for a clearance that is not finite, `Cancelled`.
     pub fn fit_objective(
         &self,
         field: Arc<Field>,
@@ -58,8 +58,11 @@ impl Problem {
             Clearance { most: designed + self.offset, least }
         };
         if let Some(body) = &self.source_body {
-            let designed = fit.sample_points(&self.rest);
-            let designed = designed.par_iter().map(|&p| wanted(options.designed_clearance * body.clearance(p)));
+            let points = fit.sample_points(&self.rest);
+            let distances = self.known.distances(body, points.clone(), cancel)?;
+            let clearance =
+                |(&p, &distance): (&DVec3, &f64)| wanted(options.designed_clearance * body.clearance_of(p, distance));
+            let designed = points.par_iter().zip(&*distances).map(clearance);
             fit.set_clearances(&designed.collect::<Vec<_>>())?;
         } else if self.offset > 0.0 {
             fit.set_clearances(&vec![wanted(0.0); fit.sample_points(&self.rest).len()])?;

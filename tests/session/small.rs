@@ -130,7 +130,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         offset: 0.0,
         coordinate_error: 0.0,
         turns: true,
-        known_intersections: None,
+        known: Arc::default(),
     };
     Problem::new(&inputs, &Options::default(), &Cancel::new(), &mut Vec::new()).unwrap()
 }

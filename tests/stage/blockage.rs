@@ -97,7 +97,7 @@ impl Case {
             offset: 0.0,
             coordinate_error: 0.0,
             turns: true,
-            known_intersections: None,
+            known: Arc::default(),
         };
         let options = Options::default();
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new()).unwrap();

@@ -56,7 +56,7 @@ fn sheet(around: f64, columns: u32, rows: u32) -> TriangleMesh {
 /// Where the sheet goes on the body that it was designed on.
 fn places(sheet: &TriangleMesh) -> Vec<DVec3> {
     let (skeleton, body) = (skeleton(), trunk());
-    let source = SourceBody::new(&body, &skeleton, &skeleton, &body);
+    let source = SourceBody::new(body.clone(), &skeleton, &skeleton, &body);
     let piece = CarriedPiece {
         vertices: (0..sheet.positions.len() as u32).collect(),
         triangle: 0,
@@ -119,7 +119,7 @@ fn filled_hat() -> TriangleMesh {
 /// The hat on the way to `target`: its one closed piece, where what has a place goes, and the sets that keep their shape.
 fn hat_on(hat: &TriangleMesh, target: &TriangleMesh) -> (CarriedPiece, Vec<(u32, DVec3)>, usize) {
     let (skeleton, body) = (skeleton(), trunk());
-    let source = SourceBody::new(&body, &skeleton, &skeleton, target);
+    let source = SourceBody::new(body.clone(), &skeleton, &skeleton, target);
     let loose = LoosePieces::find(&hat.positions, &hat.triangles);
     let found = closed_pieces::find(hat, &loose, &[], &skeleton, Some(&source.surface));
     assert_eq!(found.len(), 1, "{found:?}");

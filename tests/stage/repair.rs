@@ -95,7 +95,7 @@ impl Case {
             offset: 0.0,
             coordinate_error: 0.0,
             turns: true,
-            known_intersections: None,
+            known: Arc::default(),
         };
         Problem::new(&inputs, options, &Cancel::new(), diagnostics)
     }

@@ -63,7 +63,7 @@ fn the_sign_agrees_with_the_winding_number() {
     let wavy = body(|z| 0.2 + 0.1 * (9.0 * z).sin());
     // Turned inside out it is the same body.
     for mesh in [wavy.clone(), turned(&wavy)] {
-        let designed_on = SourceBody::new(&mesh, &bone, &bone, &mesh);
+        let designed_on = SourceBody::new(mesh.clone(), &bone, &bone, &mesh);
         let mut random = Random::new(31);
         let mut inside = 0;
         for _ in 0..2000 {
@@ -84,7 +84,7 @@ fn a_body_with_holes_has_an_inside() {
     let bone = skeleton();
     let mut mesh = body(|_| 0.2);
     mesh.triangles.retain(|t| t.iter().all(|&v| v < SIDES * (RINGS + 1)));
-    let designed_on = SourceBody::new(&mesh, &bone, &bone, &mesh);
+    let designed_on = SourceBody::new(mesh.clone(), &bone, &bone, &mesh);
     let mut random = Random::new(32);
     for _ in 0..500 {
         let direction = (DVec3::new(1.0, 1.0, 0.0) * random.vector()).normalize();
@@ -100,7 +100,7 @@ fn a_body_with_holes_has_an_inside() {
 fn the_clearance_is_in_proportion_to_the_limb() {
     let bone = skeleton();
     let (mannequin, target) = (body(|_| 0.2), body(|z| if z < 0.0 { 0.4 } else { 0.1 }));
-    let designed_on = SourceBody::new(&mannequin, &bone, &bone, &target);
+    let designed_on = SourceBody::new(mannequin.clone(), &bone, &bone, &target);
     let at = |z: f64| designed_on.clearance(DVec3::new(0.23, 0.0, z)) / 0.03;
     for k in 0..20 {
         let z = 0.3 + 0.035 * f64::from(k);
@@ -124,7 +124,7 @@ fn bones_beside_the_body_change_nothing() {
     bones.bones.push([3, 4]);
     let (mannequin, target) = (body(|_| 0.2), body(|_| 0.3));
     let ratio = |bones: &Skeleton, p: DVec3| {
-        let designed_on = SourceBody::new(&mannequin, bones, bones, &target);
+        let designed_on = SourceBody::new(mannequin.clone(), bones, bones, &target);
         designed_on.clearance(p) / designed_on.signed_distance(p)
     };
     assert!((ratio(&bones, DVec3::new(2.5, 0.1, 0.0)) - 1.5).abs() < 1e-6);

@@ -75,6 +75,25 @@ pub struct CarriedPiece {
     pub closed: bool,
 }
 
+/// What was found of carried pieces.
+pub struct Found {
+    /// They, in the order of their lowest vertices.
+    pub carried: Vec<CarriedPiece>,
+    /// Another piece is around bones.
+    pub is_worn: bool,
+}
+
+/// Where a piece is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// Around bones.
+    Worn,
+    /// Around bones together with others, or sewn to them.
+    WithOthers,
+    /// Around no bone that it is there to enclose.
+    Free,
+}
+
 /// `garment` with the triangles of `part` alone.
 fn own_mesh(garment: &TriangleMesh, part: &Piece) -> TriangleMesh {
     mesh_of(garment, part.triangles.iter().copied())
@@ -95,7 +114,7 @@ fn mesh_of(garment: &TriangleMesh, triangles: impl Iterator<Item = u32>) -> Tria
     }
 }
 
-/// The carried pieces of `garment`, in the order of their lowest vertices. `loose` are its pieces that are held to others,
+/// The carried pieces of `garment`. `loose` are its pieces that are held to others,
 /// `segments` the bones as far as there is anything on them, `source_body` the body that it was designed on.
 pub fn find(
     garment: &TriangleMesh,
@@ -103,24 +122,23 @@ pub fn find(
     segments: &[[DVec3; 2]],
     source: &Skeleton,
     source_body: Option<&ClosestPoint>,
-) -> Vec<CarriedPiece> {
+) -> Found {
     // What is held to another piece goes with it.
     let holds = loose.all().map(|piece| [piece.vertices[0], garment.triangles[piece.host as usize][0]]);
     let mut parts = Piece::find(&garment.positions, &garment.triangles, holds);
     if parts.is_empty() {
-        return Vec::new();
+        return Found { carried: Vec::new(), is_worn: false };
     }
     parts.sort_by(|a, b| b.size().total_cmp(&a.size()).then(a.vertices[0].cmp(&b.vertices[0])));
     parts.truncate(MOST_PIECES);
-    let is_free = |part: &Piece| is_around_no_bone(garment, part, segments);
-    let free: Vec<bool> = parts.par_iter().map(is_free).collect();
-    let mut free = free.iter();
-    parts.retain(|_| *free.next().unwrap_or(&false));
+    let places: Vec<Place> = parts.par_iter().map(|part| place(garment, part, segments)).collect();
+    let mut each = places.iter();
+    parts.retain(|_| each.next() == Some(&Place::Free));
     let joined = join_near(garment, parts);
     let mut carried: Vec<CarriedPiece> =
         joined.iter().filter_map(|part| carry(garment, part, segments, source, source_body)).collect();
     carried.sort_by_key(|piece| piece.vertices[0]);
-    carried
+    Found { carried, is_worn: places.contains(&Place::Worn) }
 }
 
 /// True where `carried` are all the triangles of `garment`.
@@ -130,25 +148,26 @@ pub fn is_whole(garment: &TriangleMesh, carried: &[CarriedPiece]) -> bool {
     garment.triangles.iter().all(|t| is_carried[t[0] as usize])
 }
 
-/// Whether `part` has no bone that it is there to enclose.
-fn is_around_no_bone(garment: &TriangleMesh, part: &Piece, segments: &[[DVec3; 2]]) -> bool {
+/// Where `part` is.
+fn place(garment: &TriangleMesh, part: &Piece, segments: &[[DVec3; 2]]) -> Place {
     let (own, samples) = (own_mesh(garment, part), samples(garment, part));
     let widest = if part.size() <= OPEN { Gap::Quarter } else { Gap::Half };
     if encloses_but_for(&own, segments, widest) {
-        return false;
+        // What is small is around a bone only where it leaves no wide gap, so it is around it by the wider rule as well.
+        return Place::Worn;
     }
     if part.triangles.len() == garment.triangles.len() {
-        return true;
+        return Place::Free;
     }
     let whole = enclosed_share_at(garment, segments, &samples, widest);
     if whole < MIN_ENCLOSED_SHARE {
-        return true;
+        return Place::Free;
     }
     let mut own = part.triangles.iter().peekable();
     let others = (0..garment.triangles.len() as u32).filter(|t| own.next_if_eq(&t).is_none());
     let others = mesh_of(garment, others);
     let without = enclosed_share_at(&others, segments, &samples, widest);
-    without >= AS_WELL * whole && !is_sewn(garment, part, &others)
+    if without >= AS_WELL * whole && !is_sewn(garment, part, &others) { Place::Free } else { Place::WithOthers }
 }
 
 /// Whether most of the border of `part` is at `others`.

@@ -9,6 +9,7 @@ pub mod contact_distances;
 pub mod curves;
 pub mod fit_region;
 pub mod hanging_pieces;
+pub mod known_garment;
 pub mod layer_skin;
 pub mod limb_sizes;
 pub mod loop_axis;

@@ -6,16 +6,14 @@ use glam::DVec3;
 
 use super::bone_map::BoneMap;
 use super::cap_motion::CapMotion;
-use super::carried_pieces::{self, CarriedPiece};
+use super::carried_pieces::CarriedPiece;
 use super::carried_places::CarriedPlaces;
-use super::closed_pieces;
 use super::contact_distances::ContactDistances;
-use super::hanging_pieces::HangingPieces;
+use super::known_garment::{KnownGarment, Pieces};
 use super::layer_skin::skin_on_skeleton;
-use super::loose_pieces::LoosePieces;
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
-use super::shape::{Asked, HeldPieces, Shape, rigid};
+use super::shape::{Asked, HeldPieces, Outline, Shape, rigid};
 use super::source_body::SourceBody;
 use super::wishes::{fit_weights, normalised_offset};
 use crate::contact::{Avatar, Bodies, Garment, Surface};
@@ -29,7 +27,7 @@ use crate::input::diagnostic::{Bone, Diagnostic};
 use crate::input::skeleton::Skeleton;
 use crate::input::skin::SkinWeights;
 use crate::input::weld::Weld;
-use crate::memo::{Memo, MeshBits};
+use crate::memo::MeshBits;
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
@@ -39,7 +37,6 @@ use crate::stage::start::projection::{ProjectedAvatar, project_with};
 use crate::stage::start::untangle::{Untangled, begin_apart};
 use crate::stage::start::weight_check::believed;
 use crate::stage::start::{enclosure, open_ends, repair};
-use crate::verify::intersections_with_cancel;
 
 /// A vertex is on an edge within the rounding of coordinates that came in 32 bits.
 const JUNCTION_REACH: f64 = 1e-6;
@@ -77,12 +74,9 @@ pub struct Inputs<'a> {
     pub coordinate_error: f64,
     /// The target may be turned while it is solved for.
     pub turns: bool,
-    /// What other sessions have found of the same garment.
-    pub known_intersections: Option<&'a KnownIntersections>,
+    /// What is known of the garment.
+    pub known: Arc<KnownGarment>,
 }
-
-/// Pairs of triangles of garments as designed that intersect.
-pub type KnownIntersections = Memo<MeshBits, Vec<[u32; 2]>>;
 
 /// The problem in the normalised space.
 #[derive(Clone)]
@@ -119,6 +113,8 @@ pub struct Problem {
     pub placed: Vec<u32>,
     /// The body that the garment was designed on.
     pub source_body: Option<SourceBody>,
+    /// What is known of the garment.
+    pub known: Arc<KnownGarment>,
     /// The clearance to aim at in addition to the designed one.
     pub offset: f64,
     /// The pieces that are around no bone, and where they go.
@@ -185,7 +181,9 @@ impl Problem {
         if distances != ContactDistances::of(options) {
             diagnostics.push(Diagnostic::CoarseCoordinates { min_separation: distances.min_separation });
         }
-        let designed_intersections = intersections_of(garment, inputs.known_intersections, cancel)?;
+        let known = inputs.known.clone();
+        let bits = MeshBits(Arc::new(garment.clone()));
+        let designed_intersections = known.intersections(&bits, cancel)?.to_vec();
         let junctions = t_junctions::find(&garment.positions, &garment.triangles, JUNCTION_REACH);
         let joined = touching_pairs(&junctions, &garment.triangles);
         cancel.check()?;
@@ -197,24 +195,20 @@ impl Problem {
             positions: source_normalization.normalise_all(&mesh.positions),
             triangles: mesh.triangles.clone(),
         });
-        let designed_on = source_body.as_ref().map(|body| SourceBody::new(body, source, target, &avatar.avatar()));
+        let designed_on = source_body.map(|body| SourceBody::new(body, source, target, &avatar.avatar()));
         let source_surface = designed_on.as_ref().map(|body| &body.surface);
-        let mut loose = LoosePieces::find(&garment.positions, &garment.triangles);
-        let hanging = HangingPieces::find(&garment.positions, &garment.triangles, source, &loose);
-        loose.holds.extend(hanging.holds);
-        loose.hanging = hanging.pieces;
-        let mut pieces = carried_pieces::find(garment, &loose, &segments, source, source_surface);
-        pieces.extend(closed_pieces::find(garment, &loose, &pieces, source, source_surface));
-        if !carried_pieces::is_whole(garment, &pieces) {
-            enclosure::check(garment, &segments)?;
+        let pieces = known.pieces(&bits, &segments, source, designed_on.as_ref(), cancel)?;
+        let Pieces { loose, sizes, carried: pieces, is_beside } = &*pieces;
+        if *is_beside {
+            return Err(enclosure::refused());
         }
         cancel.check()?;
-        let bodies = source_body.as_ref().map(|body| [&body.positions[..], avatar.avatar_positions()]);
+        let bodies = designed_on.as_ref().map(|body| [&body.mesh.0.positions[..], avatar.avatar_positions()]);
         let carried = if pieces.is_empty() {
             CarriedPlaces::default()
         } else {
             let map = BoneMap::new(source, target, bodies);
-            CarriedPlaces::new(garment, &pieces, &map, designed_on.as_ref(), options.designed_clearance)
+            CarriedPlaces::new(garment, pieces, &map, designed_on.as_ref(), options.designed_clearance)
         };
         // A strict caller asks to be refused, so nothing is pulled apart for him.
         let untangled = if options.strict {
@@ -225,16 +219,18 @@ impl Problem {
 
         let normalised_target = |p: DVec3| target_normalization.normalise(p);
         let pins: Vec<PinRequest> = inputs.pins.iter().map(|&(v, p)| (v, p.map(normalised_target))).collect();
-        let held = HeldPieces { loose: &loose, sizes: &hanging.sizes, carried: &carried };
+        let held = HeldPieces { loose, sizes, carried: &carried };
         check_curves(inputs.curves, garment)?;
         let asked = Asked { pins: &pins, rigid_groups: inputs.rigid_groups, curves: inputs.curves };
-        let (shape, curves) = Shape::new(garment, &junctions, source, target, &asked, &held, options);
+        let outline = Outline::new(garment, &junctions, &held);
+        let curves = known.curves(&bits, &outline, source, cancel)?;
+        let shape = Shape::new(garment, (&outline, &curves), [source, target], &asked, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
         diagnostics.extend(curves.near.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
         diagnostics.extend(curves.rims.diagnostics(source, |t| triangles[t as usize]));
         diagnostics.extend(junctions_found(&junctions, &weld));
-        Diagnostic::list(diagnostics, &pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
+        Diagnostic::list(diagnostics, pieces, |piece: &CarriedPiece| Diagnostic::CarriedPiece {
             vertices: piece.vertices.len(),
             triangle: weld.triangle_of[piece.triangle as usize],
             bone: Bone { index: piece.bone, joints: source.bones[piece.bone as usize] },
@@ -276,6 +272,7 @@ impl Problem {
             fit_weights,
             placed,
             source_body: designed_on,
+            known,
             offset,
             carried,
             callers_groups: inputs.rigid_groups.iter().filter(|group| !group.is_empty()).cloned().collect(),
@@ -399,19 +396,6 @@ impl Normalised {
         });
         garment.triangles = triangles;
         (Arc::new(weld.without(&removed)), motions)
-    }
-}
-
-/// The pairs of triangles of `garment` that intersect.
-fn intersections_of(
-    garment: &TriangleMesh,
-    known: Option<&KnownIntersections>,
-    cancel: &Cancel,
-) -> Result<Vec<[u32; 2]>> {
-    let find = || Ok(intersections_with_cancel(garment, None, usize::MAX, cancel)?.pairs);
-    match known {
-        Some(known) => Ok(known.get(MeshBits(Arc::new(garment.clone())), cancel, find)?.to_vec()),
-        None => find(),
     }
 }
 

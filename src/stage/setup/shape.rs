@@ -46,6 +46,16 @@ pub struct Shape {
     pub rigid: Rigid,
 }
 
+/// How the triangles of a garment hang together, and which of its vertices something else than a bone holds.
+pub struct Outline {
+    /// Its triangles; slits without width, which are no boundaries and whose sides keep their angle, are closed.
+    closed: Vec<[u32; 3]>,
+    /// Their connectivity.
+    topology: Topology,
+    /// Whether each vertex is held with its piece.
+    pub is_held: Vec<bool>,
+}
+
 /// The curves of a garment that were found beside its boundary loops.
 pub struct Curves {
     /// The borders that are held to others.
@@ -85,30 +95,46 @@ impl HeldPieces<'_> {
     }
 }
 
+impl Outline {
+    /// That of `garment` with its T-junctions; `held` are its pieces that something else holds.
+    pub fn new(garment: &TriangleMesh, junctions: &[TJunction], held: &HeldPieces<'_>) -> Self {
+        let (vertices, triangles) = (garment.positions.len(), &garment.triangles);
+        let closed: Vec<[u32; 3]> =
+            triangles.iter().copied().chain(junctions.iter().flat_map(TJunction::caps)).collect();
+        let topology = Topology::new(vertices, &closed);
+        let mut is_held = vec![false; vertices];
+        held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
+        held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
+        Self { closed, topology, is_held }
+    }
+}
+
+impl Curves {
+    /// Those of `garment` around `source`.
+    pub fn find(garment: &TriangleMesh, outline: &Outline, source: &Skeleton) -> Self {
+        let Outline { topology, is_held, .. } = outline;
+        Self {
+            near: NearBorders::find(&garment.positions, &garment.triangles, topology, is_held),
+            rims: ShellRims::find(garment, topology, is_held, source),
+        }
+    }
+}
+
 impl Shape {
-    /// The terms of `garment` as designed, with its T-junctions, between the skeletons `source` and `target`. `held` are its
-    /// pieces that something else holds; the borders that are held to others, and the rims of shells, are found.
+    /// The terms of `garment` as designed, with its `outline` and `found` curves, between source and target skeleton. `held` are
+    /// its pieces that something else holds.
     pub fn new(
         garment: &TriangleMesh,
-        junctions: &[TJunction],
-        source: &Skeleton,
-        target: &Skeleton,
+        (outline, found): (&Outline, &Curves),
+        [source, target]: [&Skeleton; 2],
         asked: &Asked<'_>,
         held: &HeldPieces<'_>,
         options: &Options,
-    ) -> (Self, Curves) {
+    ) -> Self {
         let (rest, triangles) = (&garment.positions, &garment.triangles);
-        // A slit without width is no boundary, and its sides keep their angle.
-        let closed: Vec<[u32; 3]> =
-            triangles.iter().copied().chain(junctions.iter().flat_map(TJunction::caps)).collect();
-        let topology = Topology::new(rest.len(), &closed);
-        let mut is_held = vec![false; rest.len()];
-        held.loose.all().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
-        held.carried.pieces().flat_map(|piece| &piece.vertices).for_each(|&v| is_held[v as usize] = true);
-        let near = NearBorders::find(rest, triangles, &topology, &is_held);
-        let rims = ShellRims::find(garment, &topology, &is_held, source);
-        let curves = HeldCurves::new(topology.loops.iter().chain(&rims.loops), asked.curves);
-        let whole = without_caps(rest, &closed);
+        let Outline { closed, topology, is_held } = outline;
+        let curves = HeldCurves::new(topology.loops.iter().chain(&found.rims.loops), asked.curves);
+        let whole = without_caps(rest, closed);
         let hinges = whole.map(|triangles| Topology::new(rest.len(), &triangles).hinges);
         let hinges = hinges.as_ref().unwrap_or(&topology.hinges);
         let mut surface = if options.surface_length > 0.0 {
@@ -120,18 +146,17 @@ impl Shape {
         if !fillings.is_empty() {
             surface.soften(|v| fillings.contains(&v), FILLING);
         }
-        let shape = Self {
+        Self {
             surface,
             attachment: Attachment::new(rest, &held.loose.holds, &held.sizes()),
-            borders: Attachment::of_borders(rest, &near.holds),
+            borders: Attachment::of_borders(rest, &found.near.holds),
             carry: held.carried.term(),
             curvature: Curvature::new(rest, curves.polylines(), options.curve_chord),
             torsion: Torsion::new(rest, curves.polylines(), options.curve_chord),
-            position: curves.position(rest, &topology, &is_held, source, target),
+            position: curves.position(rest, topology, is_held, source, target),
             pins: Pins::new(pin_targets::resolve(rest, triangles, asked.pins, source, target)),
             rigid: rigid(rest, asked.rigid_groups, held.carried),
-        };
-        (shape, Curves { near, rims })
+        }
     }
 }
 

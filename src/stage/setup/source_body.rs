@@ -8,12 +8,17 @@
 //! its size on the source body ([`LimbSizes`]). So a sleeve is as loose for its arm as it was, whatever the rest of the body is
 //! like; and what lay inside the body, where the target cannot have it, goes to the surface and not beyond.
 
+use std::sync::Arc;
+
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::limb_sizes::LimbSizes;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::skeleton::Skeleton;
+use crate::memo::MeshBits;
+use crate::memory::bytes;
 
 /// A point on the outer side of the triangle closest to it is outside, where that side is as clear as this cosine; else rays
 /// decide.
@@ -30,6 +35,8 @@ const RAYS: [DVec3; 5] = [
 /// The body that the garment was designed on.
 #[derive(Clone)]
 pub struct SourceBody {
+    /// It, normalised by its skeleton.
+    pub mesh: MeshBits,
     /// Its surface.
     pub surface: ClosestPoint,
     /// 1 where its triangles face outwards, -1 where inwards.
@@ -39,20 +46,30 @@ pub struct SourceBody {
 
 impl SourceBody {
     /// `body` around the skeleton `source`, for `avatar` around `target`, each normalised by its skeleton.
-    pub fn new(body: &TriangleMesh, source: &Skeleton, target: &Skeleton, avatar: &TriangleMesh) -> Self {
-        let surface = ClosestPoint::new(body);
+    pub fn new(body: TriangleMesh, source: &Skeleton, target: &Skeleton, avatar: &TriangleMesh) -> Self {
+        let surface = ClosestPoint::new(&body);
         let volume = |&[a, b, c]: &[u32; 3]| {
             let [a, b, c] = [a, b, c].map(|v| body.positions[v as usize] - source.joints[0]);
             a.dot(b.cross(c))
         };
         let outward = body.triangles.iter().map(volume).sum::<f64>().signum();
         let sizes = LimbSizes::new((source, &surface), (target, &ClosestPoint::new(avatar)));
-        Self { surface, outward, sizes }
+        Self { mesh: MeshBits(Arc::new(body)), surface, outward, sizes }
     }
 
     /// The clearance that `p` of the garment as designed is to have on the target body.
     pub fn clearance(&self, p: DVec3) -> f64 {
-        self.sizes.ratio(p) * self.signed_distance(p).max(0.0)
+        self.clearance_of(p, self.signed_distance(p))
+    }
+
+    /// The same where its signed distance is known.
+    pub fn clearance_of(&self, p: DVec3, distance: f64) -> f64 {
+        self.sizes.ratio(p) * distance.max(0.0)
+    }
+
+    /// The signed distance of each of `points`.
+    pub fn signed_distances(&self, points: &[DVec3]) -> Vec<f64> {
+        points.par_iter().map(|&p| self.signed_distance(p)).collect()
     }
 
     /// The distance of `p` from the surface, negative inside.
@@ -70,6 +87,7 @@ impl SourceBody {
 
     /// Bytes that it holds.
     pub fn memory(&self) -> u64 {
-        self.surface.memory() + self.sizes.memory()
+        let mesh = &*self.mesh.0;
+        bytes(&mesh.positions) + bytes(&mesh.triangles) + self.surface.memory() + self.sizes.memory()
     }
 }

@@ -14,7 +14,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::winding::{Winding, windings};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, ErrorKind};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces, triangle_area};
 use crate::geometry::section::{Gap, Section};
@@ -96,20 +96,13 @@ impl Enclosures {
     }
 }
 
-/// Refuses a garment that does not enclose `segments`, the skeleton's bones as far as there is anything on them: none of its
-/// pieces does, nor do all of them together.
-///
-/// # Errors
-/// `NotEnclosed`.
-pub fn check(garment: &TriangleMesh, segments: &[[DVec3; 2]]) -> Result<()> {
-    if encloses(garment, segments) {
-        return Ok(());
-    }
-    Err(Error::new(
+/// What is said to a garment that is around no bone: none of its pieces is, nor are all of them together.
+pub fn refused() -> Error {
+    Error::new(
         ErrorKind::NotEnclosed,
         "garment: it does not enclose the source skeleton and is around none of its bones; move one onto the other, and make \
          sure that both are in one coordinate system and unit",
-    ))
+    )
 }
 
 /// Whether any piece of `garment` encloses any of `segments`, or all of them together do.

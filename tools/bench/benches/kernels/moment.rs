@@ -58,7 +58,7 @@ impl Moment {
             offset: 0.0,
             coordinate_error: 0.0,
             turns: true,
-            known_intersections: None,
+            known: Arc::default(),
         };
         let problem = Problem::new(&inputs, &options, &Cancel::new(), &mut Vec::new())?;
         let mut objective = problem.inflation_objective(&options, &Cancel::new(), &mut Vec::new())?;

@@ -201,7 +201,7 @@ impl Scene {
                 offset: 0.0,
                 coordinate_error: 0.0,
                 turns: true,
-                known_intersections: None,
+                known: Arc::default(),
             },
             &self.options,
             &Cancel::new(),
