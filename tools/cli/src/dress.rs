@@ -12,9 +12,10 @@ use crate::attempts::put_on;
 use crate::bodies::{self, joined};
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure, Part};
-use crate::fit::{Fitted, Job, Refused, Skinned};
+use crate::fit::{Fitted, Job, Refused, Skinned, shared_garment};
 use crate::joint_pairs;
 use crate::known_avatar::KnownAvatar;
+use crate::known_outfits::{KnownOutfit, KnownOutfits};
 use crate::obj::{self, Beside};
 use crate::outfit::{self, Garment};
 use crate::output::{self, Written};
@@ -28,20 +29,27 @@ use crate::say::{say, say_findings};
 /// # Errors
 /// Where there is no result; nothing is written then, but the report.
 pub fn run(args: &Dress) -> Result<u8> {
-    run_on(args, &mut None)
+    run_with(args, &mut Known::default())
 }
 
-/// The same, with the character of the call before, where this one is about the same.
+/// What is known from calls before.
+#[derive(Default)]
+pub struct Known {
+    avatar: Option<KnownAvatar>,
+    outfits: KnownOutfits,
+}
+
+/// The same, with what is known of the same character and the same outfit.
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_on(args: &Dress, known: &mut Option<KnownAvatar>) -> Result<u8> {
+pub fn run_with(args: &Dress, known: &mut Known) -> Result<u8> {
     let patterns = |text: &Option<String>| text.as_deref().map(Patterns::parse).transpose().map_err(Failure::usage);
     let outfit_choice = Choice { garments: patterns(&args.nodes)?, body: None };
     let source_choice = Choice { garments: None, body: patterns(&args.source_nodes)? };
     let written = output::written(args)?;
 
-    let avatar = KnownAvatar::of(args, known)?;
+    let avatar = KnownAvatar::of(args, &mut known.avatar)?;
     output::need_weights(written, args, &avatar.figure)?;
     let beside = Files::new(args)?;
     let outfit_choice = match &args.source {
@@ -65,7 +73,7 @@ pub fn run_on(args: &Dress, known: &mut Option<KnownAvatar>) -> Result<u8> {
     let is_plain = args.map.is_none() && !outfit.has_skin();
     let skeletons = skeletons.filter(|_| is_plain).map(|(source, target)| [source, target]);
     let dressing = Dressing { args, written, outfit: &outfit, avatar, made_for: &made_for, pairs: &pairs, skeletons };
-    dressing.run(&garments)
+    dressing.run(&garments, known.outfits.of(args))
 }
 
 /// What is given beside OBJ files of outfit and source.
@@ -172,7 +180,7 @@ pub struct Dressed<'a> {
 }
 
 impl Dressing<'_> {
-    fn run(&self, garments: &[Garment]) -> Result<u8> {
+    fn run(&self, garments: &[Garment], known: &mut KnownOutfit) -> Result<u8> {
         let args = self.args;
         let options = Options {
             threads: args.threads,
@@ -196,22 +204,33 @@ impl Dressing<'_> {
             let (cloth, _) = joined(parts.iter().copied(), self.outfit.rig.joints.len());
             let drawn = outfit::drawn(self.outfit, &parts)?;
             let morphs = outfit::morphs(self.outfit, &parts);
+            let (has_skin, rig, space) = (self.outfit.has_skin(), self.made_for.rig(), self.outfit.space());
+            let make = || shared_garment(&cloth, has_skin, &morphs, source.as_ref(), rig, space);
+            let shared_garment = match known.garment(&garment.parts, &cloth.mesh, make) {
+                Ok(shared) => shared,
+                Err(error) => {
+                    let failure = Failure::no_result(format!("{}: {error}", garment.name));
+                    refused.push((garment, Box::new(Refused { failure, findings: Vec::new() })));
+                    continue;
+                }
+            };
             let job = Job {
                 name: &garment.name,
                 garment: &cloth,
                 drawn: &drawn,
                 morphs: &morphs,
-                has_skin: self.outfit.has_skin(),
+                has_skin,
                 source: source.as_ref(),
-                source_rig: self.made_for.rig(),
+                source_rig: rig,
                 avatar: &avatar.body,
                 roles: &avatar.roles,
                 target_rig: &figure.rig,
-                shared,
+                shared_garment: &shared_garment,
+                shared_avatar: shared,
                 layers: &layers,
                 pairs: self.pairs,
                 skeletons: self.skeletons,
-                spaces: [self.outfit.space(), self.avatar.space],
+                space: self.avatar.space,
                 influences: args.influences as usize,
                 options: &options,
                 quiet: args.quiet,

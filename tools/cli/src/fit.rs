@@ -13,7 +13,7 @@ use bespoke::options::Options;
 use bespoke::report::Report;
 use bespoke::rig::joint_map::CallersPair;
 use bespoke::rig::weights::own_joints::AddedJoint;
-use bespoke::session::{Morph, PartRole, Precision, RenderMesh, Session, SharedAvatar};
+use bespoke::session::{Morph, PartRole, Precision, RenderMesh, Session, SharedAvatar, SharedGarment};
 use glam::{DVec3, DVec4};
 
 use crate::failure::{Failure, Result};
@@ -58,16 +58,18 @@ pub struct Job<'a> {
     pub roles: &'a [PartRole],
     /// Its joints.
     pub target_rig: &'a Rig,
-    /// Body and joints together, for all sessions.
-    pub shared: &'a SharedAvatar,
+    /// The garment with all that belongs to it, for all sessions: [`shared_garment`].
+    pub shared_garment: &'a SharedGarment,
+    /// Body and joints together, likewise: [`shared_avatar`].
+    pub shared_avatar: &'a SharedAvatar,
     /// Garments that it wears already, inside this one.
     pub layers: &'a [TriangleMesh],
     /// Joints that the user says correspond.
     pub pairs: &'a [CallersPair],
     /// Source and target skeleton, where the two correspond joint by joint; they take the place of the rigs.
     pub skeletons: Option<[&'a Skeleton; 2]>,
-    /// The coordinate system of garment and source, and that of the avatar.
-    pub spaces: [CoordinateSystem; 2],
+    /// The coordinate system of the avatar.
+    pub space: CoordinateSystem,
     /// Joints for each vertex of the result.
     pub influences: usize,
     /// How it fits.
@@ -203,24 +205,9 @@ impl Job<'_> {
 
     fn fill(&self, session: &mut Session) -> bespoke::error::Result<()> {
         session.set_options(self.options.clone())?;
-        session.set_garment(self.garment.mesh.clone(), Precision::F32)?;
-        if self.has_skin {
-            session.set_garment_skin(self.garment.skin.clone())?;
-        }
-        for morph in self.morphs {
-            session.add_garment_morph(morph.clone())?;
-        }
-        let [source_space, target_space] = self.spaces;
-        session.set_source_coordinate_system(source_space)?;
-        session.set_target_coordinate_system(target_space)?;
-        session.set_source_rig(self.source_rig.clone())?;
-        if let Some(source) = self.source {
-            session.set_source_avatar(source.mesh.clone())?;
-            if source.has_weights() {
-                session.set_source_skin(source.skin.clone())?;
-            }
-        }
-        session.use_avatar(self.shared)?;
+        session.use_garment(self.shared_garment)?;
+        session.use_avatar(self.shared_avatar)?;
+        session.set_target_coordinate_system(self.space)?;
         if let Some([source, target]) = self.skeletons {
             session.set_source_skeleton(source.clone())?;
             session.set_target_skeleton(target.clone())?;
@@ -249,11 +236,43 @@ fn caps(session: &Session) -> Vec<u32> {
     caps
 }
 
+/// A garment that sessions share, with its morphs, the body that it was made for where there is one, and the joints and the coordinate
+/// system of both. Its weights are left out where they mean nothing.
+///
+/// # Errors
+/// Where the library refuses one of them.
+pub fn shared_garment(
+    garment: &Skinned,
+    has_skin: bool,
+    morphs: &[Morph],
+    source: Option<&Skinned>,
+    rig: &Rig,
+    space: CoordinateSystem,
+) -> bespoke::error::Result<SharedGarment> {
+    let mut session = Session::new();
+    session.set_garment(garment.mesh.clone(), Precision::F32)?;
+    if has_skin {
+        session.set_garment_skin(garment.skin.clone())?;
+    }
+    for morph in morphs {
+        session.add_garment_morph(morph.clone())?;
+    }
+    session.set_source_coordinate_system(space)?;
+    session.set_source_rig(rig.clone())?;
+    if let Some(source) = source {
+        session.set_source_avatar(source.mesh.clone())?;
+        if source.has_weights() {
+            session.set_source_skin(source.skin.clone())?;
+        }
+    }
+    session.share_garment()
+}
+
 /// A body that sessions share, with the joints that move it and the roles of its triangles.
 ///
 /// # Errors
 /// Where the library refuses one of them.
-pub fn shared(rig: &Rig, body: &Skinned, roles: &[PartRole]) -> bespoke::error::Result<SharedAvatar> {
+pub fn shared_avatar(rig: &Rig, body: &Skinned, roles: &[PartRole]) -> bespoke::error::Result<SharedAvatar> {
     let mut session = Session::new();
     session.set_target_rig(rig.clone())?;
     session.set_target_avatar(body.mesh.clone())?;

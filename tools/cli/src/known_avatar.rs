@@ -1,7 +1,6 @@
 //! The character to dress, read and prepared once for all outfits that are put on it one after the other.
 
-use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
+use std::path::Path;
 
 use bespoke::input::coordinate_system::CoordinateSystem;
 use bespoke::session::SharedAvatar;
@@ -10,7 +9,8 @@ use crate::args::{Dress, Keep};
 use crate::bodies;
 use crate::failure::{Failure, Result};
 use crate::figure::{Choice, Figure};
-use crate::fit::shared;
+use crate::file_state::FileState;
+use crate::fit::shared_avatar;
 use crate::obj::Beside;
 use crate::parts::Role;
 use crate::parts::pattern::Patterns;
@@ -31,9 +31,7 @@ pub struct KnownAvatar {
 /// All that it depends on: another size or age of the file, and it is read again.
 #[derive(PartialEq, Eq)]
 struct Source {
-    file: PathBuf,
-    length: u64,
-    age: u128,
+    file: FileState,
     nodes: Option<String>,
     beside: Beside,
     is_clothed: bool,
@@ -41,12 +39,8 @@ struct Source {
 
 impl Source {
     fn of(args: &Dress) -> Self {
-        let known = std::fs::metadata(&args.avatar).ok();
-        let age = known.as_ref().and_then(|known| known.modified().ok()?.duration_since(UNIX_EPOCH).ok());
         Self {
-            file: args.avatar.clone(),
-            length: known.map_or(0, |known| known.len()),
-            age: age.unwrap_or_default().as_nanos(),
+            file: FileState::of(&args.avatar),
             nodes: args.avatar_nodes.clone(),
             beside: Beside {
                 skeleton: args.obj.target_skeleton.clone(),
@@ -94,6 +88,6 @@ impl KnownAvatar {
 /// # Errors
 /// Where the library refuses it.
 pub fn share(file: &Path, figure: &Figure, avatar: &bodies::Avatar) -> Result<SharedAvatar> {
-    shared(&figure.rig, &avatar.body, &avatar.roles)
+    shared_avatar(&figure.rig, &avatar.body, &avatar.roles)
         .map_err(|error| Failure::no_result(format!("{}: {error}", file.display())))
 }

@@ -7,7 +7,7 @@ use bespoke::session::{PartRole, RenderMesh};
 
 use crate::bodies::{self, joined};
 use crate::figure::Figure;
-use crate::fit::{Job, shared};
+use crate::fit::{Job, shared_avatar, shared_garment};
 use crate::outfit::Garment;
 
 /// Asks `see` about a garment as it would be dressed on the body that it is on; none where the file has no rig or no body.
@@ -22,7 +22,8 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
     let (cloth, _) = joined(parts, figure.rig.joints.len());
     let Some(body) = bodies::source(figure) else { return Ok(None) };
     let roles = vec![PartRole::Automatic; body.mesh.triangles.len()];
-    let shared = shared(&figure.rig, &body, &roles)?;
+    let worn = shared_garment(&cloth, figure.has_skin(), &[], Some(&body), &figure.rig, figure.space())?;
+    let shared = shared_avatar(&figure.rig, &body, &roles)?;
     let job = Job {
         name: &garment.name,
         garment: &cloth,
@@ -34,11 +35,12 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
         avatar: &body,
         roles: &roles,
         target_rig: &figure.rig,
-        shared: &shared,
+        shared_garment: &worn,
+        shared_avatar: &shared,
         layers: &[],
         pairs: &[],
         skeletons: figure.skeleton().map(|skeleton| [skeleton, skeleton]),
-        spaces: [figure.space(), CoordinateSystem::default()],
+        space: CoordinateSystem::default(),
         influences: 4,
         options: &Options::default(),
         quiet: true,

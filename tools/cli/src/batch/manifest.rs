@@ -89,6 +89,8 @@ pub struct Manifest {
 pub struct Pair {
     /// "suit on hero".
     pub name: String,
+    /// Name of the outfit.
+    pub outfit: String,
     /// The avatar's file and nodes: pairs in which they are the same share it.
     pub avatar: String,
     /// Files whose change makes the result an old one.
@@ -196,6 +198,7 @@ impl Manifest {
         arguments.extend(named().map(|(option, file)| format!("{option}={}", file.display())));
         Pair {
             name: format!("{} on {}", outfit.name, avatar.name),
+            outfit: outfit.name.clone(),
             avatar: format!("{}\0{}", avatar.file.display(), avatar.nodes.as_deref().unwrap_or_default()),
             inputs: meshes
                 .iter()

@@ -1,8 +1,9 @@
 //! `bespoke batch`: every outfit of a manifest on every avatar.
 //!
-//! Processes run side by side, each with one thread, which wastes less than threads within a pair. Each dresses the outfits of one
-//! avatar after the other, which is read and prepared once; the results are those of `bespoke dress`. A pair that takes its process
-//! with it is dressed once more, in one of its own, and the others of its avatar in another.
+//! Processes run side by side, each with one thread, which wastes less than threads within a pair, until there are fewer pairs than
+//! processes. Each dresses the outfits of one avatar after the other, which is read and prepared once, and keeps what it knows of the
+//! last outfits; the results are those of `bespoke dress`. A pair that takes its process with it is dressed once more, in one of its
+//! own, and the others of its avatar in another.
 
 pub mod journal;
 pub mod manifest;
@@ -21,7 +22,7 @@ use crate::progress::is_stopped;
 use crate::say::say;
 use journal::{Journal, Line, made_of};
 use manifest::{Manifest, Pair};
-use queue::Queue;
+use queue::{AtHand, Queue, Task};
 use worker::Worker;
 
 /// Of what a pair said, so many bytes are kept.
@@ -40,10 +41,13 @@ pub fn run(args: &Batch) -> Result<u8> {
     let mut journal =
         Journal::open(&report, || say(args.quiet, "another batch is at this report; waiting for it to end"))?;
     let mut count = Count::default();
-    let mut left = Vec::new();
+    let (mut left, mut known) = (Vec::new(), Vec::new());
     for &pair in &own {
         match journal.done(pair) {
-            Some(line) if !(args.retry && line.exit == 1) => count.add(line.exit),
+            Some(line) if !(args.retry && line.exit == 1) => {
+                count.add(line.exit);
+                known.push((pair, line.seconds));
+            }
             _ => left.push(pair),
         }
     }
@@ -55,17 +59,21 @@ pub fn run(args: &Batch) -> Result<u8> {
         .map_err(|e| Failure::no_result(format!("this program does not know where it lies: {e}")))?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = if args.jobs == 0 { cores } else { args.jobs as usize };
-    let queue = Queue::new(&left);
+    let queue = Queue::new(&left, jobs);
+    known.iter().for_each(|(pair, seconds)| queue.ended(pair, *seconds));
     let (ended, results) = channel();
     std::thread::scope(|scope| {
         for _ in 0..jobs.min(left.len()) {
             let (ended, queue, program) = (ended.clone(), &queue, &program);
             scope.spawn(move || {
-                let (mut worker, mut last) = (None, None);
+                let (mut worker, mut at_hand) = (None, AtHand::default());
                 while !is_stopped() {
-                    let Some(pair) = queue.next(last) else { return };
-                    last = Some(pair);
-                    if ended.send(dress(program, &mut worker, pair)).is_err() {
+                    let Some(task) = queue.next(&mut at_hand) else { return };
+                    let line = dress(program, &mut worker, &task);
+                    if let Ok(Some(line)) = &line {
+                        queue.ended(task.pair, line.seconds);
+                    }
+                    if ended.send(line).is_err() {
                         return;
                     }
                 }
@@ -145,8 +153,8 @@ fn beside(manifest: &Path, (part, parts): (u32, u32)) -> PathBuf {
 }
 
 /// Dresses a pair. None where it was stopped, so that it is done another time.
-fn dress(program: &Path, worker: &mut Option<Worker>, pair: &Pair) -> Result<Option<Line>> {
-    let clock = Instant::now();
+fn dress(program: &Path, worker: &mut Option<Worker>, task: &Task) -> Result<Option<Line>> {
+    let (pair, clock) = (task.pair, Instant::now());
     if let Some(folder) = pair.output.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder)
             .map_err(|e| Failure::no_result(format!("the folder {} cannot be made: {e}", folder.display())))?;
@@ -154,7 +162,7 @@ fn dress(program: &Path, worker: &mut Option<Worker>, pair: &Pair) -> Result<Opt
     // Before it begins: a file that changes meanwhile makes the result an old one.
     let made_of = made_of(pair).unwrap_or_default();
     let mut arguments = pair.arguments.clone();
-    arguments.extend(["--threads=1".to_string(), "--quiet".to_string()]);
+    arguments.extend([format!("--threads={}", task.threads), "--quiet".to_string()]);
     let running = match worker {
         Some(running) => running,
         None => worker.insert(Worker::start(program)?),

@@ -1,7 +1,7 @@
 //! A process that dresses pairs one after the other, and what the batch knows of it.
 //!
-//! It is told a pair in a line of JSON, and answers with a line. So outfits for the same avatar find it prepared; and a pair that
-//! takes its process with it takes no result of another.
+//! It is told a pair in a line of JSON, and answers with a line. So outfits for the same avatar find it prepared, and an outfit that
+//! was put on another one before is known; and a pair that takes its process with it takes no result of another.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -11,9 +11,8 @@ use clap::Parser as _;
 use serde::{Deserialize, Serialize};
 
 use crate::args::{self, CommandLine};
-use crate::dress;
+use crate::dress::{self, Known};
 use crate::failure::{Failure, Result};
-use crate::known_avatar::KnownAvatar;
 use crate::progress::is_stopped;
 use crate::say::heard;
 
@@ -83,7 +82,7 @@ impl Drop for Worker {
 /// Where nobody listens any more.
 pub fn serve(questions: &mut impl BufRead, answers: &mut impl Write) -> Result<u8> {
     let fail = |e: std::io::Error| Failure::no_result(format!("nobody asks any more: {e}"));
-    let mut known = None;
+    let mut known = Known::default();
     for question in questions.lines() {
         let question: Question = serde_json::from_str(&question.map_err(fail)?)
             .map_err(|e| Failure::usage(format!("this is no question of `bespoke batch`: {e}")))?;
@@ -101,10 +100,10 @@ pub fn serve(questions: &mut impl BufRead, answers: &mut impl Write) -> Result<u
     Ok(0)
 }
 
-fn dress_one(arguments: &[String], known: &mut Option<KnownAvatar>) -> Result<u8> {
+fn dress_one(arguments: &[String], known: &mut Known) -> Result<u8> {
     let words = ["bespoke", "dress"].into_iter().map(String::from).chain(arguments.iter().cloned());
     match CommandLine::try_parse_from(words).map_err(|e| Failure::usage(e.to_string()))?.command {
-        args::Command::Dress(args) => dress::run_on(&args, known),
+        args::Command::Dress(args) => dress::run_with(&args, known),
         _ => Err(Failure::usage("a pair is dressed and nothing else")),
     }
 }

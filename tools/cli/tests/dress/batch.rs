@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use bespoke_cli::batch::journal::Line;
 use bespoke_cli::batch::manifest::{Manifest, Pair};
-use bespoke_cli::batch::queue::Queue;
+use bespoke_cli::batch::queue::{AtHand, Queue};
 
 use super::files::folder;
 use super::{AVATAR, OUTFIT, bespoke, ends};
@@ -236,21 +236,80 @@ fn two_at_once_do_nothing_twice() {
     all_there(&folder, &expected);
 }
 
-#[test]
-fn who_is_at_an_avatar_stays_there() {
-    let folder = folder("queue");
-    manifest(
-        &folder,
-        r#"{"outfits": ["a.glb", "b.glb", "c.glb"], "avatars": ["x.glb", "y.glb", "z.glb"], "output": "{avatar}/{outfit}.glb"}"#,
-    );
-    let pairs = Manifest::read(&folder.join("all.json")).unwrap().pairs().unwrap();
-    let queue = Queue::new(&pairs.iter().collect::<Vec<_>>());
-    let (mut first, mut second) = (Vec::new(), Vec::new());
-    while let Some(pair) = queue.next(first.last().copied()) {
-        first.push(pair);
-        second.extend(queue.next(second.last().copied()));
+/// All pairs of so many outfits and these avatars.
+fn grid(name: &str, outfits: usize, avatars: &[&str]) -> Vec<Pair> {
+    let folder = folder(name);
+    let files = |names: &mut dyn Iterator<Item = String>| {
+        names.map(|name| format!("\"{name}.glb\"")).collect::<Vec<_>>().join(", ")
+    };
+    let outfits = files(&mut (1..=outfits).map(|k| format!("outfit-{k}")));
+    let avatars = files(&mut avatars.iter().map(|name| (*name).to_string()));
+    let text = format!(r#"{{"outfits": [{outfits}], "avatars": [{avatars}], "output": "{{avatar}}/{{outfit}}.glb"}}"#);
+    manifest(&folder, &text);
+    Manifest::read(&folder.join("all.json")).unwrap().pairs().unwrap()
+}
+
+/// Lets so many processes dress `pairs`, each of which takes `seconds`: the tasks of each process with their threads, and when all
+/// are done.
+fn simulated(pairs: &[Pair], jobs: usize, seconds: impl Fn(&Pair) -> f64) -> (Vec<Vec<(&Pair, usize)>>, f64) {
+    let queue = Queue::new(&pairs.iter().collect::<Vec<_>>(), jobs);
+    let mut hands: Vec<AtHand> = (0..jobs).map(|_| AtHand::default()).collect();
+    let mut tasks = vec![Vec::new(); jobs];
+    // When each is free, and after which pair.
+    let mut free: Vec<(f64, Option<&Pair>)> = vec![(0.0, None); jobs];
+    let mut end = 0.0f64;
+    while let Some(who) =
+        (0..free.len()).filter(|&k| free[k].0.is_finite()).min_by(|&a, &b| free[a].0.total_cmp(&free[b].0))
+    {
+        let (now, last) = free[who];
+        end = end.max(now);
+        last.into_iter().for_each(|pair| queue.ended(pair, seconds(pair)));
+        free[who] = match queue.next(&mut hands[who]) {
+            Some(task) => {
+                tasks[who].push((task.pair, task.threads));
+                (now + seconds(task.pair), Some(task.pair))
+            }
+            None => (f64::INFINITY, None),
+        };
     }
-    let names = |pairs: &[&Pair]| pairs.iter().map(|pair| pair.name.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&first), ["a on x", "b on x", "c on x", "a on z", "c on z"]);
-    assert_eq!(names(&second), ["a on y", "b on y", "c on y", "b on z"]);
+    (tasks, end)
+}
+
+#[test]
+fn what_takes_long_is_not_left_to_the_end() {
+    let pairs = grid("queue", 3, &["x", "y", "long"]);
+    let (tasks, end) = simulated(&pairs, 2, |pair| if pair.avatar.contains("long") { 5.0 } else { 1.0 });
+    let all: Vec<&str> = tasks.iter().flatten().map(|(pair, _)| pair.name.as_str()).collect();
+    let mut names: Vec<&str> = pairs.iter().map(|pair| pair.name.as_str()).collect();
+    let mut sorted = all.clone();
+    sorted.sort_unstable();
+    names.sort_unstable();
+    assert_eq!(sorted, names);
+    // 21 s for two; avatar after avatar it takes 13.
+    assert!(end <= 11.0, "{end}: {all:?}");
+    // The last one has both cores.
+    let threads: Vec<usize> = tasks.iter().flatten().map(|(_, threads)| *threads).collect();
+    assert_eq!(threads.iter().filter(|&&threads| threads == 2).count(), 1, "{threads:?}");
+    assert!(tasks.iter().any(|own| own.last().unwrap().1 == 2));
+}
+
+#[test]
+fn avatars_are_prepared_once_for_as_many_outfits_as_are_kept_in_mind() {
+    let pairs = grid("queue-outfits", 20, &["x", "y", "z"]);
+    let (tasks, _) = simulated(&pairs, 1, |_| 1.0);
+    let (mut kept, mut read, mut prepared) = (Vec::new(), 0, 0);
+    let mut last = "";
+    for (pair, threads) in &tasks[0] {
+        assert_eq!(*threads, 1);
+        prepared += usize::from(pair.avatar != last);
+        last = &pair.avatar;
+        if !kept.contains(&pair.outfit) {
+            read += 1;
+            kept.insert(0, pair.outfit.clone());
+            kept.truncate(8);
+        }
+    }
+    assert_eq!((tasks[0].len(), read), (60, 20));
+    // Three times for 8, 8 and 4 outfits, but for those at which it is already.
+    assert_eq!(prepared, 7);
 }
