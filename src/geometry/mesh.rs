@@ -49,6 +49,15 @@ impl TriangleMesh {
     pub fn areas(&self) -> Vec<f64> {
         self.triangles.iter().map(|&t| triangle_area(t.map(|v| self.positions[v as usize]))).collect()
     }
+
+    /// A third of the area of the triangles at each vertex.
+    pub fn vertex_areas(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.positions.len()];
+        for (t, area) in self.triangles.iter().zip(self.areas()) {
+            t.iter().for_each(|&v| areas[v as usize] += area / 3.0);
+        }
+        areas
+    }
 }
 
 /// Area of a triangle.

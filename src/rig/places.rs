@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body_part::{BodyPart, Side};
 use super::landmark::Landmark;
 use super::reading::Reading;
-use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::mesh::TriangleMesh;
 use crate::input::rig::Rig;
 use crate::input::skin::SkinWeights;
 
@@ -161,13 +161,8 @@ impl Flesh<'_> {
     /// The area around each of these vertices.
     fn areas(&self) -> Vec<f64> {
         let Some(body) = self.character.body else { return Vec::new() };
-        let mut areas = vec![0.0; body.positions.len()];
-        for t in &body.triangles {
-            let share = triangle_area(t.map(|v| body.positions[v as usize])) / 3.0;
-            t.iter().for_each(|&v| areas[v as usize] += share);
-        }
         let used = body.used_vertices();
-        areas.into_iter().zip(used).filter(|(_, used)| *used).map(|(area, _)| area).collect()
+        body.vertex_areas().into_iter().zip(used).filter(|(_, used)| *used).map(|(area, _)| area).collect()
     }
 
     /// The top of the head, along the way from the neck to the middle of the surface that belongs to it: of the vertices most may be

@@ -41,10 +41,15 @@ impl Snapshot {
             positions: problem.avatar.positions[..vertices].into(),
             triangles: problem.avatar.triangles[..triangles].into(),
         };
+        let worn = TriangleMesh {
+            positions: problem.avatar.positions.clone(),
+            triangles: problem.avatar.triangles[triangles..].into(),
+        };
         let [source, target] = &problem.skeletons;
         let (design, result) = (mesh(&problem.rest), mesh(&self.x));
         let collision_only = self.body.collision_only();
-        let outcome = Outcome { design: &design, result: &result, source, target, body: &body, collision_only };
+        let outcome =
+            Outcome { design: &design, result: &result, source, target, body: &body, worn: &worn, collision_only };
         let findings = compare(&outcome, cancel)?;
         Ok((self.diagnostics_of(&findings), findings.is_gross()))
     }

@@ -1,5 +1,6 @@
 //! The map from beside one skeleton to beside another, against its formula, evaluated bone by bone.
 
+use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::setup::bone_map::BoneMap;
 use glam::{DQuat, DVec3};
@@ -9,19 +10,21 @@ fn skeleton(joints: [DVec3; 4]) -> Skeleton {
     Skeleton { joints: joints.to_vec(), bones: vec![[0, 1], [1, 2], [1, 3]] }
 }
 
-/// Points around each bone: as far from it as `radius` says, at the middle half of its length.
-fn body(skeleton: &Skeleton, radius: [f64; 3]) -> Vec<DVec3> {
-    let mut points = Vec::new();
+/// Points around each bone: as far from it as `radius` says, at the middle half of its length; each three in a row are a triangle.
+fn body(skeleton: &Skeleton, radius: [f64; 3]) -> TriangleMesh {
+    let mut body = TriangleMesh::default();
     for (&[a, b], radius) in skeleton.bones.iter().zip(radius) {
         let [a, b] = [a, b].map(|j| skeleton.joints[j as usize]);
         let (u, v) = (b - a).normalize().any_orthonormal_pair();
         for k in 0..40 {
             let angle = 0.7 * f64::from(k);
             let along = 0.3 + 0.4 * f64::from(k) / 40.0;
-            points.push(a.lerp(b, along) + radius * (angle.cos() * u + angle.sin() * v));
+            body.positions.push(a.lerp(b, along) + radius * (angle.cos() * u + angle.sin() * v));
+            let last = body.positions.len() as u32 - 1;
+            body.triangles.extend((k > 1).then_some([last - 2, last - 1, last]));
         }
     }
-    points
+    body
 }
 
 /// The blend of the maps of all bones, as the formula has it. `thickness` is g of each bone.
@@ -50,7 +53,7 @@ fn pair() -> [Skeleton; 2] {
 fn agrees_with_the_formula() {
     let [source, target] = pair();
     let bodies = [body(&source, [0.1, 0.05, 0.08]), body(&target, [0.2, 0.05, 0.06])];
-    let thick = BoneMap::new(&source, &target, Some([&bodies[0][..], &bodies[1][..]]));
+    let thick = BoneMap::new(&source, &target, Some([&bodies[0], &bodies[1]]));
     let plain = BoneMap::new(&source, &target, None);
     let mut random = Random::new(17);
     for _ in 0..500 {
@@ -59,6 +62,31 @@ fn agrees_with_the_formula() {
             let (found, expected) = (map.apply(p), expected(&source, &target, thickness, p));
             assert!(found.distance(expected) < 1e-9, "{p}: {found} instead of {expected}");
         }
+    }
+}
+
+/// As a face has them: many vertices on little of the surface.
+#[test]
+fn a_body_is_as_thick_as_most_of_its_surface_is_far() {
+    let [source, target] = pair();
+    let radii = [0.2, 0.05, 0.06];
+    let (on_source, on_target) = (body(&source, [0.1, 0.05, 0.08]), body(&target, radii));
+    let mut with_face = on_target.clone();
+    let [a, b] = target.bones[0].map(|j| target.joints[j as usize]);
+    let (u, v) = (b - a).normalize().any_orthonormal_pair();
+    for k in 0..20 {
+        for l in 0..20 {
+            let at = a.lerp(b, 0.5) + 0.4 * u + 1e-3 * (f64::from(k) * v + f64::from(l) * (b - a));
+            with_face.positions.push(at);
+            let last = with_face.positions.len() as u32 - 1;
+            with_face.triangles.extend((k > 0 && l > 0).then_some([last, last - 1, last - 20]));
+        }
+    }
+    let [map, other] = [&on_target, &with_face].map(|body| BoneMap::new(&source, &target, Some([&on_source, body])));
+    let mut random = Random::new(19);
+    for _ in 0..100 {
+        let p = DVec3::new(0.0, 0.9, 0.0) + random.vector();
+        assert_eq!(map.apply(p), other.apply(p), "{p}");
     }
 }
 

@@ -123,7 +123,7 @@ fn hat_on(hat: &TriangleMesh, target: &TriangleMesh) -> (CarriedPiece, Vec<(u32,
     let loose = LoosePieces::find(&hat.positions, &hat.triangles);
     let found = closed_pieces::find(hat, &loose, &[], &skeleton, Some(&source.surface));
     assert_eq!(found.len(), 1, "{found:?}");
-    let map = BoneMap::new(&skeleton, &skeleton, Some([&body.positions, &target.positions]));
+    let map = BoneMap::new(&skeleton, &skeleton, Some([&body, target]));
     let mut carried = CarriedPlaces::new(hat, &found, &map, Some(&source), 1.0);
     // What is no filling has a place, and nothing else.
     let fillings: Vec<u32> = carried.fillings().collect();

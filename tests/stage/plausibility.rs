@@ -55,8 +55,14 @@ fn sleeve(sides: u32, count: u32) -> TriangleMesh {
 }
 
 fn findings(design: &TriangleMesh, result: &TriangleMesh) -> Findings {
+    findings_over(&TriangleMesh::default(), design, result)
+}
+
+/// The findings where the arm wears something already.
+fn findings_over(worn: &TriangleMesh, design: &TriangleMesh, result: &TriangleMesh) -> Findings {
     let skeleton = skeleton();
-    let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body: &arm(), collision_only: &[] };
+    let (source, target, body) = (&skeleton, &skeleton, &arm());
+    let outcome = Outcome { design, result, source, target, body, worn, collision_only: &[] };
     compare(&outcome, &Cancel::new()).expect("nobody cancels")
 }
 
@@ -253,7 +259,8 @@ fn a_horn_that_is_shut_up_in_the_sleeve_is_found() {
     let design = sleeve(60, 90);
     let skeleton = skeleton();
     let found = |design: &TriangleMesh, result: &TriangleMesh, body: &TriangleMesh, collision_only: &[u32]| {
-        let outcome = Outcome { design, result, source: &skeleton, target: &skeleton, body, collision_only };
+        let (source, target, worn) = (&skeleton, &skeleton, &TriangleMesh::default());
+        let outcome = Outcome { design, result, source, target, body, worn, collision_only };
         compare(&outcome, &Cancel::new()).expect("nobody cancels")
     };
     let first = arm().triangles.len() as u32;
@@ -332,6 +339,24 @@ fn a_cuff_may_lie_over_what_ends_the_limb() {
     assert!(lifted(0.45, 0.8, whole).is_some());
     // Most of a mitten is there.
     assert!(lifted(0.92, 1.2, [0.85, 1.2]).is_some());
+}
+
+/// A sleeve that is drawn out over a bracelet that the arm wears, as trousers are over shoes; and one beside that.
+#[test]
+fn cloth_may_stand_off_over_what_is_worn() {
+    let design = tube(&rings(0.4, 1.2, 40, 0.16), 48, false);
+    let drawn_out = |mesh: &TriangleMesh, times: f64| {
+        let is_over = |p: DVec3| p.y > 0.0 && (0.45..=0.8).contains(&p.x);
+        moved(mesh, |p| if is_over(p) { DVec3::new(p.x, times * p.y, times * p.z) } else { p })
+    };
+    let result = drawn_out(&design, 6.0);
+    let over = |from: f64, to: f64, times: f64| {
+        let bracelet = tube(&rings(from, to, 20, 0.15), 48, false);
+        findings_over(&drawn_out(&bracelet, times), &design, &result).lifted
+    };
+    assert_eq!(over(0.42, 0.82, 6.0), None);
+    assert!(over(0.42, 0.82, 1.0).is_some(), "the bracelet lies on the arm, and something else is between");
+    assert!(over(1.0, 1.2, 1.0).is_some(), "the bracelet is elsewhere");
 }
 
 #[test]

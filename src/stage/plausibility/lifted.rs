@@ -6,6 +6,7 @@
 
 use super::nearest::parts_of_bones;
 use super::{Lifted, Outcome};
+use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::quantile::quantile;
 use crate::input::skeleton::{BoneGraph, Skeleton};
@@ -26,10 +27,13 @@ const LEAST_AREA: f64 = 0.25;
 /// From this share of the last bone of a limb on, a hem or cuff of the design may lie over what ends the limb, as trousers over the
 /// toes of a boot. A garment of which more than half is there, such as a shoe, is judged there.
 const END: f64 = 0.8;
+/// Cloth lies on what is worn where that is nearer than the body, and nearer than this share of its distance from the bones.
+const ON_WORN: f64 = 0.5;
 
-/// The cloth that stands off, where that is gross; none where the caller wants what is under it to be there.
+/// The cloth that stands off, where that is gross; none where the caller wants what is under it to be there. So he does with what the
+/// body wears already, as shoes under trousers.
 pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted> {
-    let Outcome { design, result, source, target, collision_only, .. } = *outcome;
+    let Outcome { design, result, source, target, worn, collision_only, .. } = *outcome;
     let areas = design.areas();
     let whole: f64 = areas.iter().sum();
     let largest = whole.max(result.areas().iter().sum());
@@ -44,7 +48,15 @@ pub(super) fn lifted(outcome: &Outcome<'_>, graph: &BoneGraph) -> Option<Lifted>
     let far =
         BEYOND.0 * quantile(before.iter().map(|place| place.distance).zip(areas.iter().copied()).collect(), BEYOND.1)?;
     let is_off = |&t: &usize| is_judged(t) && ratio(t) > MORE * near && now[t].distance > far;
-    let stands_off: Vec<usize> = (0..areas.len()).filter(is_off).collect();
+    let mut stands_off: Vec<usize> = (0..areas.len()).filter(is_off).collect();
+    if !(worn.triangles.is_empty() || stands_off.is_empty()) {
+        let [body, worn] = [outcome.body, worn].map(ClosestPoint::new);
+        stands_off.retain(|&t| {
+            let middle = result.centre(t as u32);
+            let from_worn = worn.distance(middle);
+            body.distance(middle) <= from_worn || from_worn > ON_WORN * now[t].distance
+        });
+    }
     let area: f64 = stands_off.iter().map(|&t| areas[t]).sum();
     let farthest = stands_off.into_iter().max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)).then(b.cmp(&a)))?;
     (area > MOST * whole).then(|| Lifted { triangle: farthest as u32, times: ratio(farthest) / near })

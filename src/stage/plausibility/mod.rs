@@ -37,6 +37,8 @@ pub struct Outcome<'a> {
     pub target: &'a Skeleton,
     /// The body without what it wears already.
     pub body: &'a TriangleMesh,
+    /// What it wears already, under the garment.
+    pub worn: &'a TriangleMesh,
     /// Triangles of the body that the garment is not meant to fit, ascending.
     pub collision_only: &'a [u32],
 }

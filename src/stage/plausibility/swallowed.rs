@@ -92,7 +92,7 @@ fn judged(part: &[&Far], outcome: &Outcome<'_>, cloth: &ClosestPoint) -> Option<
 
 /// The triangles of the body that reach farther from their bones than the garment does there in the design.
 fn far(outcome: &Outcome<'_>, graph: &BoneGraph) -> Vec<Far> {
-    let Outcome { design, result, source, target, body, collision_only } = *outcome;
+    let Outcome { design, result, source, target, body, collision_only, .. } = *outcome;
     let cloth = parts_of_bones(design, source, graph);
     let flesh = parts_of_bones(body, target, graph);
     let mut all = Vec::new();

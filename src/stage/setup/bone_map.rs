@@ -21,6 +21,8 @@ use glam::{DQuat, DVec3};
 
 use crate::geometry::closest_point::segment_parameter;
 use crate::geometry::median::median;
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::quantile::quantile;
 use crate::geometry::turn;
 use crate::input::skeleton::Skeleton;
 
@@ -48,9 +50,9 @@ pub struct BoneMap {
 }
 
 impl BoneMap {
-    /// The map between two skeletons that share their bones. `bodies` are the vertices of the bodies on them, normalised
-    /// like these; without them bodies count as equally thick.
-    pub fn new(source: &Skeleton, target: &Skeleton, bodies: Option<[&[DVec3]; 2]>) -> Self {
+    /// The map between two skeletons that share their bones. `bodies` are those on them, normalised like these; without them
+    /// bodies count as equally thick.
+    pub fn new(source: &Skeleton, target: &Skeleton, bodies: Option<[&TriangleMesh; 2]>) -> Self {
         let thickness = bodies.map(|[on_source, on_target]| ratios(source, target, on_source, on_target));
         let pair = |(bone, &ends): (usize, &[u32; 2])| {
             let [[start, end], [target_start, target_end]] =
@@ -118,8 +120,8 @@ fn distance_squared(p: DVec3, start: DVec3, span: DVec3) -> f64 {
 }
 
 /// The thickness of the target body as a multiple of the source body's, at each bone: the ratio of the median distances from it
-/// of the vertices nearest to it. Where there are too few, the median of the other bones.
-fn ratios(source: &Skeleton, target: &Skeleton, on_source: &[DVec3], on_target: &[DVec3]) -> Vec<f64> {
+/// of the surface nearest to it. Where there is too little, the median of the other bones.
+fn ratios(source: &Skeleton, target: &Skeleton, on_source: &TriangleMesh, on_target: &TriangleMesh) -> Vec<f64> {
     let [before, after] = [medians(source, on_source), medians(target, on_target)];
     let ratio = |(a, b): (&Option<f64>, &Option<f64>)| match (a, b) {
         (&Some(a), &Some(b)) if a > 0.0 && b > 0.0 => Some((b / a).clamp(1.0 / MAX_THICKNESS, MAX_THICKNESS)),
@@ -130,8 +132,9 @@ fn ratios(source: &Skeleton, target: &Skeleton, on_source: &[DVec3], on_target: 
     known.into_iter().map(|ratio| ratio.unwrap_or(others)).collect()
 }
 
-/// The median distance from each bone of the points nearest to it, where there are enough.
-fn medians(skeleton: &Skeleton, points: &[DVec3]) -> Vec<Option<f64>> {
+/// The median distance from each bone of the vertices nearest to it, where there are enough, each for the area around it: most
+/// vertices of a head are in its face.
+fn medians(skeleton: &Skeleton, body: &TriangleMesh) -> Vec<Option<f64>> {
     let segments: Vec<[DVec3; 2]> = skeleton
         .bones
         .iter()
@@ -140,12 +143,12 @@ fn medians(skeleton: &Skeleton, points: &[DVec3]) -> Vec<Option<f64>> {
             [a, b - a]
         })
         .collect();
-    let mut distances: Vec<Vec<f64>> = vec![Vec::new(); segments.len()];
-    for &p in points {
+    let mut distances: Vec<Vec<(f64, f64)>> = vec![Vec::new(); segments.len()];
+    for (&p, area) in body.positions.iter().zip(body.vertex_areas()).filter(|(_, area)| *area > 0.0) {
         let squares = segments.iter().map(|&[a, span]| distance_squared(p, a, span)).enumerate();
         if let Some((bone, squared)) = squares.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            distances[bone].push(squared.sqrt());
+            distances[bone].push((squared.sqrt(), area));
         }
     }
-    distances.into_iter().map(|d| if d.len() < ENOUGH { None } else { median(d) }).collect()
+    distances.into_iter().map(|d| if d.len() < ENOUGH { None } else { quantile(d, 0.5) }).collect()
 }

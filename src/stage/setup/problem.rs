@@ -203,10 +203,11 @@ impl Problem {
             return Err(enclosure::refused());
         }
         cancel.check()?;
-        let bodies = designed_on.as_ref().map(|body| [&body.mesh.0.positions[..], avatar.avatar_positions()]);
         let carried = if pieces.is_empty() {
             CarriedPlaces::default()
         } else {
+            let body = avatar.avatar();
+            let bodies = designed_on.as_ref().map(|source_body| [&*source_body.mesh.0, &body]);
             let map = BoneMap::new(source, target, bodies);
             CarriedPlaces::new(garment, pieces, &map, designed_on.as_ref(), options.designed_clearance)
         };
