@@ -2,7 +2,8 @@
 //! garment on takes its place, and it is tried again.
 //!
 //! A body that passes through its garment is no measure for how far the one lies from the other: where it does, the garment itself is
-//! the outermost of both. What is refused for another reason is not tried again, and of two refusals the first one is told.
+//! the outermost of both. What is refused for another reason is not tried again, and of two refusals the first one is told. Most garments
+//! are as far from that body as before, so that the second try goes the way of the first: it is over once that is seen.
 
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::{Diagnostic, DiagnosticKind, Severity};
 use crate::input::skin::SkinWeights;
 use crate::report::Report;
+use crate::solver::newton::State;
 use crate::verify::intersections_with_cancel;
 
 /// What came of a garment with the source avatar as it is.
@@ -26,6 +28,8 @@ pub(super) struct FirstTry {
     /// None where it was refused before it began.
     snapshot: Option<Snapshot>,
     report: Report,
+    /// The first steps of its inflation.
+    opening: Option<Box<State>>,
 }
 
 /// Inputs whose source avatar has the garment on, and how they are told.
@@ -35,7 +39,7 @@ impl Session {
     /// After `refused`, which `prepare` ended with: the run with the source avatar dressed.
     pub(super) fn prepare_dressed(&mut self, refused: Error) -> Result<Box<Run>> {
         let Some((inputs, diagnostic)) = self.dressed(&refused)? else { return Err(refused) };
-        self.keep(refused);
+        self.keep(refused, None);
         self.prepare_again(inputs, diagnostic)
     }
 
@@ -44,8 +48,8 @@ impl Session {
         let has_tried = self.first_try.is_some() || self.run.as_ref().is_none_or(|run| run.is_limited);
         let dressed = if has_tried { None } else { self.dressed(&refused)? };
         let Some((inputs, diagnostic)) = dressed else { return Err(refused) };
-        let begun = self.run.take().map(|run| run.begun);
-        self.keep(refused);
+        let (begun, opening) = self.run.take().map(|run| (run.begun, run.opening)).unzip();
+        self.keep(refused, opening.flatten());
         let mut run = self.prepare_again(inputs, diagnostic)?;
         run.follow(&self.report, begun);
         self.said_of_inputs = self.diagnostics.len();
@@ -55,13 +59,20 @@ impl Session {
         Ok(Stage::Inflate)
     }
 
+    /// Whether this is a second try that goes the way of the first.
+    pub(super) fn repeats_first(&self) -> bool {
+        let before = self.first_try.as_ref().and_then(|first| first.opening.as_ref());
+        let now = self.run.as_ref().and_then(|run| run.opening.as_ref());
+        before.is_some() && before == now
+    }
+
     /// Of a second try that failed with `error`: what the first one said, and where it came.
     pub(super) fn told_of_first(&mut self, error: Error) -> Error {
         if matches!(error.kind, ErrorKind::Cancelled | ErrorKind::ImplausibleResult) {
             return error;
         }
         let Some(first) = self.first_try.take() else { return error };
-        let FirstTry { error, diagnostics, said_of_inputs, snapshot, report } = *first;
+        let FirstTry { error, diagnostics, said_of_inputs, snapshot, report, .. } = *first;
         (self.diagnostics, self.said_of_inputs) = (diagnostics, said_of_inputs);
         if let Some(snapshot) = snapshot {
             (self.snapshot, self.report) = (Some(snapshot), report);
@@ -69,13 +80,14 @@ impl Session {
         error
     }
 
-    fn keep(&mut self, error: Error) {
+    fn keep(&mut self, error: Error, opening: Option<Box<State>>) {
         self.first_try = Some(Box::new(FirstTry {
             error,
             diagnostics: std::mem::take(&mut self.diagnostics),
             said_of_inputs: self.said_of_inputs,
             snapshot: self.snapshot.clone(),
             report: self.report.clone(),
+            opening,
         }));
     }
 

@@ -59,6 +59,7 @@ pub use crate::options::Options;
 use crate::panics::PanicLog;
 pub use crate::report::{Report, StageReport, TermReport, Verification};
 use crate::rig::words::with_names;
+use crate::stage::inflate::stalled_message;
 use context::Context;
 use covered::Covered;
 use dressed_source::FirstTry;
@@ -256,6 +257,10 @@ impl Session {
                 Err(refused) if refused.kind == ErrorKind::InflationStalled => self.begin_dressed(refused)?,
                 outcome => outcome?,
             };
+            if stage == Stage::Inflate && self.repeats_first() {
+                // The first try's error takes its place.
+                return Err(Error::new(ErrorKind::InflationStalled, stalled_message(self.report.t)));
+            }
             self.enter(stage);
             if stage == Stage::Verify {
                 stage = self.finish()?;

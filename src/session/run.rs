@@ -21,13 +21,16 @@ use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
-use crate::stage::attempts::Attempts;
+use crate::stage::attempts::{Attempts, Stall};
 use crate::stage::blockage;
 use crate::stage::finish;
 use crate::stage::fit::{End, FitStage};
 use crate::stage::inflate::{Inflation, stalled_message};
 use crate::stage::objective::Objective;
 use crate::stage::setup::problem::Problem;
+
+/// Where these many iterations of two runs end alike, to the bit, all do.
+const OPENING: u32 = 4;
 
 /// How often the fit goes on with wider contact distances where rounding has made its result intersect.
 const MAX_DISTANCE_DOUBLINGS: u32 = 2;
@@ -54,6 +57,8 @@ pub(super) struct Run {
     pub(super) first_pose: Option<Box<FirstPose>>,
     /// What closed that way, and how each joint of the target rig moves into the pose in which the garment stays.
     pub(super) blocked: Option<(Diagnostic, Vec<DAffine3>)>,
+    /// The first steps of the first attempt, once they are done.
+    pub(super) opening: Option<Box<State>>,
     /// Where an earlier attempt came farthest.
     pub(super) farthest: Option<Box<(Objective, State)>>,
     pub(super) field: FieldTask,
@@ -156,6 +161,7 @@ impl Run {
             reposing: own.map(|(own, way)| Box::new(Reposing::new(Arc::new(own.problem), Arc::new(own.body), way))),
             other_pose: other,
             first_pose: None,
+            opening: None,
             farthest: None,
             field,
             fit_began_at: Vec::new(),
@@ -267,6 +273,9 @@ impl Run {
         if self.objective.contact.update_exemptions(self.state.configuration())? {
             self.newton.forget_values();
         }
+        if stage == Stage::Inflate && self.opening.is_none() && self.iterations() == OPENING {
+            self.opening = Some(Box::new(self.state.clone()));
+        }
         let part = if stage == Stage::Inflate { &mut self.report.inflate } else { &mut self.report.fit };
         part.iterations += 1;
         part.collect(&mut self.newton, &mut self.objective, clock);
@@ -312,11 +321,12 @@ impl Run {
     fn try_again(&mut self) -> Result<bool> {
         let (t, iterations) = (self.state.t, self.iterations());
         let untangled = self.problem.untangled.is_some();
-        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, t, iterations, untangled)
-        else {
+        let is_shut = blockage::is_shut(&self.problem, &self.body, &mut self.objective, self.state.configuration());
+        let stall = Stall { t, iterations, is_shut };
+        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, stall, untangled) else {
             return Ok(false);
         };
-        self.step = Step::Inflate(Inflation::another(iterations));
+        self.step = Step::Inflate(Inflation::another(iterations, self.attempts.places()));
         let stop = &self.context.stop;
         let objective = self.problem.another_inflation(&settings, &self.options, stop);
         stop.check()?;

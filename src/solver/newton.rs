@@ -33,7 +33,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::memory::{MemoryLimit, Part, bytes};
 
 /// The unknowns.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Garment vertices.
     pub x: Vec<DVec3>,

@@ -5,6 +5,10 @@
 //! nothing kept them farther apart. The next steps are cut to nothing, and t creeps, while the barrier as a whole costs
 //! almost nothing. With a narrow and stiff barrier, or a soft one, the garment goes another way, on which they do not meet.
 //! Which of them helps cannot be seen beforehand; the order was found by measuring.
+//!
+//! A garment that is as tight as that stalls at one share of the avatar's size whatever is tried: where two parts of the avatar come
+//! together that have it between them. So a place at which an attempt has stalled tells of the next, which is over once it lingers
+//! there, and where two more have stalled at a place that is shut, the others would as well.
 
 use super::setup::contact_distances::ContactDistances;
 use crate::input::diagnostic::Diagnostic;
@@ -21,21 +25,47 @@ pub struct Settings {
     pub as_designed: bool,
 }
 
-/// Factors on d-hat and weight of the first attempt, in the order in which they are tried.
-const FACTORS: [[f64; 2]; 4] = [[0.2, 1e4], [1.0, 0.1], [1.0, 100.0], [2.0, 1.0]];
+/// Factors on d-hat and weight of the first attempt, in the order in which they are tried, and where the first stalls at a place that
+/// is shut: there a wide barrier pushes the cloth out before the place closes.
+const FACTORS: [[f64; 2]; 4] = [[0.2, 1e4], [1.0, 0.1], [1.0, 100.0], WIDE];
+const FACTORS_SHUT: [[f64; 2]; 4] = [WIDE, [0.2, 1e4], [1.0, 100.0], [1.0, 0.1]];
+const WIDE: [f64; 2] = [2.0, 1.0];
+const AS_GIVEN: [f64; 2] = [1.0, 1.0];
 /// No other attempt begins after so many iterations in all.
 const MOST_ITERATIONS: u32 = 1000;
+/// Two attempts stalled at one place where t differs by less than this share of what is missing to 1.
+const SAME_PLACE: f64 = 0.02;
+/// So many attempts that stalled at one place are enough: where that is shut, and where not.
+const ENOUGH_SHUT: usize = 3;
+const ENOUGH: usize = 4;
 
 /// The ranges of the two options.
 const DHAT: [f64; 2] = [1e-5, 0.1];
 const WEIGHT: [f64; 2] = [1.0, 1e14];
 
+/// Where an attempt stalled.
+#[derive(Clone, Copy, Debug)]
+pub struct Stall {
+    /// How far the avatar grew.
+    pub t: f64,
+    /// Iterations so far, of all attempts.
+    pub iterations: u32,
+    /// What holds the garment there most are two parts of the avatar that touch each other at full size.
+    pub is_shut: bool,
+}
+
 /// The attempts of one inflation beside the first.
 #[derive(Debug, Default)]
 pub struct Attempts {
     begun: usize,
-    /// Where the first one stalled.
-    first_t: f64,
+    /// Where each of them stalled, the first included.
+    places: Vec<f64>,
+    /// The first of all stalled at a place that is shut.
+    is_shut: bool,
+    /// The last one has the caller's settings, on the garment as designed.
+    is_given: bool,
+    /// The last one has a wide barrier.
+    is_wide: bool,
     /// The settings of the last one that was begun.
     settings: Option<Settings>,
 }
@@ -46,29 +76,44 @@ impl Attempts {
         self.settings
     }
 
-    /// The settings of the next attempt, after one that stalled at `t`, with so many iterations in all. `options` and
-    /// `distances` are those of the first; `untangled` where the garment was pulled apart for it. None where all were tried.
+    /// Where attempts have stalled before, at which the one under way is over. With a wide barrier the cloth comes out of such a place
+    /// in the end.
+    pub fn places(&self) -> &[f64] {
+        if self.is_wide { &[] } else { &self.places }
+    }
+
+    /// The settings of the next attempt, after one that ended with `stall`. `options` and `distances` are those of the first;
+    /// `untangled` where the garment was pulled apart for it. None where all were tried, or the others would stall there as well.
     pub fn next(
         &mut self,
         options: &Options,
         distances: &ContactDistances,
-        t: f64,
-        iterations: u32,
+        stall: Stall,
         untangled: bool,
     ) -> Option<Settings> {
-        // What was pulled apart begins as designed after one other attempt: it may be in the way of itself.
-        let (as_designed, [dhat, weight]) = match (untangled, self.begun) {
-            (true, 1) => (true, [1.0, 1.0]),
-            (true, k) if k > 1 => (true, *FACTORS.get(k - 2)?),
-            (_, k) => (false, *FACTORS.get(k)?),
-        };
-        if iterations >= MOST_ITERATIONS {
+        self.places.push(stall.t);
+        let here = self.places.iter().filter(|&&place| (place - stall.t).abs() <= SAME_PLACE * (1.0 - stall.t)).count();
+        if here >= if stall.is_shut { ENOUGH_SHUT } else { ENOUGH } {
             return None;
         }
         if self.begun == 0 {
-            self.first_t = t;
+            self.is_shut = stall.is_shut;
+        }
+        // What was pulled apart begins as designed after one other attempt: it may be in the way of itself. Where the place is shut
+        // it does so at once.
+        let (as_designed, factors) = match (self.is_shut, untangled, self.begun) {
+            (true, _, k) => (untangled, *FACTORS_SHUT.get(k)?),
+            (false, true, 0) => (false, FACTORS[0]),
+            (false, true, 1) => (true, AS_GIVEN),
+            (false, true, k) => (true, *FACTORS.get(k - 2)?),
+            (false, false, k) => (false, *FACTORS.get(k)?),
+        };
+        let [dhat, weight] = factors;
+        if stall.iterations >= MOST_ITERATIONS {
+            return None;
         }
         self.begun += 1;
+        (self.is_given, self.is_wide) = (factors == AS_GIVEN, factors == WIDE);
         // Never narrower than in the result, unless the caller's is.
         let narrowest = distances.inflation_dhat.min(distances.dhat);
         self.settings = Some(Settings {
@@ -82,9 +127,8 @@ impl Attempts {
     /// What is said of a result, where it was found with other settings than the caller's.
     pub fn adjustment(&self) -> Option<Diagnostic> {
         let settings = self.settings?;
-        // The second attempt on a garment that was pulled apart is with the caller's, on the garment as designed.
-        (!settings.as_designed || self.begun > 2).then_some(Diagnostic::SettingsAdjusted {
-            stalled_at: self.first_t,
+        (!self.is_given).then_some(Diagnostic::SettingsAdjusted {
+            stalled_at: *self.places.first()?,
             attempts: self.begun + 1,
             inflation_dhat: settings.inflation_dhat,
             inflation_barrier_weight: settings.inflation_barrier_weight,

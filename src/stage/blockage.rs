@@ -38,6 +38,13 @@ const FAINT_ALONE: f64 = 0.1;
 /// Pairs of contacts of a group that are examined at full size.
 const PAIRS: usize = 8;
 
+/// Whether what holds the garment most at `at` are two parts of the avatar that touch each other at full size. The candidate pairs
+/// of `objective` are rebuilt.
+pub fn is_shut(problem: &Problem, body: &Body, objective: &mut Objective, at: Configuration<'_>) -> bool {
+    let first = find(problem, body, objective, at).into_iter().next();
+    matches!(first, Some(Diagnostic::InflationSqueezed { gap: None, .. }))
+}
+
 /// What holds the garment at `at`, the strongest first; nothing where no contact resists the inflation. The candidate
 /// pairs of `objective` are rebuilt.
 pub fn find(problem: &Problem, body: &Body, objective: &mut Objective, at: Configuration<'_>) -> Vec<Diagnostic> {

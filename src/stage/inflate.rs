@@ -37,6 +37,17 @@ const CREEPING: f64 = 0.01;
 const MOST_CREEPING: u32 = 6;
 const MOST_CREEPING_AGAIN: u32 = 3;
 
+/// The path has stalled, too, where t creeps: where so many iterations bring less than this share of what is missing, once the avatar
+/// has grown so far, for a hat whose head comes out of it begins slowly.
+const SLOW: usize = 32;
+const LEAST_GAIN: f64 = 0.003;
+const SLOW_FROM: f64 = 0.25;
+/// An attempt has stalled at the place of an earlier one after so many iterations there, from so far before it to so far beyond it, in
+/// shares of what is missing.
+const LINGERING: usize = 6;
+const BEFORE_PLACE: f64 = 0.02;
+const BEYOND_PLACE: f64 = 0.005;
+
 /// The state of the inflation.
 pub struct Inflation {
     form: Form,
@@ -46,6 +57,10 @@ pub struct Inflation {
     before: u32,
     /// Penalties at which t may creep before the augmented Lagrangian gives up.
     most_creeping: u32,
+    /// Where earlier attempts stalled.
+    places: Vec<f64>,
+    /// t after each iteration of this attempt.
+    reached: Vec<f64>,
 }
 
 enum Form {
@@ -56,14 +71,15 @@ enum Form {
 impl Default for Inflation {
     fn default() -> Self {
         let form = Form::Path { advance: FIRST_ADVANCE, corrections: 0, short_advances: 0 };
-        Self { form, iterations: 0, before: 0, most_creeping: MOST_CREEPING }
+        Self { form, iterations: 0, before: 0, most_creeping: MOST_CREEPING, places: Vec::new(), reached: Vec::new() }
     }
 }
 
 impl Inflation {
-    /// Another attempt after so many iterations.
-    pub fn another(iterations: u32) -> Self {
-        Self { iterations, before: iterations, most_creeping: MOST_CREEPING_AGAIN, ..Self::default() }
+    /// Another attempt after so many iterations, of which earlier ones stalled at `places`.
+    pub fn another(iterations: u32, places: &[f64]) -> Self {
+        let places = places.to_vec();
+        Self { iterations, before: iterations, most_creeping: MOST_CREEPING_AGAIN, places, ..Self::default() }
     }
 
     /// Iterations of this attempt.
@@ -88,14 +104,36 @@ impl Inflation {
             Form::Lagrangian { .. } => self.augmented_lagrangian_step(objective, newton, state)?,
         }
         if state.t < 1.0 && !try_full_inflation(objective, state)? {
+            self.reached.push(state.t);
+            if self.lingers() {
+                return Err(Error::new(ErrorKind::InflationStalled, stalled_message(state.t)));
+            }
             return Ok(false);
         }
         newton.forget_values();
         Ok(true)
     }
 
+    /// Whether t stays where an earlier attempt stalled.
+    fn lingers(&self) -> bool {
+        let last = self.reached.iter().rev().take(LINGERING);
+        let is_at = |place: &f64| {
+            let missing = 1.0 - place;
+            last.clone().all(|t| t - place > -BEFORE_PLACE * missing && t - place < BEYOND_PLACE * missing)
+        };
+        self.reached.len() >= LINGERING && self.places.iter().any(is_at)
+    }
+
+    /// Whether t creeps along the path.
+    fn creeps(&self) -> bool {
+        let earlier = self.reached.len().checked_sub(SLOW).map(|k| self.reached[k]);
+        let is_slow = |(before, now): (f64, &f64)| before > SLOW_FROM && now - before < LEAST_GAIN * (1.0 - before);
+        earlier.zip(self.reached.last()).is_some_and(is_slow)
+    }
+
     /// One step along the path in t.
     fn continuation_step(&mut self, objective: &mut Objective, newton: &mut Newton, state: &mut State) -> Result<()> {
+        let creeps = self.creeps();
         let Form::Path { advance, corrections, short_advances } = &mut self.form else { return Ok(()) };
         let taken = newton.continue_t(objective, state, advance.min(1.0 - state.t))?;
         if taken >= 0.99 {
@@ -108,7 +146,7 @@ impl Inflation {
             *short_advances += 1;
             *corrections = CORRECTIONS;
         }
-        if *advance < SMALLEST_ADVANCE || *short_advances > MAX_SHORT_ADVANCES {
+        if *advance < SMALLEST_ADVANCE || *short_advances > MAX_SHORT_ADVANCES || creeps {
             // A multiplier as strong as the resistance that stopped the path.
             let multiplier = newton.t_gradient().max(0.0);
             objective.set_inflation(Some(Lagrangian::new(1.0_f64.max(multiplier), multiplier)));

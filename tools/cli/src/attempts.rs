@@ -28,7 +28,9 @@ pub fn put_on(job: &Job) -> Result<Fitted, Box<Refused>> {
         outcome => return outcome,
     };
     let done = |job: Job| if is_stopped() { None } else { job.run().ok() };
+    // Where the body alone leaves it no room, it does so without the layers.
     if !job.layers.is_empty()
+        && !refused.is_held_by_avatar
         && let Some(fitted) = done(Job { layers: &[], ..job.clone() })
     {
         let through = job.layers.iter().map(|layer| pairs(&fitted, job, layer)).sum();

@@ -210,7 +210,8 @@ impl Dressing<'_> {
                 Ok(shared) => shared,
                 Err(error) => {
                     let failure = Failure::no_result(format!("{}: {error}", garment.name));
-                    refused.push((garment, Box::new(Refused { failure, findings: Vec::new() })));
+                    refused
+                        .push((garment, Box::new(Refused { failure, findings: Vec::new(), is_held_by_avatar: false })));
                     continue;
                 }
             };

@@ -5,7 +5,7 @@ use std::time::Instant;
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::coordinate_system::CoordinateSystem;
-use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Severity};
+use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Severity, Subject};
 use bespoke::input::rig::Rig;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
@@ -125,6 +125,8 @@ pub struct Refused {
     pub failure: Failure,
     /// What else the library has to say.
     pub findings: Vec<Finding>,
+    /// Parts of the avatar that touch each other hold it, not what that wears already.
+    pub is_held_by_avatar: bool,
 }
 
 impl Job<'_> {
@@ -146,7 +148,7 @@ impl Job<'_> {
             Err(error) if error.kind == ErrorKind::ImplausibleResult && session.pose_transforms().is_none() => {
                 Some(error.message)
             }
-            Err(error) => return Err(self.refused(error, findings)),
+            Err(error) => return Err(self.refused(error, findings, is_held_by_avatar(&session))),
         };
         // Without weights of the avatar there are none to take over.
         let moves = self.avatar.has_weights();
@@ -171,7 +173,7 @@ impl Job<'_> {
         };
         match read() {
             Ok(fitted) => Ok(fitted),
-            Err(error) => Err(self.refused(error, findings)),
+            Err(error) => Err(self.refused(error, findings, false)),
         }
     }
 
@@ -194,13 +196,13 @@ impl Job<'_> {
         caps(&session)
     }
 
-    fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>) -> Box<Refused> {
+    fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>, is_held_by_avatar: bool) -> Box<Refused> {
         let failure = if error.kind == ErrorKind::Cancelled || is_stopped() {
             Failure::interrupted()
         } else {
             Failure::no_result(format!("{}: {error}", self.name))
         };
-        Box::new(Refused { failure, findings })
+        Box::new(Refused { failure, findings, is_held_by_avatar })
     }
 
     fn fill(&self, session: &mut Session) -> bespoke::error::Result<()> {
@@ -218,6 +220,14 @@ impl Job<'_> {
         }
         session.set_joint_pairs(self.pairs.to_vec())
     }
+}
+
+/// Whether what holds the garment most are parts that touch each other at full size, and none of a layer.
+fn is_held_by_avatar(session: &Session) -> bool {
+    let first = session.diagnostics().iter().find(|found| found.kind() == DiagnosticKind::InflationBlocked);
+    let is_shut = |found: &&Diagnostic| matches!(found, Diagnostic::InflationSqueezed { gap: None, .. });
+    let of_layer = |found: &Diagnostic| found.elements().iter().any(|e| matches!(e.subject, Subject::Layer(_)));
+    first.filter(is_shut).is_some_and(|found| !of_layer(found))
 }
 
 /// No weights for each vertex of `cloth`.
