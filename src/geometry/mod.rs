@@ -12,6 +12,7 @@ pub mod bvh;
 pub mod closest_point;
 pub mod cover;
 pub mod covered;
+pub mod crumpled;
 pub mod median;
 pub mod mesh;
 pub mod outfit;

@@ -184,6 +184,13 @@ pub enum LimbPlace {
         /// Nobody would wear it.
         is_gross: bool,
     },
+    /// Under the garment, where a loose sheet such as a strand of hair ends that begins outside of it.
+    Under {
+        /// A triangle of the avatar that is there.
+        triangle: u32,
+        /// The share of the sheet that is.
+        share: f64,
+    },
 }
 
 /// One diagnostic. Indices are the caller's; distances are in the normalised space, in which the skeleton is 2 long.
@@ -586,6 +593,17 @@ pub enum Diagnostic {
         triangle: u32,
         /// How many times farther from the bones than in the design, beside the cloth that lies nearest.
         times: f64,
+    },
+    /// The result passes through itself beside where it is, as the design does.
+    ResultCrumpled {
+        /// Pairs of triangles, beside each other, that do.
+        pairs: usize,
+        /// The first of them.
+        first: [u32; 2],
+        /// The share of the garment's area that takes part.
+        share: f64,
+        /// Nobody would wear it.
+        is_gross: bool,
     },
     /// The cloth is drawn out in one place and has shrunk in another, so that nobody would wear it.
     ClothDistorted {

@@ -18,7 +18,7 @@ impl Diagnostic {
             Self::WeldedNear { .. } => DiagnosticKind::WeldedNear,
             Self::TJunctions { .. } => DiagnosticKind::TJunctions,
             Self::CarriedPiece { .. } => DiagnosticKind::CarriedPiece,
-            Self::SelfIntersection { .. } => DiagnosticKind::SelfIntersection,
+            Self::SelfIntersection { .. } | Self::ResultCrumpled { .. } => DiagnosticKind::SelfIntersection,
             Self::NearContact { .. } => DiagnosticKind::NearContact,
             Self::BoneMoved { .. } | Self::CycleCut { .. } | Self::AvatarPenetrates { .. } => {
                 DiagnosticKind::AvatarPenetrates
@@ -91,7 +91,11 @@ impl Diagnostic {
             | Self::BonesUnclear { .. }
             | Self::ForeignPart { .. }
             | Self::OpeningCap { .. }
-            | Self::LimbMisplaced { place: LimbPlace::Swallowed { is_gross: false, .. }, .. }
+            | Self::ResultCrumpled { is_gross: false, .. }
+            | Self::LimbMisplaced {
+                place: LimbPlace::Swallowed { is_gross: false, .. } | LimbPlace::Under { .. },
+                ..
+            }
             | Self::PieceResized { is_gross: false, .. }
             | Self::NotConverged { .. }
             | Self::UnitMismatch { gross: false, .. }
@@ -107,6 +111,7 @@ impl Diagnostic {
             | Self::InflationHeld { .. }
             | Self::InflationSqueezed { .. }
             | Self::LimbMisplaced { .. }
+            | Self::ResultCrumpled { is_gross: true, .. }
             | Self::PieceResized { is_gross: true, .. }
             | Self::ClothDistorted { .. }
             | Self::ClothLifted { .. }
@@ -142,6 +147,7 @@ impl Diagnostic {
             Self::SelfIntersection { triangles, .. }
             | Self::ResultSelfIntersection { triangles }
             | Self::ClothDistorted { triangles, .. }
+            | Self::ResultCrumpled { first: triangles, .. }
             | Self::Untangled { first: triangles, .. } => triangles.map(triangle).into(),
             Self::BoneMoved { bone, ref triangles, .. } | Self::OpeningCap { bone, ref triangles } => {
                 std::iter::once(bone.element()).chain(triangles.iter().map(|&t| triangle(t))).collect()
@@ -170,7 +176,8 @@ impl Diagnostic {
                     LimbPlace::OutOfOpening { vertex: v } => vertex(v),
                     LimbPlace::Inside { triangle, .. }
                     | LimbPlace::Beside { triangle, .. }
-                    | LimbPlace::Swallowed { triangle, .. } => Element::triangle(Subject::TargetAvatar, triangle),
+                    | LimbPlace::Swallowed { triangle, .. }
+                    | LimbPlace::Under { triangle, .. } => Element::triangle(Subject::TargetAvatar, triangle),
                 };
                 vec![bone.element(), element]
             }

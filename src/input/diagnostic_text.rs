@@ -410,6 +410,12 @@ impl Display for Diagnostic {
                  some, such as triangle {drawn_out}, {larger:.1} times; compare unit and place of the garment with its skeleton, and \
                  of the avatar with its own"
             ),
+            Self::ResultCrumpled { pairs, first: [s, t], share, .. } => write!(
+                f,
+                "result: {pairs} pairs of garment triangles beside each other, such as {s} and {t}, pass through each other as in the \
+                 design ({:.0} % of its area); smooth the garment there, so that it does not pass through itself",
+                100.0 * share
+            ),
             Self::ClothLifted { triangle, times } => write!(
                 f,
                 "result: some of the cloth, such as garment triangle {triangle}, lies {times:.1} times as far from the bones as in \
@@ -542,6 +548,13 @@ fn misplaced(f: &mut Formatter<'_>, bone: Bone, place: LimbPlace) -> Result {
             "result: a part that sticks out of the body near {name}, such as avatar triangle {triangle}, is shut up in the garment, \
              {times:.1} times as far from the bone as there is room in the design; as a horn, a tail or a wing it needs a bone and an \
              opening, or leave it out with set_avatar_parts"
+        ),
+        LimbPlace::Under { triangle, share } => write!(
+            f,
+            "result: a loose sheet of the avatar, as strands of hair are, begins outside of the garment and ends under it near \
+             {name}, such as avatar triangle {triangle} ({:.0} % of it); leave it out with set_avatar_parts, and it can hang over \
+             the garment",
+            100.0 * share
         ),
     }
 }

@@ -7,6 +7,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::mesh::TriangleMesh;
 use crate::input::diagnostic::{Bone, Diagnostic, LimbPlace};
 use crate::stage::plausibility::{Distorted, Findings, Lifted, Misplacement, Outcome, compare};
+use crate::verify::intersections_with_cancel;
 
 impl Session {
     /// Adds to the diagnostics how the result differs from the design.
@@ -48,8 +49,22 @@ impl Snapshot {
         let [source, target] = &problem.skeletons;
         let (design, result) = (mesh(&problem.rest), mesh(&self.x));
         let collision_only = self.body.collision_only();
-        let outcome =
-            Outcome { design: &design, result: &result, source, target, body: &body, worn: &worn, collision_only };
+        // Nothing that did not intersect at the start does now.
+        let intersecting = if self.initial_intersections().is_empty() {
+            Vec::new()
+        } else {
+            intersections_with_cancel(&result, None, usize::MAX, cancel)?.pairs
+        };
+        let outcome = Outcome {
+            design: &design,
+            result: &result,
+            source,
+            target,
+            body: &body,
+            worn: &worn,
+            collision_only,
+            intersecting: &intersecting,
+        };
         let findings = compare(&outcome, cancel)?;
         Ok((self.diagnostics_of(&findings), findings.is_gross()))
     }
@@ -73,6 +88,9 @@ impl Snapshot {
                 Misplacement::Swallowed { bone, triangle, times, is_gross } => {
                     (bone, LimbPlace::Swallowed { triangle: avatar(triangle), times, is_gross })
                 }
+                Misplacement::Under { bone, triangle, share } => {
+                    (bone, LimbPlace::Under { triangle: avatar(triangle), share })
+                }
             };
             Diagnostic::LimbMisplaced { bone: bone(index), place }
         });
@@ -89,6 +107,12 @@ impl Snapshot {
         diagnostics.extend(findings.lifted.map(|Lifted { triangle, times }| Diagnostic::ClothLifted {
             triangle: problem.weld.triangle_of[triangle as usize],
             times,
+        }));
+        diagnostics.extend(findings.crumpled.as_ref().map(|(found, is_gross)| Diagnostic::ResultCrumpled {
+            pairs: found.pairs,
+            first: found.first.map(|t| problem.weld.triangle_of[t as usize]),
+            share: found.share,
+            is_gross: *is_gross,
         }));
         diagnostics
     }

@@ -496,6 +496,25 @@ fn a_misplaced_limb_names_its_bone_and_where_it_is() {
 }
 
 #[test]
+fn a_sheet_under_the_garment_and_crumpled_cloth_are_told() {
+    let found = Diagnostic::LimbMisplaced { bone: BONE, place: LimbPlace::Under { triangle: 8, share: 0.42 } };
+    let said = found.to_string();
+    assert!(said.contains("near bone 4 (joints 5-7), such as avatar triangle 8 (42 % of it)"), "{said}");
+    assert!(said.contains("strands of hair") && said.contains("set_avatar_parts"), "{said}");
+    assert_eq!(found.elements(), [Element::bone(Subject::SourceSkeleton, 4), avatar(8)]);
+    assert_eq!((found.kind(), found.severity()), (DiagnosticKind::LimbMisplaced, Severity::Warning));
+    for is_gross in [true, false] {
+        let found = Diagnostic::ResultCrumpled { pairs: 812, first: [3, 9], share: 0.31, is_gross };
+        let said = found.to_string();
+        assert!(said.contains("812 pairs of garment triangles beside each other, such as 3 and 9"), "{said}");
+        assert!(said.contains("31 % of its area") && said.contains("smooth the garment"), "{said}");
+        assert_eq!(found.elements(), [3, 9].map(|t| Element::triangle(Subject::Garment, t)));
+        assert_eq!(found.kind(), DiagnosticKind::SelfIntersection);
+        assert_eq!(found.severity(), if is_gross { Severity::Error } else { Severity::Warning });
+    }
+}
+
+#[test]
 fn what_does_not_belong_together_is_said_with_what_mends_it() {
     let unit = |factor, or, gross| Diagnostic::UnitMismatch {
         subject: Subject::Garment,

@@ -178,9 +178,8 @@ fn iterations(session: &Session) -> u32 {
     session.report().inflate.iterations + session.report().fit.iterations
 }
 
-/// What is refused at once takes no iteration, and what is held between two parts of the body, after other settings have been
-/// tried, no more than a few times those of a result between parts that leave it a narrow gap. They are cheaper: the refusals took
-/// 1.4 to 2.2 times as long.
+/// What is refused at once takes no iteration, and what is held between two parts of the body no more than twice those of a result between parts
+/// that leave it a narrow gap: other settings are over where they come to the place of the first.
 #[test]
 fn a_refusal_takes_little_more_than_a_result() {
     let mut narrow = two_boxes(0.004, Options::default());
@@ -190,7 +189,7 @@ fn a_refusal_takes_little_more_than_a_result() {
         let mut held = two_boxes(gap, Options::default());
         assert_eq!(held.run().unwrap_err().kind, ErrorKind::InflationStalled);
         println!("{} iterations for a gap of {gap}, {success} for a narrow one", iterations(&held));
-        assert!(iterations(&held) <= 4 * success, "{} {success}", iterations(&held));
+        assert!(iterations(&held) <= 2 * success, "{} {success}", iterations(&held));
         assert!(kinds(&held).contains(&DiagnosticKind::InflationBlocked));
     }
     let mut refused = session(1.0, DVec3::ZERO);
@@ -202,10 +201,11 @@ fn a_refusal_takes_little_more_than_a_result() {
     assert!(kinds(&refused).contains(&DiagnosticKind::UnitMismatch), "{:?}", refused.diagnostics());
 }
 
-/// A sleeve and its lining whose vertices are off their places, so that the two pass through each other and themselves.
+/// A sleeve and its lining whose vertices are off their places, so that the two pass through each other and themselves; at last by as
+/// much as their edges are long.
 #[test]
 fn a_jittered_garment_is_pulled_apart_and_stays_so() {
-    for (amount, least) in [(0.005, 50), (0.01, 1000)] {
+    for (amount, least) in [(0.005, 50), (0.01, 1000), (0.03, 8000)] {
         let mut random = Random::new(4);
         let mut garment = tube(-0.6, 0.7, |z, _| 0.3 + 0.03 * (12.0 * z).sin(), RINGS, SIDES, false);
         let first = garment.positions.len() as u32;
@@ -224,7 +224,10 @@ fn a_jittered_garment_is_pulled_apart_and_stays_so() {
         assert_eq!(session.run().unwrap(), Stage::Done);
         let counted = session.verify(Precision::F64).unwrap();
         let after = count(&session.garment_positions().unwrap());
-        println!("{before} pairs pass through each other in the design, {after} in the result");
+        println!(
+            "{amount}: {before} pairs pass through each other in the design, {after} in the result; {} iterations",
+            iterations(&session)
+        );
         assert_eq!((after, counted.garment_garment, counted.initial, counted.garment_avatar), (0, 0, 0, 0));
         assert!(kinds(&session).contains(&DiagnosticKind::SelfIntersection));
     }

@@ -7,7 +7,9 @@ use bespoke::geometry::closest_point::ClosestPoint;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::skeleton::Skeleton;
 use bespoke::stage::plausibility::{Disc, Findings, Misplacement, Outcome, compare, cover};
+use bespoke::verify::intersections;
 use glam::DVec3;
+use testing::Random;
 
 /// Rings of `sides` points about the x axis: places along it and radii; the body's ends are closed by fans.
 fn tube(rings: &[[f64; 2]], sides: u32, is_closed: bool) -> TriangleMesh {
@@ -62,7 +64,7 @@ fn findings(design: &TriangleMesh, result: &TriangleMesh) -> Findings {
 fn findings_over(worn: &TriangleMesh, design: &TriangleMesh, result: &TriangleMesh) -> Findings {
     let skeleton = skeleton();
     let (source, target, body) = (&skeleton, &skeleton, &arm());
-    let outcome = Outcome { design, result, source, target, body, worn, collision_only: &[] };
+    let outcome = Outcome { design, result, source, target, body, worn, collision_only: &[], intersecting: &[] };
     compare(&outcome, &Cancel::new()).expect("nobody cancels")
 }
 
@@ -260,7 +262,7 @@ fn a_horn_that_is_shut_up_in_the_sleeve_is_found() {
     let skeleton = skeleton();
     let found = |design: &TriangleMesh, result: &TriangleMesh, body: &TriangleMesh, collision_only: &[u32]| {
         let (source, target, worn) = (&skeleton, &skeleton, &TriangleMesh::default());
-        let outcome = Outcome { design, result, source, target, body, worn, collision_only };
+        let outcome = Outcome { design, result, source, target, body, worn, collision_only, intersecting: &[] };
         compare(&outcome, &Cancel::new()).expect("nobody cancels")
     };
     let first = arm().triangles.len() as u32;
@@ -289,6 +291,92 @@ fn a_horn_that_is_shut_up_in_the_sleeve_is_found() {
     // A body three times as thick widens the sleeve as a whole.
     let thick = |mesh: &TriangleMesh| moved(mesh, |p| DVec3::new(p.x, 3.0 * p.y, 3.0 * p.z));
     assert_eq!(found(&design, &thick(&design), &thick(&arm()), &[]), Findings::default());
+}
+
+/// The arm with a loose sheet along it, from the place `from` to `to` along it, `above` its axis.
+fn with_sheet([from, to]: [f64; 2], above: f64) -> TriangleMesh {
+    let mut body = arm();
+    let first = body.positions.len() as u32;
+    for k in 0..=20 {
+        let x = from + (to - from) * f64::from(k) / 20.0;
+        body.positions.extend([DVec3::new(x, -0.04, above), DVec3::new(x, 0.04, above)]);
+    }
+    for k in 0..20 {
+        let a = first + 2 * k;
+        body.triangles.extend([[a, a + 2, a + 1], [a + 1, a + 2, a + 3]]);
+    }
+    body
+}
+
+#[test]
+fn a_sheet_that_ends_under_the_sleeve_is_found() {
+    let skeleton = skeleton();
+    let found = |cloth: &TriangleMesh, body: &TriangleMesh, collision_only: &[u32]| {
+        let (source, target, worn) = (&skeleton, &skeleton, &TriangleMesh::default());
+        let outcome =
+            Outcome { design: cloth, result: cloth, source, target, body, worn, collision_only, intersecting: &[] };
+        compare(&outcome, &Cancel::new()).expect("nobody cancels")
+    };
+    let first = arm().triangles.len() as u32;
+    let sleeve = tube(&rings(-0.9, 0.6, 40, 0.16), 40, false);
+    let body = with_sheet([1.2, 0.0], 0.13);
+    let findings = found(&sleeve, &body, &[]);
+    let [Misplacement::Under { bone: 0 | 1, triangle, share }] = findings.misplaced[..] else { panic!("{findings:?}") };
+    assert!(triangle >= first && (0.2..0.6).contains(&share) && !findings.is_gross(), "{findings:?}");
+    // Both sides of it are modelled.
+    let mut both = body.clone();
+    both.triangles.extend(body.triangles[first as usize..].iter().map(|&[a, b, c]| [a, c, b]));
+    assert_eq!(found(&sleeve, &both, &[]).misplaced.len(), 1);
+    // It hangs over the sleeve, does not come to it, or is not meant to be fitted.
+    let sheet: Vec<u32> = (first..body.triangles.len() as u32).collect();
+    for (body, collision_only) in
+        [(with_sheet([1.2, 0.0], 0.2), &[][..]), (with_sheet([1.2, 0.7], 0.13), &[]), (body.clone(), &sheet)]
+    {
+        assert_eq!(found(&sleeve, &body, collision_only), Findings::default());
+    }
+    // What a mitten or a hat covers comes out of it, and what is under the sleeve altogether is no hair.
+    let mitten = tube(&[rings(0.55, 1.3, 20, 0.16), vec![[1.36, 0.01]]].concat(), 40, false);
+    assert_eq!(found(&mitten, &with_sheet([1.25, -0.3], 0.13), &[]), Findings::default());
+    assert_eq!(found(&sleeve, &with_sheet([0.4, -0.4], 0.13), &[]), Findings::default());
+    // A cuff that the body has on, half under the sleeve.
+    let mut cuffed = arm();
+    let cuff = tube(&rings(0.3, 0.9, 12, 0.13), 24, false);
+    cuffed.triangles.extend(cuff.triangles.iter().map(|t| t.map(|v| v + cuffed.positions.len() as u32)));
+    cuffed.positions.extend(cuff.positions);
+    assert_eq!(found(&sleeve, &cuffed, &[]), Findings::default());
+}
+
+/// Noise passes through what is beside it; two layers that pass through each other do not.
+#[test]
+fn a_crumpled_result_is_found_and_layers_are_not() {
+    let skeleton = skeleton();
+    let found = |cloth: &TriangleMesh| {
+        let intersecting = &intersections(cloth, None, usize::MAX).unwrap().pairs[..];
+        let (source, target, body, worn) = (&skeleton, &skeleton, &arm(), &TriangleMesh::default());
+        let outcome =
+            Outcome { design: cloth, result: cloth, source, target, body, worn, collision_only: &[], intersecting };
+        (intersecting.len(), compare(&outcome, &Cancel::new()).expect("nobody cancels"))
+    };
+    let design = sleeve(48, 40);
+    for (amount, told) in [(0.0, None), (0.011, None), (0.014, Some(false)), (0.02, Some(true))] {
+        let mut random = Random::new(9);
+        let mut noisy = design.clone();
+        noisy.positions.iter_mut().for_each(|p| *p += amount * random.vector());
+        let (pairs, findings) = found(&noisy);
+        println!("{amount}: {pairs} pairs, {:?}", findings.crumpled);
+        assert_eq!(findings.crumpled.as_ref().map(|crumpled| crumpled.1), told);
+        assert_eq!(findings.is_gross(), told == Some(true));
+    }
+    // A lining that comes out of the sleeve everywhere.
+    let mut lined = design.clone();
+    let lining = moved(&sleeve(47, 39), |p| {
+        let times = 1.0 + 0.05 * (40.0 * p.x).sin();
+        DVec3::new(p.x, times * p.y, times * p.z)
+    });
+    lined.triangles.extend(lining.triangles.iter().map(|t| t.map(|v| v + design.positions.len() as u32)));
+    lined.positions.extend(lining.positions);
+    let (pairs, findings) = found(&lined);
+    assert!(pairs > 1000 && findings == Findings::default(), "{pairs}: {findings:?}");
 }
 
 #[test]

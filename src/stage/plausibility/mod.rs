@@ -5,12 +5,14 @@
 //! in how many directions a point of the body sees the garment, and the area of a piece. Nothing here uses contact or
 //! solver, nor the skin weights: what the run believed is not asked.
 
+mod crumpled;
 mod distorted;
 mod lifted;
 mod limbs;
 mod nearest;
 mod opening;
 mod pieces;
+mod strands;
 mod swallowed;
 
 use crate::control::{Cancel, Cancelled};
@@ -18,6 +20,7 @@ use crate::geometry::mesh::{Topology, TriangleMesh};
 use crate::input::skeleton::{BoneGraph, Skeleton};
 
 pub use crate::geometry::cover::{DIRECTIONS, cover};
+use crate::geometry::crumpled::Crumpled;
 pub use opening::{Disc, Section};
 
 /// A bone reaches beyond a leaf joint by this share of its length: hands, feet and the head go on beyond their joints.
@@ -41,6 +44,8 @@ pub struct Outcome<'a> {
     pub worn: &'a TriangleMesh,
     /// Triangles of the body that the garment is not meant to fit, ascending.
     pub collision_only: &'a [u32],
+    /// Pairs of triangles of the result that pass through each other, ascending.
+    pub intersecting: &'a [[u32; 2]],
 }
 
 /// Where a limb is that should be elsewhere.
@@ -84,6 +89,15 @@ pub enum Misplacement {
         /// Whether nobody would wear the result.
         is_gross: bool,
     },
+    /// A loose sheet of the body, such as a strand of hair, begins outside of the garment and ends under it.
+    Under {
+        /// The bone at which it does.
+        bone: u32,
+        /// A triangle of it that is under the garment.
+        triangle: u32,
+        /// The share of it that is, with other sheets of which some is.
+        share: f64,
+    },
 }
 
 impl Misplacement {
@@ -93,13 +107,14 @@ impl Misplacement {
             Self::OutOfOpening { bone, .. }
             | Self::Inside { bone, .. }
             | Self::Beside { bone, .. }
-            | Self::Swallowed { bone, .. } => bone,
+            | Self::Swallowed { bone, .. }
+            | Self::Under { bone, .. } => bone,
         }
     }
 
     /// Whether nobody would wear the result.
     pub fn is_gross(&self) -> bool {
-        !matches!(self, Self::Swallowed { is_gross: false, .. })
+        !matches!(self, Self::Swallowed { is_gross: false, .. } | Self::Under { .. })
     }
 }
 
@@ -145,6 +160,8 @@ pub struct Findings {
     pub distorted: Option<Distorted>,
     /// Cloth that stands off, where so much of it does that the result is not plausible.
     pub lifted: Option<Lifted>,
+    /// Cloth that passes through itself beside where it is, and whether so much does that the result is not plausible.
+    pub crumpled: Option<(Crumpled, bool)>,
 }
 
 impl Findings {
@@ -154,6 +171,7 @@ impl Findings {
             || self.resized.iter().any(|piece| piece.is_gross)
             || self.distorted.is_some()
             || self.lifted.is_some()
+            || self.crumpled.as_ref().is_some_and(|crumpled| crumpled.1)
     }
 }
 
@@ -177,8 +195,11 @@ pub fn compare(outcome: &Outcome<'_>, cancel: &Cancel) -> Result<Findings, Cance
     cancel.check()?;
     misplaced.extend(swallowed::swallowed(outcome, &graph, cancel)?);
     cancel.check()?;
+    misplaced.extend(strands::strands(outcome, &graph, cancel)?);
+    cancel.check()?;
     let resized = pieces::resized(outcome, &openings);
     cancel.check()?;
     let lifted = lifted::lifted(outcome, &graph);
-    Ok(Findings { misplaced, resized, distorted: distorted::distorted(outcome), lifted })
+    let (distorted, crumpled) = (distorted::distorted(outcome), crumpled::left(outcome));
+    Ok(Findings { misplaced, resized, distorted, lifted, crumpled })
 }

@@ -15,6 +15,7 @@ pub mod path_search;
 mod path_trace;
 pub mod projection;
 pub mod repair;
+pub mod smooth;
 pub mod untangle;
 pub mod weight_check;
 pub mod winding;

@@ -3,14 +3,17 @@
 //!
 //! Vertices walk down the gradient of the length of the intersection contours ([`super::contour`]) until a contour is gone. The
 //! design stays what it is: only the start of the solve moves, and the shape terms then restore the shape on the right side
-//! of the contact. What is not untangled stays as it was, so that no pair of triangles intersects that did not in the design.
+//! of the contact. A garment that is crumpled all over is smoothed before that. What is not untangled stays as it was, so that no
+//! pair of triangles intersects that did not in the design.
 
 use glam::DVec3;
 
 use super::contour::contour_length;
 use super::projection::ProjectedAvatar;
+use super::smooth::Smoother;
 use crate::control::Cancel;
 use crate::error::Result;
+use crate::geometry::crumpled::crumpled;
 use crate::geometry::mesh::{NO_PIECE, Topology, TriangleMesh, label_pieces};
 use crate::verify::intersections_with_cancel;
 
@@ -30,12 +33,21 @@ const HALVED_AFTER: usize = 6;
 const MARGINS: [f64; 5] = [1.0, 0.7, 0.4, 0.2, 0.1];
 /// How often it is tried, each time with what could not be pulled apart left as it is.
 const ROUNDS: usize = 4;
+/// Rounds of smoothing before that, where the garment is crumpled; the first of these after which nothing intersects that did not in
+/// the design.
+const SMOOTHINGS: [usize; 3] = [6, 20, 60];
+/// What still intersects then is pulled apart where it is less than this share of what intersects in the design.
+const FEW: f64 = 0.5;
 /// Rings of vertices around what is left as it is that stay as well.
 const FROZEN_RINGS: usize = 3;
 
 /// A garment that is pulled apart but for a larger share of its intersections than this begins as designed: little would be
 /// gained, and what is left is locked between layers that may not pass each other any more.
 const MOST_REMAINING: f64 = 0.5;
+
+/// A garment of which this share of the area passes through itself beside where it is is smoothed, where it cannot be pulled apart as
+/// it is.
+const CRUMPLED: f64 = 0.1;
 
 /// A garment whose initial self-intersections were pulled apart, wholly or partly.
 #[derive(Clone)]
@@ -61,10 +73,15 @@ pub fn begin_apart(
     if apart(pairs) == 0 {
         return Ok(None);
     }
-    let Some(untangled) = untangle(garment, pairs, cancel)? else { return Ok(None) };
-    if apart(&untangled.remaining) as f64 > MOST_REMAINING * apart(pairs) as f64 {
-        return Ok(None);
+    let is_less = |untangled: &Untangled| apart(&untangled.remaining) as f64 <= MOST_REMAINING * apart(pairs) as f64;
+    let mut untangled = untangle(garment, pairs, cancel)?.filter(is_less);
+    let is_crumpled = || crumpled(garment, pairs).is_some_and(|crumpled| crumpled.share > CRUMPLED);
+    if untangled.as_ref().is_none_or(|untangled| apart(&untangled.remaining) > 0) && is_crumpled() {
+        let left = untangled.as_ref().map_or(usize::MAX, |untangled| untangled.remaining.len());
+        let smoothed = begin_smoothed(garment, pairs, cancel)?.filter(is_less);
+        untangled = smoothed.filter(|smoothed| smoothed.remaining.len() < left).or(untangled);
     }
+    let Some(untangled) = untangled else { return Ok(None) };
     let pulled = TriangleMesh { positions: untangled.start.clone(), triangles: garment.triangles.clone() };
     let hits = intersections_with_cancel(&pulled, Some(&avatar.start_mesh()), 1, cancel)?.count;
     Ok((hits == 0).then_some(untangled))
@@ -90,6 +107,31 @@ pub fn untangle(garment: &TriangleMesh, pairs: &[[u32; 2]], cancel: &Cancel) -> 
         }
         // What could not be pulled apart stays as designed, with what is around it, and the rest is tried again.
         descent.freeze(&new, &untangled.remaining);
+    }
+    Ok(None)
+}
+
+/// [`untangle`] for a crumpled garment: where noise has moved vertices by as much as their edges are long, contours are everywhere,
+/// and lead nowhere. So the start alone is smoothed first. None where that does not help.
+///
+/// # Errors
+/// `Cancelled`.
+fn begin_smoothed(garment: &TriangleMesh, pairs: &[[u32; 2]], cancel: &Cancel) -> Result<Option<Untangled>> {
+    let smoother = Smoother::new(garment);
+    for rounds in SMOOTHINGS {
+        let start = smoother.smoothed(&garment.positions, rounds);
+        let mesh = TriangleMesh { positions: start, triangles: garment.triangles.clone() };
+        let remaining = intersections_with_cancel(&mesh, None, usize::MAX, cancel)?.pairs;
+        if remaining.len() as f64 > FEW * pairs.len() as f64 {
+            continue;
+        }
+        let done = match untangle(&mesh, &remaining, cancel)? {
+            Some(done) => done,
+            None => Untangled { start: mesh.positions, remaining },
+        };
+        if done.remaining.iter().all(|pair| pairs.binary_search(pair).is_ok()) {
+            return Ok(Some(done));
+        }
     }
     Ok(None)
 }
