@@ -6,6 +6,7 @@ mod avatar_parts;
 mod blocked;
 mod cancel;
 mod carried;
+mod collars;
 mod curves;
 mod determinism;
 mod distortion;

@@ -154,6 +154,19 @@ fn a_bone_must_pass_through_the_loop_to_be_preferred() {
 }
 
 /// Where a face is missing, and not at a cuff, however narrow, nor where the opening is as wide as the limb is thick.
+/// The hole between the strap and the sole of a sandal, beside the toes: bones from the pelvis to the hips, far above, go that way.
+#[test]
+fn a_bone_far_away_is_not_preferred() {
+    let mut person = person();
+    person.joints.extend([DVec3::new(0.1, -0.15, 0.03), DVec3::new(-0.1, -0.15, 0.03)]);
+    person.bones.extend([[11, 15], [14, 16]]);
+    let beside = |x: f64| ellipse(DVec3::new(x, -0.1, 0.04), 0.08 * DVec3::Y, 0.03 * DVec3::Z);
+    assert_eq!(chosen(&beside(0.06), &person), [[11, 15]]);
+    assert_eq!(chosen(&beside(-0.14), &person), [[14, 16]]);
+    // Wider than the way to them.
+    assert_eq!(chosen(&ellipse(DVec3::new(0.06, -0.1, 0.2), 0.5 * DVec3::Y, 0.5 * DVec3::Z), &person), [[0, 9]]);
+}
+
 #[test]
 fn a_hole_in_the_cloth_follows_no_bone() {
     let person = person();

@@ -51,7 +51,8 @@ pub struct LoopAxis {
 /// `rest` are the garment's vertices; both skeletons are in its space and share one order of joints (the bones
 /// of `target` are not read). For each loop: all the bones through it that cross its plane inside its hull,
 /// if there are several; else the closest bone among those through it, or the one that it meets within the loop and that turns
-/// much less from source to target; else the closest bone at all. A bone
+/// much less from source to target; else, and where that one is farther away than the closest at all by more than the loop is wide, as
+/// a hip is from the hole beside the toes of a sandal, that. A bone
 /// is *through* the loop within 60 degrees of its normal, and *closest* as a segment, to the mean of the
 /// loop's vertices. The normal is that of the loop's area vector, along which the opening looks largest.
 pub fn choose_loop_axes(
@@ -123,9 +124,14 @@ impl Opening {
         Some(Self { centre, normal, points })
     }
 
+    /// The diameter of a circle around it.
+    fn width(&self) -> f64 {
+        2.0 * self.points.iter().map(|p| p.distance(self.centre)).fold(0.0, f64::max)
+    }
+
     /// True for a small one far from all bones.
     fn is_hole(&self, source: &Skeleton) -> bool {
-        let width = 2.0 * self.points.iter().map(|p| p.distance(self.centre)).fold(0.0, f64::max);
+        let width = self.width();
         let is_farther = |bone: &[u32; 2]| {
             let [a, b] = bone.map(|joint| source.joints[joint as usize]);
             closest_on_segment(self.centre, a, b - a).distance(self.centre) > width
@@ -171,7 +177,8 @@ impl Opening {
         angles.iter().zip(angles.iter().skip(1).chain([&wrapped])).all(|(a, b)| b - a < std::f64::consts::PI)
     }
 
-    /// The closest bone among those through the loop, or the closest of all; bones without length do not count.
+    /// The closest bone among those through the loop, or the closest of all, where that is closer by more than the loop is wide: bones
+    /// without length do not count.
     fn closest_bone(&self, skeleton: &Skeleton, target: &Skeleton) -> Option<u32> {
         let (mut through, mut any) = ((f64::INFINITY, None), (f64::INFINITY, None));
         for (index, bone) in skeleton.bones.iter().enumerate() {
@@ -189,7 +196,7 @@ impl Opening {
                 through = (distance, Some(index as u32));
             }
         }
-        through.1.or(any.1)
+        through.1.filter(|_| through.0 <= any.0 + self.width()).or(any.1)
     }
 
     /// The bone that meets `bone` at a joint around which the loop lies, goes through the loop as well, and turns less from
