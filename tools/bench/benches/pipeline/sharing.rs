@@ -15,7 +15,7 @@ use closet::{Kind, Sample, sample};
 use serde::Serialize;
 
 use crate::cpu::own_seconds;
-use crate::{median, table};
+use crate::table;
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -27,7 +27,7 @@ type Outcome = std::result::Result<Vec<u64>, String>;
 pub struct Sharing {
     what: String,
     pairs: usize,
-    /// User CPU seconds of all its pairs one after the other with one thread, each by itself and sharing: medians.
+    /// User CPU seconds of all its pairs with one thread, each by itself and sharing: sums of the least of each pair.
     seconds: [f64; 2],
 }
 
@@ -76,7 +76,8 @@ impl Model {
 }
 
 impl Sharing {
-    /// Measures one avatar with all garments, one garment on all avatars, and both, `runs` times in turn.
+    /// Measures two avatars with all garments, and one garment on all avatars, `runs` times. Each pair is dressed by itself and sharing
+    /// right after each other, so that both have the same noise.
     pub fn measure(runs: usize) -> std::result::Result<Vec<Self>, Failure> {
         let source = Model::new(&sample(Kind::Mannequin));
         let garments: Vec<Model> = Garment::ALL.iter().map(|&it| Model::new(&garment(it))).collect();
@@ -92,18 +93,26 @@ impl Sharing {
             (format!("{} x all garments", Avatar::ALL[tall].name()), on(tall)),
             (format!("{} x all avatars", garment_name(0)), of(0)),
         ] {
-            let (mut single, mut shared) = (Vec::new(), Vec::new());
+            let mut least = vec![[f64::INFINITY; 2]; pairs.len()];
             for _ in 0..runs.max(1) {
                 let closet = Closet { source: &source, garments: &garments, avatars: &avatars };
-                let (seconds, expected) = closet.dress(&pairs, false)?;
-                single.push(seconds);
-                let (seconds, found) = closet.dress(&pairs, true)?;
-                shared.push(seconds);
-                if expected != found {
-                    return Err(format!("{what}: the results differ").into());
+                let (mut shared_garments, mut shared_avatars) = (HashMap::new(), HashMap::new());
+                for (&(garment, avatar), least) in pairs.iter().zip(&mut least) {
+                    let by_itself = closet.dress(garment, avatar, |_| Ok(()))?;
+                    let sharing = closet.dress(garment, avatar, |session| {
+                        let known = shared_garments.entry(garment).or_insert(session.share_garment()?);
+                        session.use_garment(known)?;
+                        let known = shared_avatars.entry(avatar).or_insert(session.share_avatar()?);
+                        session.use_avatar(known)
+                    })?;
+                    if by_itself.1 != sharing.1 {
+                        return Err(format!("{what}: the results of pair {garment}, {avatar} differ").into());
+                    }
+                    *least = [least[0].min(by_itself.0), least[1].min(sharing.0)];
                 }
             }
-            measured.push(Self { what, pairs: pairs.len(), seconds: [median(&mut single), median(&mut shared)] });
+            let seconds = [0, 1].map(|way| least.iter().map(|least| least[way]).sum());
+            measured.push(Self { what, pairs: pairs.len(), seconds });
         }
         Ok(measured)
     }
@@ -116,29 +125,25 @@ struct Closet<'a> {
 }
 
 impl Closet<'_> {
-    /// User seconds, and the bits of the results or why there is none.
-    fn dress(&self, pairs: &[(usize, usize)], shares: bool) -> std::result::Result<(f64, Vec<Outcome>), Failure> {
-        let (mut shared_garments, mut shared_avatars) = (HashMap::new(), HashMap::new());
-        let mut results = Vec::new();
+    /// User seconds of a pair, whose session is told by `share` what it shares, and the bits of the result or why there is none.
+    fn dress(
+        &self,
+        garment: usize,
+        avatar: usize,
+        share: impl FnOnce(&mut Session) -> Result<()>,
+    ) -> std::result::Result<(f64, Outcome), Failure> {
         let begun = own_seconds()?;
-        for &(garment, avatar) in pairs {
-            let mut session = Session::new();
-            session.set_options(Options { threads: 1, ..Options::default() })?;
-            self.garments[garment].set_as_garment(&mut session, self.source)?;
-            self.avatars[avatar].set_as_avatar(&mut session)?;
-            if shares {
-                let known = shared_garments.entry(garment).or_insert(session.share_garment()?);
-                session.use_garment(known)?;
-                let known = shared_avatars.entry(avatar).or_insert(session.share_avatar()?);
-                session.use_avatar(known)?;
-            }
-            results.push(match session.run() {
-                Ok(Stage::Done) => Ok(bits(&session)?),
-                Ok(stage) => Err(format!("{stage:?}")),
-                Err(error) => Err(error.message),
-            });
-        }
-        Ok((own_seconds()? - begun, results))
+        let mut session = Session::new();
+        session.set_options(Options { threads: 1, ..Options::default() })?;
+        self.garments[garment].set_as_garment(&mut session, self.source)?;
+        self.avatars[avatar].set_as_avatar(&mut session)?;
+        share(&mut session)?;
+        let outcome = match session.run() {
+            Ok(Stage::Done) => Ok(bits(&session)?),
+            Ok(stage) => Err(format!("{stage:?}")),
+            Err(error) => Err(error.message),
+        };
+        Ok((own_seconds()? - begun, outcome))
     }
 }
 
