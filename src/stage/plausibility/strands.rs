@@ -4,16 +4,17 @@
 //! on one side of its bones, and hangs where a limb ends, as at the head: what a hat covers lies there as well, and is no hair under
 //! a shirt.
 
+use glam::DVec3;
+
 use super::{Misplacement, Outcome};
 use crate::control::{Cancel, Cancelled};
 use crate::geometry::border_edges::border_edges;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::cover::cover_towards;
-use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::mesh::{TriangleMesh, triangle_area};
 use crate::geometry::piece::Piece;
 use crate::input::skeleton::BoneGraph;
 use crate::input::weld::weld_vertices;
-use glam::DVec3;
 
 /// A sheet has a border so long that its square is so many times the area: a square has 16, a bust cut off at the chest 1.
 const FLAT: f64 = 10.0;
@@ -137,5 +138,5 @@ fn hidden(sheet: &Piece, outcome: &Outcome<'_>, graph: &BoneGraph, cloth: &Close
 }
 
 fn area(mesh: &TriangleMesh, triangle: u32) -> f64 {
-    crate::geometry::mesh::triangle_area(mesh.corners(triangle))
+    triangle_area(mesh.corners(triangle))
 }

@@ -6,6 +6,7 @@ use crate::geometry::mesh::{Topology, TriangleMesh};
 
 /// A round goes towards the mean of the neighbours by the first share of the way and away from it by the second.
 const SHARES: [f64; 2] = [0.5, -0.53];
+
 /// The neighbours that each vertex of a garment follows.
 pub struct Smoother {
     /// Those at borders are followed along the border alone.
