@@ -21,7 +21,7 @@ use figures::{
 /// The name of a figure, and what makes it, with folders of real pairs.
 type Maker = (&'static str, fn(&[PathBuf]) -> Outcome<Figure>);
 
-/// All of them.
+/// Those that are made where none is named.
 const FIGURES: [Maker; 12] = [
     ("layers", |_| layers::figure()),
     ("stress", |_| stress::figure()),
@@ -37,7 +37,10 @@ const FIGURES: [Maker; 12] = [
     ("comparison", |_| comparison::figure()),
 ];
 
-const USAGE: &str = "usage: figures [--out DIR] [--pair FOLDER]... [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [key-poses] [poses] [comparison]";
+/// Those that are made by name alone.
+const BY_NAME: [Maker; 1] = [("poses-more", |_| poses::figure_of_more())];
+
+const USAGE: &str = "usage: figures [--out DIR] [--pair FOLDER]... [layers] [stress] [fit-weight] [skeleton-edits] [curve-term] [resolution] [clearance] [shells] [skin-weights] [key-poses] [poses] [comparison] [poses-more]";
 
 fn main() -> ExitCode {
     let mut out = PathBuf::from("build/gallery/figures");
@@ -47,14 +50,16 @@ fn main() -> ExitCode {
         match (word.as_str(), words.len()) {
             ("--out", 1..) => out = words.next().unwrap_or_default().into(),
             ("--pair", 1..) => folders.extend(words.next().map(PathBuf::from)),
-            (name, _) if FIGURES.iter().any(|(known, _)| *known == name) => names.push(word),
+            (name, _) if FIGURES.iter().chain(&BY_NAME).any(|(known, _)| *known == name) => names.push(word),
             _ => {
                 eprintln!("figures: there is no figure or option '{word}'\n{USAGE}");
                 return ExitCode::from(2);
             }
         }
     }
-    let wanted = FIGURES.iter().filter(|(name, _)| names.is_empty() || names.iter().any(|n| n == name));
+    let is_named = |(name, _): &&Maker| names.iter().any(|named| named == name);
+    let others = BY_NAME.iter().filter(is_named);
+    let wanted = FIGURES.iter().filter(|maker| names.is_empty() || is_named(maker)).chain(others);
     let mut failed = 0;
     for (name, make) in wanted {
         let clock = Instant::now();
