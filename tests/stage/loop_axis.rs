@@ -153,7 +153,6 @@ fn a_bone_must_pass_through_the_loop_to_be_preferred() {
     assert_eq!(chosen(&slit, &skeleton), [[0, 1]]);
 }
 
-/// Where a face is missing, and not at a cuff, however narrow, nor where the opening is as wide as the limb is thick.
 /// The hole between the strap and the sole of a sandal, beside the toes: bones from the pelvis to the hips, far above, go that way.
 #[test]
 fn a_bone_far_away_is_not_preferred() {
@@ -167,6 +166,7 @@ fn a_bone_far_away_is_not_preferred() {
     assert_eq!(chosen(&ellipse(DVec3::new(0.06, -0.1, 0.2), 0.5 * DVec3::Y, 0.5 * DVec3::Z), &person), [[0, 9]]);
 }
 
+/// Where a face is missing, and not at a cuff, however narrow, nor where the opening is as wide as the limb is thick.
 #[test]
 fn a_hole_in_the_cloth_follows_no_bone() {
     let person = person();
