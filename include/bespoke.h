@@ -287,7 +287,8 @@ enum BespokeDiagnosticKind
   /// A small piece of the garment, such as a button, that is attached to the nearest other piece.
   BESPOKE_DIAGNOSTIC_KIND_LOOSE_PIECE = 6,
   /// Two garment triangles that pass through each other, or touch, before anything has moved. They are exempted from
-  /// contact until they separate.
+  /// contact until they separate. Also pairs beside each other that are left in the result of a crumpled design: from 15 % of the
+  /// area on it is not as designed.
   BESPOKE_DIAGNOSTIC_KIND_SELF_INTERSECTION = 7,
   /// Parts of the garment, or garment and shrunk avatar, that are very near at the start. The garment's vertices are
   /// named.
@@ -380,7 +381,8 @@ enum BespokeDiagnosticKind
   BESPOKE_DIAGNOSTIC_KIND_OPENING_CAP = 21,
   /// The result is not as designed: a limb that went through an opening of the garment and does not now, that was
   /// outside of the garment and is shut up in it, or that was inside and is beside it. Its bone is named, and a
-  /// garment vertex of the opening or an avatar triangle of the limb.
+  /// garment vertex of the opening or an avatar triangle of the limb. So are parts of the body without a bone of their own that are
+  /// shut up, such as horns and strands of hair, most of them as a warning.
   BESPOKE_DIAGNOSTIC_KIND_LIMB_MISPLACED = 23,
   /// A piece of the result is far larger or smaller than what it hangs on. A triangle of it is named.
   BESPOKE_DIAGNOSTIC_KIND_PIECE_RESIZED = 24,
