@@ -9,7 +9,7 @@ use crate::args::Dress;
 use crate::file_state::FileState;
 use crate::obj;
 
-/// As many are kept. A garment of 20,000 vertices with its body takes some 20 MB.
+/// As many are kept: each with its meshes, and what is known of them.
 pub const MOST: usize = 8;
 
 /// The latest few outfits.

@@ -5,7 +5,6 @@
 //!   until it wears all outfits that a process keeps in mind; these are then put on the others.
 //! - The last pairs get the cores that have nothing else to do.
 
-use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -90,10 +89,12 @@ impl<'a> Queue<'a> {
                 (_, false, false) => Stage::NextOutfitsElsewhere,
             }
         };
-        let rank =
-            |pair: &Pair| (stage(pair), avatars[pair.avatar.as_str()].at, Reverse(Seconds(long[pair.avatar.as_str()])));
-        let place = (0..left.len()).min_by_key(|&k| rank(left[k]));
-        let Some(place) = place else {
+        let at = |pair: &Pair| avatars[pair.avatar.as_str()].at;
+        let long = |pair: &Pair| long[pair.avatar.as_str()];
+        let order = |a: &Pair, b: &Pair| {
+            stage(a).cmp(&stage(b)).then(at(a).cmp(&at(b))).then_with(|| long(b).total_cmp(&long(a)))
+        };
+        let Some(place) = (0..left.len()).min_by(|&j, &k| order(left[j], left[k])) else {
             at_hand.avatar = None;
             return None;
         };
@@ -146,22 +147,4 @@ fn seconds_left<'a>(left: &[&'a Pair], avatars: &HashMap<&'a str, Avatar>) -> Ha
         *long.entry(&pair.avatar).or_default() += mean(avatar.seconds, avatar.ended).unwrap_or(all);
     }
     long
-}
-
-/// In the order of numbers.
-#[derive(PartialEq)]
-struct Seconds(f64);
-
-impl Eq for Seconds {}
-
-impl PartialOrd for Seconds {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Seconds {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
 }
