@@ -2,6 +2,7 @@
 //! each edge is owned by exactly one triangle, so that a search for close triangles finds every pair of a point
 //! and a triangle, or of two edges, exactly once.
 
+use crate::geometry::mesh::neighbours;
 use crate::memory::bytes;
 
 /// What a triangle owns, and whether it has a face.
@@ -94,12 +95,7 @@ impl Surface {
 
     /// For each vertex, those to which an edge leads from it.
     pub fn neighbours(&self) -> Vec<Vec<u32>> {
-        let mut neighbours = vec![Vec::new(); self.vertex_count];
-        for &[a, b] in &self.edges {
-            neighbours[a as usize].push(b);
-            neighbours[b as usize].push(a);
-        }
-        neighbours
+        neighbours(self.vertex_count, &self.edges)
     }
 
     /// Bytes that it holds.

@@ -3,7 +3,7 @@
 //! Layers that pass through each other are far apart along the surface, or are not joined at all, and a few triangles beside
 //! each other pass through one another in many a design: so it is the share of the area that tells.
 
-use super::mesh::{Topology, TriangleMesh};
+use super::mesh::{Topology, TriangleMesh, neighbours};
 
 /// Triangles are beside each other where so many edges lead from one to the other at most.
 const REACH: usize = 3;
@@ -24,7 +24,7 @@ pub fn crumpled(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Option<Crumpled> {
     if pairs.is_empty() {
         return None;
     }
-    let around = Neighbours::new(mesh);
+    let around = neighbours(mesh.positions.len(), &Topology::new(mesh.positions.len(), &mesh.triangles).edges);
     let mut reached = vec![u32::MAX; mesh.positions.len()];
     let mut takes_part = vec![false; mesh.triangles.len()];
     let (mut count, mut first) = (0, None);
@@ -34,7 +34,7 @@ pub fn crumpled(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Option<Crumpled> {
         front.iter().for_each(|&v| reached[v as usize] = own);
         for _ in 0..REACH {
             let mut next = Vec::new();
-            for w in front.iter().flat_map(|&v| around.of(v)) {
+            for w in front.iter().flat_map(|&v| &around[v as usize]) {
                 if std::mem::replace(&mut reached[*w as usize], own) != own {
                     next.push(*w);
                 }
@@ -53,32 +53,4 @@ pub fn crumpled(mesh: &TriangleMesh, pairs: &[[u32; 2]]) -> Option<Crumpled> {
     let whole: f64 = areas.iter().sum();
     let part: f64 = areas.iter().zip(takes_part).filter(|(_, takes_part)| *takes_part).map(|(area, _)| area).sum();
     Some(Crumpled { pairs: count, first: first?, share: part / whole.max(f64::MIN_POSITIVE) })
-}
-
-/// The vertices at the other ends of each vertex's edges.
-struct Neighbours {
-    ends: Vec<u32>,
-    all: Vec<u32>,
-}
-
-impl Neighbours {
-    fn new(mesh: &TriangleMesh) -> Self {
-        let edges = Topology::new(mesh.positions.len(), &mesh.triangles).edges;
-        let mut ends = vec![0; mesh.positions.len() + 1];
-        edges.iter().flatten().for_each(|&v| ends[v as usize + 1] += 1);
-        (0..mesh.positions.len()).for_each(|v| ends[v + 1] += ends[v]);
-        let mut next = ends.clone();
-        let mut all = vec![0; 2 * edges.len()];
-        for [a, b] in edges {
-            for (v, w) in [(a, b), (b, a)] {
-                all[next[v as usize] as usize] = w;
-                next[v as usize] += 1;
-            }
-        }
-        Self { ends, all }
-    }
-
-    fn of(&self, v: u32) -> &[u32] {
-        &self.all[self.ends[v as usize] as usize..self.ends[v as usize + 1] as usize]
-    }
 }

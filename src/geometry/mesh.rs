@@ -52,12 +52,28 @@ impl TriangleMesh {
 
     /// A third of the area of the triangles at each vertex.
     pub fn vertex_areas(&self) -> Vec<f64> {
-        let mut areas = vec![0.0; self.positions.len()];
-        for (t, area) in self.triangles.iter().zip(self.areas()) {
-            t.iter().for_each(|&v| areas[v as usize] += area / 3.0);
-        }
-        areas
+        vertex_areas(&self.positions, &self.triangles)
     }
+}
+
+/// For each of so many vertices, those to which an edge leads from it.
+pub fn neighbours(vertices: usize, edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let mut neighbours = vec![Vec::new(); vertices];
+    for &[a, b] in edges {
+        neighbours[a as usize].push(b);
+        neighbours[b as usize].push(a);
+    }
+    neighbours
+}
+
+/// A third of the area of the `triangles` at each of `positions`.
+pub fn vertex_areas(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
+    let mut areas = vec![0.0; positions.len()];
+    for t in triangles {
+        let share = triangle_area(t.map(|v| positions[v as usize])) / 3.0;
+        t.iter().for_each(|&v| areas[v as usize] += share);
+    }
+    areas
 }
 
 /// Area of a triangle.

@@ -62,11 +62,9 @@ pub struct Attempts {
     places: Vec<f64>,
     /// The first of all stalled at a place that is shut.
     is_shut: bool,
-    /// The last one has the caller's settings, on the garment as designed.
-    is_given: bool,
-    /// The last one has a wide barrier.
-    is_wide: bool,
-    /// The settings of the last one that was begun.
+    /// The factors of the last one that was begun.
+    factors: [f64; 2],
+    /// Its settings.
     settings: Option<Settings>,
 }
 
@@ -79,7 +77,7 @@ impl Attempts {
     /// Where attempts have stalled before, at which the one under way is over. With a wide barrier the cloth comes out of such a place
     /// in the end.
     pub fn places(&self) -> &[f64] {
-        if self.is_wide { &[] } else { &self.places }
+        if self.factors == WIDE { &[] } else { &self.places }
     }
 
     /// The settings of the next attempt, after one that ended with `stall`. `options` and `distances` are those of the first;
@@ -113,7 +111,7 @@ impl Attempts {
             return None;
         }
         self.begun += 1;
-        (self.is_given, self.is_wide) = (factors == AS_GIVEN, factors == WIDE);
+        self.factors = factors;
         // Never narrower than in the result, unless the caller's is.
         let narrowest = distances.inflation_dhat.min(distances.dhat);
         self.settings = Some(Settings {
@@ -127,7 +125,7 @@ impl Attempts {
     /// What is said of a result, where it was found with other settings than the caller's.
     pub fn adjustment(&self) -> Option<Diagnostic> {
         let settings = self.settings?;
-        (!self.is_given).then_some(Diagnostic::SettingsAdjusted {
+        (self.factors != AS_GIVEN).then_some(Diagnostic::SettingsAdjusted {
             stalled_at: *self.places.first()?,
             attempts: self.begun + 1,
             inflation_dhat: settings.inflation_dhat,

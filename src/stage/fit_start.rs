@@ -61,7 +61,7 @@ impl Problem {
             let points = fit.sample_points(&self.rest);
             let distances = self.known.distances(body, points.clone(), cancel)?;
             let clearance =
-                |(&p, &distance): (&DVec3, &f64)| wanted(options.designed_clearance * body.clearance_of(p, distance));
+                |(&p, &distance): (&DVec3, &f64)| wanted(options.designed_clearance * body.clearance(p, distance));
             let designed = points.par_iter().zip(&*distances).map(clearance);
             fit.set_clearances(&designed.collect::<Vec<_>>())?;
         } else if self.offset > 0.0 {

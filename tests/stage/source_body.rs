@@ -101,7 +101,8 @@ fn the_clearance_is_in_proportion_to_the_limb() {
     let bone = skeleton();
     let (mannequin, target) = (body(|_| 0.2), body(|z| if z < 0.0 { 0.4 } else { 0.1 }));
     let designed_on = SourceBody::new(mannequin.clone(), &bone, &bone, &target);
-    let at = |z: f64| designed_on.clearance(DVec3::new(0.23, 0.0, z)) / 0.03;
+    let clearance = |p: DVec3| designed_on.clearance(p, designed_on.signed_distance(p));
+    let at = |z: f64| clearance(DVec3::new(0.23, 0.0, z)) / 0.03;
     for k in 0..20 {
         let z = 0.3 + 0.035 * f64::from(k);
         assert!((at(-z) - 2.0).abs() < 0.02 && (at(z) - 0.5).abs() < 0.02, "{z}: {} {}", at(-z), at(z));
@@ -113,7 +114,7 @@ fn the_clearance_is_in_proportion_to_the_limb() {
         last = now;
     }
     // What lay inside is not pushed off the surface.
-    assert_eq!(designed_on.clearance(DVec3::new(0.15, 0.0, 0.3)), 0.0);
+    assert_eq!(clearance(DVec3::new(0.15, 0.0, 0.3)), 0.0);
 }
 
 /// Where bones lie outside of the bodies, the others say how thick they are; where all do, nothing is scaled.
@@ -125,7 +126,7 @@ fn bones_beside_the_body_change_nothing() {
     let (mannequin, target) = (body(|_| 0.2), body(|_| 0.3));
     let ratio = |bones: &Skeleton, p: DVec3| {
         let designed_on = SourceBody::new(mannequin.clone(), bones, bones, &target);
-        designed_on.clearance(p) / designed_on.signed_distance(p)
+        designed_on.clearance(p, designed_on.signed_distance(p)) / designed_on.signed_distance(p)
     };
     assert!((ratio(&bones, DVec3::new(2.5, 0.1, 0.0)) - 1.5).abs() < 1e-6);
     let lone = Skeleton { joints: bones.joints[3..].to_vec(), bones: vec![[0, 1]] };

@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::alignment::{normalisation, normalised};
 use super::mirror::MirrorPairs;
 use super::scene::Scene;
-use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::mesh::{TriangleMesh, neighbours, triangle_area};
 use crate::input::coordinate_system::AxisTurn;
 use crate::input::skeleton::{BoneGraph, Skeleton};
 use crate::input::skin::SkinWeights;
@@ -90,11 +90,7 @@ fn placed(mesh: &TriangleMesh, skeleton: &Skeleton, turn: AxisTurn) -> TriangleM
 /// For each joint between two bones, how far it is off the line between their other ends, along `across`, as a share of
 /// the length of that line.
 fn bends(skeleton: &Skeleton, across: DVec3) -> Vec<f64> {
-    let mut neighbours = vec![Vec::new(); skeleton.joints.len()];
-    for &[a, b] in &skeleton.bones {
-        neighbours[a as usize].push(b);
-        neighbours[b as usize].push(a);
-    }
+    let neighbours = neighbours(skeleton.joints.len(), &skeleton.bones);
     let middle = neighbours.iter().zip(&skeleton.joints).filter(|(n, _)| n.len() == 2);
     middle
         .map(|(ends, &p)| {

@@ -23,7 +23,7 @@ use super::carried_pieces::CarriedPiece;
 use super::source_body::SourceBody;
 use crate::energy::pin::{Pin, Pins};
 use crate::geometry::alignment::Similarity;
-use crate::geometry::mesh::{TriangleMesh, triangle_area};
+use crate::geometry::mesh::{TriangleMesh, vertex_areas};
 use crate::geometry::quantile::quantile;
 use crate::geometry::turn;
 use crate::sdf::Field;
@@ -199,7 +199,7 @@ impl Piece {
         let corners = |t: &[u32; 3]| Some([local(t[0])?, local(t[1])?, local(t[2])?]);
         let triangles: Vec<[u32; 3]> = own.triangles.iter().filter_map(corners).collect();
         let rest: Vec<DVec3> = vertices.iter().map(|&v| own.positions[v as usize]).collect();
-        let areas = vertex_areas(&rest, &triangles);
+        let areas = padded_areas(&rest, &triangles);
         let stiff_map = stiff.then(|| map.around(&rest, &areas, SUPPORTS));
         let map = stiff_map.as_ref().unwrap_or(map);
         let mapped: Vec<DVec3> = rest.iter().map(|&p| map.apply(p)).collect();
@@ -369,12 +369,8 @@ fn size(points: &[DVec3]) -> f64 {
 }
 
 /// A third of the triangles at each vertex, and a little of the mean: a vertex of slivers is carried too.
-fn vertex_areas(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
-    let mut areas = vec![0.0; points.len()];
-    for t in triangles {
-        let share = triangle_area(t.map(|v| points[v as usize])) / 3.0;
-        t.iter().for_each(|&v| areas[v as usize] += share);
-    }
+fn padded_areas(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
+    let areas = vertex_areas(points, triangles);
     let mean = areas.iter().sum::<f64>() / areas.len().max(1) as f64;
     areas.iter().map(|area| area.max(0.01 * mean)).collect()
 }

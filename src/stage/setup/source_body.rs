@@ -57,13 +57,8 @@ impl SourceBody {
         Self { mesh: MeshBits(Arc::new(body)), surface, outward, sizes }
     }
 
-    /// The clearance that `p` of the garment as designed is to have on the target body.
-    pub fn clearance(&self, p: DVec3) -> f64 {
-        self.clearance_of(p, self.signed_distance(p))
-    }
-
-    /// The same where its signed distance is known.
-    pub fn clearance_of(&self, p: DVec3, distance: f64) -> f64 {
+    /// The clearance that `p` of the garment as designed, at this signed distance, is to have on the target body.
+    pub fn clearance(&self, p: DVec3, distance: f64) -> f64 {
         self.sizes.ratio(p) * distance.max(0.0)
     }
 
