@@ -45,7 +45,7 @@ impl Session {
 
     /// After `refused`, which a step ended with: goes on from the beginning with the source avatar dressed.
     pub(super) fn begin_dressed(&mut self, refused: Error) -> Result<Stage> {
-        let has_tried = self.first_try.is_some() || self.run.as_ref().is_none_or(|run| run.is_limited);
+        let has_tried = self.first_try.is_some() || self.run.as_ref().is_none_or(|run| run.is_limited || run.is_left);
         let dressed = if has_tried { None } else { self.dressed(&refused)? };
         let Some((inputs, diagnostic)) = dressed else { return Err(refused) };
         let (begun, opening) = self.run.take().map(|run| (run.begun, run.opening)).unzip();

@@ -81,7 +81,7 @@ impl Run {
         }));
         self.attempts = Attempts::default();
         self.initial_intersections = self.objective.contact.exempt_pairs().triangle_pairs().into();
-        self.step = Step::Inflate(Inflation::another(iterations, &[]));
+        self.step = Step::Inflate(Inflation::another(iterations, &[], false));
         Ok(())
     }
 

@@ -39,6 +39,8 @@ pub(super) struct Inputs {
     pub(super) avatar: Option<Arc<TriangleMesh>>,
     /// One for each triangle of the avatar; none where nothing is said.
     pub(super) roles: Option<Arc<[PartRole]>>,
+    /// Likewise, where the caller will try without them, too.
+    pub(super) dispensable: Option<Arc<[bool]>>,
     pub(super) layers: Vec<Arc<TriangleMesh>>,
     pub(super) target_skeleton: Option<Arc<Skeleton>>,
     pub(super) source_avatar: Option<Arc<TriangleMesh>>,
@@ -174,6 +176,17 @@ impl Session {
     pub fn set_avatar_parts(&mut self, roles: Vec<PartRole>) -> Result<()> {
         self.setting("the avatar's parts")?;
         self.inputs.roles = Some(roles.into());
+        Ok(())
+    }
+
+    /// The triangles of the avatar without which the caller will try as well, such as a head. Where one of them holds the garment
+    /// against a part that it touches at full size, the run is over at once: nothing else is tried, which rarely helps there.
+    ///
+    /// # Errors
+    /// `InvalidState`.
+    pub fn set_dispensable(&mut self, triangles: Vec<bool>) -> Result<()> {
+        self.setting("the avatar's dispensable triangles")?;
+        self.inputs.dispensable = (!triangles.is_empty()).then(|| triangles.into());
         Ok(())
     }
 

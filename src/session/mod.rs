@@ -20,6 +20,7 @@ mod key_poses;
 mod morph_solve;
 mod morphs;
 mod on_the_way;
+mod other_attempts;
 mod other_pose;
 mod outfit;
 mod pin;

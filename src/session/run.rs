@@ -21,7 +21,7 @@ use crate::options::Options;
 use crate::report::{Report, StageReport, TermReport};
 use crate::sdf::Field;
 use crate::solver::newton::{Model, Newton, State};
-use crate::stage::attempts::{Attempts, Stall};
+use crate::stage::attempts::Attempts;
 use crate::stage::blockage;
 use crate::stage::finish;
 use crate::stage::fit::{End, FitStage};
@@ -76,6 +76,10 @@ pub(super) struct Run {
     pub(super) begun: Instant,
     /// The inflation came to the limit of its iterations.
     pub(super) is_limited: bool,
+    /// Triangles of the avatar without which the caller will try, too.
+    pub(super) dispensable: Option<Arc<[bool]>>,
+    /// Such a part holds the garment against one that it touches.
+    pub(super) is_left: bool,
     /// Bytes of the inputs and the problem.
     pub(super) held: u64,
     /// Bytes of the distance field, as estimated.
@@ -173,6 +177,8 @@ impl Run {
             report,
             begun,
             is_limited: false,
+            dispensable: inputs.dispensable.clone(),
+            is_left: false,
             shape: Vec::new(),
             own_shape: None,
             shortfalls: Vec::new(),
@@ -242,10 +248,15 @@ impl Run {
                         limited.and_then(|()| inflation.iterate(&mut self.objective, &mut self.newton, &mut self.state))
                     }
                 };
+                let wedged = if matches!(ended, Ok(false)) { inflation.is_wedged() } else { [false; 2] };
+                let ended = match self.is_held(wedged) {
+                    true => Err(Error::new(ErrorKind::InflationStalled, stalled_message(self.state.t))),
+                    false => ended,
+                };
                 match ended {
                     Ok(ended) => (Stage::Inflate, ended),
                     Err(error) if error.kind == ErrorKind::InflationStalled => {
-                        if !self.try_again()? && !self.try_other_pose()? {
+                        if !self.try_again()? && (self.is_left || !self.try_other_pose()?) {
                             return Err(self.explained(error));
                         }
                         (Stage::Inflate, false)
@@ -317,31 +328,6 @@ impl Run {
         Ok(Stage::Repose)
     }
 
-    /// Where the inflation has stalled, begins another attempt with other settings. False where all were tried.
-    fn try_again(&mut self) -> Result<bool> {
-        let (t, iterations) = (self.state.t, self.iterations());
-        let untangled = self.problem.untangled.is_some();
-        let is_shut = blockage::is_shut(&self.problem, &self.body, &mut self.objective, self.state.configuration());
-        let stall = Stall { t, iterations, is_shut };
-        let Some(settings) = self.attempts.next(&self.options, &self.problem.distances, stall, untangled) else {
-            return Ok(false);
-        };
-        self.step = Step::Inflate(Inflation::another(iterations, self.attempts.places()));
-        let stop = &self.context.stop;
-        let objective = self.problem.another_inflation(&settings, &self.options, stop);
-        stop.check()?;
-        self.initial_intersections = objective.contact.exempt_pairs().triangle_pairs().into();
-        let state = State { x: self.problem.initial_state(settings.as_designed).0.to_vec(), t: 0.0 };
-        let budget = self.remaining_budget().reserving(objective.memory());
-        self.newton = Newton::new(state.x.len(), &objective.terms(), budget, stop.clone())?;
-        let stalled = (std::mem::replace(&mut self.objective, objective), std::mem::replace(&mut self.state, state));
-        // Kept to say what holds the garment; where memory is short, the last attempt has to do.
-        if self.options.memory_limit == 0 && self.farthest.as_ref().is_none_or(|farthest| farthest.1.t < t) {
-            self.farthest = Some(Box::new(stalled));
-        }
-        Ok(true)
-    }
-
     /// Where the inflation has stalled, finds what holds the garment, and points to the diagnostics in the message.
     fn explained(&mut self, mut error: Error) -> Error {
         if error.kind == ErrorKind::InflationStalled {
@@ -353,7 +339,9 @@ impl Run {
             if let Some((t, other)) = self.return_to_first_pose() {
                 error.message = stalled_message(t) + &format!("; {other} did not help");
             } else if self.attempts.settings().is_some() {
-                error.message = stalled_message(self.state.t);
+                // Not the attempt that tells what holds the garment need have come farthest.
+                let farthest = self.attempts.places().iter().copied().fold(self.state.t, f64::max);
+                error.message = stalled_message(farthest);
             }
             self.initial_intersections = self.objective.contact.exempt_pairs().triangle_pairs().into();
             let at = self.state.configuration();

@@ -7,8 +7,9 @@
 //! Which of them helps cannot be seen beforehand; the order was found by measuring.
 //!
 //! A garment that is as tight as that stalls at one share of the avatar's size whatever is tried: where two parts of the avatar come
-//! together that have it between them. So a place at which an attempt has stalled tells of the next, which is over once it lingers
-//! there, and where two more have stalled at a place that is shut, the others would as well.
+//! together that have it between them. Only a wide barrier leads out of such a place: it pushes the cloth out before that closes. So
+//! where the first attempt has stalled at one, and that with a wide barrier at one again, the others would as well. Elsewhere a place
+//! at which an attempt has stalled tells of the next, which is over once it lingers there.
 
 use super::setup::contact_distances::ContactDistances;
 use crate::input::diagnostic::Diagnostic;
@@ -26,7 +27,7 @@ pub struct Settings {
 }
 
 /// Factors on d-hat and weight of the first attempt, in the order in which they are tried, and where the first stalls at a place that
-/// is shut: there a wide barrier pushes the cloth out before the place closes.
+/// is shut.
 const FACTORS: [[f64; 2]; 4] = [[0.2, 1e4], [1.0, 0.1], [1.0, 100.0], WIDE];
 const FACTORS_SHUT: [[f64; 2]; 4] = [WIDE, [0.2, 1e4], [1.0, 100.0], [1.0, 0.1]];
 const WIDE: [f64; 2] = [2.0, 1.0];
@@ -74,10 +75,14 @@ impl Attempts {
         self.settings
     }
 
-    /// Where attempts have stalled before, at which the one under way is over. With a wide barrier the cloth comes out of such a place
-    /// in the end.
+    /// Where attempts have stalled before.
     pub fn places(&self) -> &[f64] {
-        if self.factors == WIDE { &[] } else { &self.places }
+        &self.places
+    }
+
+    /// Whether the attempt under way may linger at such a place: with a wide barrier the cloth may come out of it in the end.
+    pub fn may_linger(&self) -> bool {
+        self.factors == WIDE
     }
 
     /// The settings of the next attempt, after one that ended with `stall`. `options` and `distances` are those of the first;
@@ -94,8 +99,10 @@ impl Attempts {
         if here >= if stall.is_shut { ENOUGH_SHUT } else { ENOUGH } {
             return None;
         }
-        if self.begun == 0 {
-            self.is_shut = stall.is_shut;
+        match self.begun {
+            0 => self.is_shut = stall.is_shut,
+            1 if self.is_shut && stall.is_shut => return None,
+            _ => {}
         }
         // What was pulled apart begins as designed after one other attempt: it may be in the way of itself. Where the place is shut
         // it does so at once.

@@ -16,7 +16,7 @@ use crate::contact::{Bodies, CollisionGroup, Configuration, PairType};
 use crate::energy::barrier::Barrier;
 use crate::energy::{Direction, Energy as _, Sink};
 use crate::input::body::Body;
-use crate::input::diagnostic::{AvatarPart, Bone, Diagnostic};
+use crate::input::diagnostic::{AvatarPart, Bone, Diagnostic, Element};
 
 /// Diagnostics of one blockage, at most.
 const MAX_DIAGNOSTICS: usize = 8;
@@ -38,11 +38,16 @@ const FAINT_ALONE: f64 = 0.1;
 /// Pairs of contacts of a group that are examined at full size.
 const PAIRS: usize = 8;
 
-/// Whether what holds the garment most at `at` are two parts of the avatar that touch each other at full size. The candidate pairs
-/// of `objective` are rebuilt.
-pub fn is_shut(problem: &Problem, body: &Body, objective: &mut Objective, at: Configuration<'_>) -> bool {
+/// The triangles of two parts of the avatar that touch each other at full size, where such parts hold the garment most at `at`. The
+/// candidate pairs of `objective` stay.
+pub fn shut(problem: &Problem, body: &Body, objective: &mut Objective, at: Configuration<'_>) -> Option<[Element; 2]> {
+    let candidates = objective.contact.barrier().candidates().clone();
     let first = find(problem, body, objective, at).into_iter().next();
-    matches!(first, Some(Diagnostic::InflationSqueezed { gap: None, .. }))
+    objective.contact.restore_candidates(candidates);
+    match first {
+        Some(Diagnostic::InflationSqueezed { gap: None, parts, .. }) => Some(parts.map(|part| part.triangle)),
+        _ => None,
+    }
 }
 
 /// What holds the garment at `at`, the strongest first; nothing where no contact resists the inflation. The candidate

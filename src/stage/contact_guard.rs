@@ -111,6 +111,11 @@ impl ContactGuard {
         self.keep_near_candidates(1.0);
     }
 
+    /// Takes back the pairs that were valid before others were found at the same state.
+    pub fn restore_candidates(&mut self, candidates: CandidateSet) {
+        *self.barrier.candidates_mut() = candidates;
+    }
+
     /// Begins at `at`, where the pairs of garment triangles in `initial_intersections` intersect: they are exempted until they
     /// separate, together with what touches within rounding; what is joined is so for good. Lowers the minimum separation below
     /// the distances of all active pairs.

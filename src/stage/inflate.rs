@@ -42,6 +42,11 @@ const MOST_CREEPING_AGAIN: u32 = 3;
 const SLOW: usize = 32;
 const LEAST_GAIN: f64 = 0.003;
 const SLOW_FROM: f64 = 0.25;
+/// So many short advances without a full one between them are enough where parts of the avatar touch each other that have the garment
+/// between them: the first of them come from one pair of primitives, as anywhere. Where the caller will try without one of these
+/// parts, fewer are.
+const WEDGED: u32 = 4;
+const WEDGED_BY_DISPENSABLE: u32 = 2;
 /// An attempt has stalled at the place of an earlier one after so many iterations there, from so far before it to so far beyond it, in
 /// shares of what is missing.
 const LINGERING: usize = 6;
@@ -59,6 +64,8 @@ pub struct Inflation {
     most_creeping: u32,
     /// Where earlier attempts stalled.
     places: Vec<f64>,
+    /// This one may linger there.
+    may_linger: bool,
     /// t after each iteration of this attempt.
     reached: Vec<f64>,
 }
@@ -71,15 +78,17 @@ enum Form {
 impl Default for Inflation {
     fn default() -> Self {
         let form = Form::Path { advance: FIRST_ADVANCE, corrections: 0, short_advances: 0 };
-        Self { form, iterations: 0, before: 0, most_creeping: MOST_CREEPING, places: Vec::new(), reached: Vec::new() }
+        let (places, reached) = (Vec::new(), Vec::new());
+        Self { form, iterations: 0, before: 0, most_creeping: MOST_CREEPING, places, may_linger: false, reached }
     }
 }
 
 impl Inflation {
-    /// Another attempt after so many iterations, of which earlier ones stalled at `places`.
-    pub fn another(iterations: u32, places: &[f64]) -> Self {
+    /// Another attempt after so many iterations, of which earlier ones stalled at `places`, where it is over unless it may linger there.
+    pub fn another(iterations: u32, places: &[f64], may_linger: bool) -> Self {
         let places = places.to_vec();
-        Self { iterations, before: iterations, most_creeping: MOST_CREEPING_AGAIN, places, ..Self::default() }
+        let most_creeping = MOST_CREEPING_AGAIN;
+        Self { iterations, before: iterations, most_creeping, places, may_linger, ..Self::default() }
     }
 
     /// Iterations of this attempt.
@@ -105,7 +114,7 @@ impl Inflation {
         }
         if state.t < 1.0 && !try_full_inflation(objective, state)? {
             self.reached.push(state.t);
-            if self.lingers() {
+            if !self.may_linger && self.has_stayed(LINGERING) {
                 return Err(Error::new(ErrorKind::InflationStalled, stalled_message(state.t)));
             }
             return Ok(false);
@@ -114,14 +123,23 @@ impl Inflation {
         Ok(true)
     }
 
-    /// Whether t stays where an earlier attempt stalled.
-    fn lingers(&self) -> bool {
-        let last = self.reached.iter().rev().take(LINGERING);
+    /// Whether t comes to a stand, so that the path is over where parts of the avatar touch each other that have the garment between
+    /// them; and the same where the caller will try without one of them. True once after a short advance.
+    pub fn is_wedged(&self) -> [bool; 2] {
+        let Form::Path { short_advances, corrections: CORRECTIONS, .. } = self.form else { return [false; 2] };
+        let has_begun = self.reached.last().is_some_and(|&t| t > SLOW_FROM);
+        let may_end = !self.may_linger || self.has_stayed(1);
+        [short_advances >= WEDGED && may_end, short_advances >= WEDGED_BY_DISPENSABLE].map(|is| is && has_begun)
+    }
+
+    /// Whether t stays where an earlier attempt stalled for so many iterations.
+    fn has_stayed(&self, iterations: usize) -> bool {
+        let last = self.reached.iter().rev().take(iterations);
         let is_at = |place: &f64| {
             let missing = 1.0 - place;
             last.clone().all(|t| t - place > -BEFORE_PLACE * missing && t - place < BEYOND_PLACE * missing)
         };
-        self.reached.len() >= LINGERING && self.places.iter().any(is_at)
+        self.reached.len() >= iterations && self.places.iter().any(is_at)
     }
 
     /// Whether t creeps along the path.

@@ -1,11 +1,13 @@
 //! Where the inflation stalls, it is tried again with other settings of the contact.
 
 use bespoke::control::Stage;
+use bespoke::error::ErrorKind;
 use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind, Severity};
 use bespoke::options::Options;
 use bespoke::session::{Budget, Session};
 use glam::DVec3;
 
+use crate::blocked::two_boxes;
 use crate::small::session;
 
 /// A rigid ring around an arm that outgrows it, which stalls with the settings by default.
@@ -74,4 +76,23 @@ fn an_inflation_that_is_cut_short_is_not_tried_again() {
     let message = session.run().unwrap_err().message;
     assert!(message.contains("did not end in 5 iterations"), "{message}");
     assert_eq!(session.report().inflate.iterations, 5);
+}
+
+/// Two boxes that grow into each other with a sleeve between them. Where the caller will try without one of them, nothing else is tried.
+#[test]
+fn what_a_dispensable_part_holds_is_left_to_the_caller() {
+    let iterations = |dispensable: Vec<bool>| {
+        let mut session = two_boxes(-0.1, Options::default());
+        session.set_dispensable(dispensable).unwrap();
+        assert_eq!(session.run().unwrap_err().kind, ErrorKind::InflationStalled);
+        assert!(session.diagnostics().iter().any(|d| d.kind() == DiagnosticKind::InflationBlocked));
+        assert_eq!(session.set_dispensable(Vec::new()).unwrap_err().kind, ErrorKind::InvalidState);
+        session.report().inflate.iterations
+    };
+    let all = iterations(Vec::new());
+    let second = |t: usize| t >= 12;
+    let left = iterations((0..24).map(second).collect());
+    println!("{left} iterations, and {all} where nothing is dispensable");
+    assert!(2 * left < all, "{left} {all}");
+    assert_eq!(iterations(vec![false; 24]), all);
 }

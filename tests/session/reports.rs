@@ -178,10 +178,10 @@ fn iterations(session: &Session) -> u32 {
     session.report().inflate.iterations + session.report().fit.iterations
 }
 
-/// What is refused at once takes no iteration, and what is held between two parts of the body no more than twice those of a result between parts
-/// that leave it a narrow gap: other settings are over where they come to the place of the first.
+/// What is refused at once takes no iteration, and what is held between two parts of the body no more than a result between parts
+/// that leave it a narrow gap: an attempt is over where t comes to a stand between such parts.
 #[test]
-fn a_refusal_takes_little_more_than_a_result() {
+fn a_refusal_takes_no_more_than_a_result() {
     let mut narrow = two_boxes(0.004, Options::default());
     assert_eq!(narrow.run().unwrap(), Stage::Done);
     let success = iterations(&narrow);
@@ -189,7 +189,7 @@ fn a_refusal_takes_little_more_than_a_result() {
         let mut held = two_boxes(gap, Options::default());
         assert_eq!(held.run().unwrap_err().kind, ErrorKind::InflationStalled);
         println!("{} iterations for a gap of {gap}, {success} for a narrow one", iterations(&held));
-        assert!(iterations(&held) <= 2 * success, "{} {success}", iterations(&held));
+        assert!(iterations(&held) <= success, "{} {success}", iterations(&held));
         assert!(kinds(&held).contains(&DiagnosticKind::InflationBlocked));
     }
     let mut refused = session(1.0, DVec3::ZERO);
