@@ -21,8 +21,10 @@ const ON_HEAD: f64 = 0.1;
 
 /// Dresses a garment over those that are worn already. Where it cannot give way to them, as where the shells of a shirt and of
 /// trousers meet edge to edge, it is dressed over the body alone. Where the head lies on the shoulders, as a hood or the large head of
-/// a toy does, it is dressed beneath the head.
+/// a toy does, it is dressed beneath the head; not where other parts of the body hold it.
 pub fn put_on(job: &Job) -> Result<Fitted, Box<Refused>> {
+    let head = head(job);
+    let job = &Job { dispensable: head.as_ref().map_or(&[], |head| &head.is_head), ..job.clone() };
     let refused = match job.run() {
         Err(why) if !is_stopped() => why,
         outcome => return outcome,
@@ -30,17 +32,18 @@ pub fn put_on(job: &Job) -> Result<Fitted, Box<Refused>> {
     let done = |job: Job| if is_stopped() { None } else { job.run().ok() };
     // Where the body alone leaves it no room, it does so without the layers.
     if !job.layers.is_empty()
-        && !refused.is_held_by_avatar
+        && refused.held_by.is_none()
         && let Some(fitted) = done(Job { layers: &[], ..job.clone() })
     {
         let through = job.layers.iter().map(|layer| pairs(&fitted, job, layer)).sum();
         let said = "it could not be dressed over the garments beneath it";
         return Ok(told(fitted, said, "them", through, &refused));
     }
-    if let Some((roles, head)) = without_head(job)
-        && let Some(fitted) = done(Job { roles: &roles, ..job.clone() })
+    if let Some(head) = head.as_ref().filter(|head| refused.held_by.is_none_or(|parts| head.has_any(parts)))
+        && let Some(fitted) = done(Job { roles: &head.roles_without(job.roles), dispensable: &[], ..job.clone() })
     {
-        let through = pairs(&fitted, job, &head);
+        let body = &job.avatar.mesh;
+        let through = pairs(&fitted, job, &head.of(body));
         let said = "the head lies on the parts of the body beside it; it is dressed beneath the head";
         return Ok(told(fitted, said, "it", through, &refused));
     }
@@ -63,9 +66,32 @@ fn told(mut fitted: Fitted, said: &str, through: &str, pairs: u64, refused: &Ref
     fitted
 }
 
-/// The roles with the head taking no part, and the head alone; none where the garment is worn on it, or there is none.
-fn without_head(job: &Job) -> Option<(Vec<PartRole>, TriangleMesh)> {
-    let is_head = |rig: &Rig, skin: Option<&SkinWeights>| {
+/// Which triangles of a body are its head.
+struct Head {
+    is_head: Vec<bool>,
+}
+
+impl Head {
+    fn has_any(&self, triangles: [u32; 2]) -> bool {
+        triangles.iter().any(|&t| self.is_head[t as usize])
+    }
+
+    /// The roles with the head taking no part.
+    fn roles_without(&self, roles: &[PartRole]) -> Vec<PartRole> {
+        let taken = |(role, head): (&PartRole, &bool)| if *head { PartRole::Ignored } else { *role };
+        roles.iter().zip(&self.is_head).map(taken).collect()
+    }
+
+    /// The head alone.
+    fn of(&self, body: &TriangleMesh) -> TriangleMesh {
+        let head = body.triangles.iter().zip(&self.is_head).filter(|(_, head)| **head);
+        TriangleMesh { positions: body.positions.clone(), triangles: head.map(|(t, _)| *t).collect() }
+    }
+}
+
+/// The head; none where the garment is worn on it, or there is none.
+fn head(job: &Job) -> Option<Head> {
+    let is_of_head = |rig: &Rig, skin: Option<&SkinWeights>| {
         let reading = Reading::new(rig, skin);
         let owners = owners(rig, &reading, &rig.parents_first("rig").ok()?);
         let of_head = |joint: usize| {
@@ -76,8 +102,8 @@ fn without_head(job: &Job) -> Option<(Vec<PartRole>, TriangleMesh)> {
     let moves = |skin: &SkinWeights, joints: &[bool], vertex: usize| {
         skin.dominant_joint(vertex).is_some_and(|joint| joints[joint as usize])
     };
-    let (of_source, of_target) =
-        (is_head(job.source_rig, job.source.map(|body| &body.skin))?, is_head(job.target_rig, Some(&job.avatar.skin))?);
+    let of_source = is_of_head(job.source_rig, job.source.map(|body| &body.skin))?;
+    let of_target = is_of_head(job.target_rig, Some(&job.avatar.skin))?;
     let cloth = &job.garment.mesh.positions;
     let worn = (0..cloth.len()).filter(|&v| moves(&job.garment.skin, &of_source, v)).count();
     if !job.has_skin || worn as f64 > ON_HEAD * cloth.len() as f64 {
@@ -85,9 +111,6 @@ fn without_head(job: &Job) -> Option<(Vec<PartRole>, TriangleMesh)> {
     }
     let body = &job.avatar.mesh;
     let in_head = |triangle: &[u32; 3]| triangle.iter().all(|&v| moves(&job.avatar.skin, &of_target, v as usize));
-    let heads: Vec<bool> = body.triangles.iter().map(in_head).collect();
-    let taken = |(role, head): (&PartRole, &bool)| if *head { PartRole::Ignored } else { *role };
-    let roles = job.roles.iter().zip(&heads).map(taken).collect();
-    let triangles = body.triangles.iter().zip(&heads).filter(|(_, head)| **head).map(|(t, _)| *t).collect::<Vec<_>>();
-    (!triangles.is_empty()).then(|| (roles, TriangleMesh { positions: body.positions.clone(), triangles }))
+    let is_head: Vec<bool> = body.triangles.iter().map(in_head).collect();
+    is_head.contains(&true).then_some(Head { is_head })
 }

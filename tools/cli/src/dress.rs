@@ -210,8 +210,7 @@ impl Dressing<'_> {
                 Ok(shared) => shared,
                 Err(error) => {
                     let failure = Failure::no_result(format!("{}: {error}", garment.name));
-                    refused
-                        .push((garment, Box::new(Refused { failure, findings: Vec::new(), is_held_by_avatar: false })));
+                    refused.push((garment, Box::new(Refused { failure, findings: Vec::new(), held_by: None })));
                     continue;
                 }
             };
@@ -228,6 +227,7 @@ impl Dressing<'_> {
                 target_rig: &figure.rig,
                 shared_garment: &shared_garment,
                 shared_avatar: shared,
+                dispensable: &[],
                 layers: &layers,
                 pairs: self.pairs,
                 skeletons: self.skeletons,

@@ -62,6 +62,8 @@ pub struct Job<'a> {
     pub shared_garment: &'a SharedGarment,
     /// Body and joints together, likewise: [`shared_avatar`].
     pub shared_avatar: &'a SharedAvatar,
+    /// Which of them it is tried without as well, where they leave it no room; empty where that is none.
+    pub dispensable: &'a [bool],
     /// Garments that it wears already, inside this one.
     pub layers: &'a [TriangleMesh],
     /// Joints that the user says correspond.
@@ -125,8 +127,8 @@ pub struct Refused {
     pub failure: Failure,
     /// What else the library has to say.
     pub findings: Vec<Finding>,
-    /// Parts of the avatar that touch each other hold it, not what that wears already.
-    pub is_held_by_avatar: bool,
+    /// Where parts of the avatar that touch each other hold it most, and not what that wears already: a triangle of each.
+    pub held_by: Option<[u32; 2]>,
 }
 
 impl Job<'_> {
@@ -148,7 +150,7 @@ impl Job<'_> {
             Err(error) if error.kind == ErrorKind::ImplausibleResult && session.pose_transforms().is_none() => {
                 Some(error.message)
             }
-            Err(error) => return Err(self.refused(error, findings, is_held_by_avatar(&session))),
+            Err(error) => return Err(self.refused(error, findings, held_by(&session))),
         };
         // Without weights of the avatar there are none to take over.
         let moves = self.avatar.has_weights();
@@ -173,7 +175,7 @@ impl Job<'_> {
         };
         match read() {
             Ok(fitted) => Ok(fitted),
-            Err(error) => Err(self.refused(error, findings, false)),
+            Err(error) => Err(self.refused(error, findings, None)),
         }
     }
 
@@ -196,13 +198,13 @@ impl Job<'_> {
         caps(&session)
     }
 
-    fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>, is_held_by_avatar: bool) -> Box<Refused> {
+    fn refused(&self, error: bespoke::error::Error, findings: Vec<Finding>, held_by: Option<[u32; 2]>) -> Box<Refused> {
         let failure = if error.kind == ErrorKind::Cancelled || is_stopped() {
             Failure::interrupted()
         } else {
             Failure::no_result(format!("{}: {error}", self.name))
         };
-        Box::new(Refused { failure, findings, is_held_by_avatar })
+        Box::new(Refused { failure, findings, held_by })
     }
 
     fn fill(&self, session: &mut Session) -> bespoke::error::Result<()> {
@@ -215,6 +217,7 @@ impl Job<'_> {
             session.set_target_skeleton(target.clone())?;
         }
         session.set_avatar_parts(self.roles.to_vec())?;
+        session.set_dispensable(self.dispensable.to_vec())?;
         for layer in self.layers {
             session.add_layer(layer.clone())?;
         }
@@ -222,12 +225,17 @@ impl Job<'_> {
     }
 }
 
-/// Whether what holds the garment most are parts that touch each other at full size, and none of a layer.
-fn is_held_by_avatar(session: &Session) -> bool {
-    let first = session.diagnostics().iter().find(|found| found.kind() == DiagnosticKind::InflationBlocked);
-    let is_shut = |found: &&Diagnostic| matches!(found, Diagnostic::InflationSqueezed { gap: None, .. });
-    let of_layer = |found: &Diagnostic| found.elements().iter().any(|e| matches!(e.subject, Subject::Layer(_)));
-    first.filter(is_shut).is_some_and(|found| !of_layer(found))
+/// Where what holds the garment most are parts that touch each other at full size, and none of a layer: a triangle of each.
+fn held_by(session: &Session) -> Option<[u32; 2]> {
+    let first = session.diagnostics().iter().find(|found| found.kind() == DiagnosticKind::InflationBlocked)?;
+    match first {
+        Diagnostic::InflationSqueezed { gap: None, parts, .. }
+            if parts.iter().all(|part| part.triangle.subject == Subject::TargetAvatar) =>
+        {
+            Some(parts.each_ref().map(|part| part.triangle.index))
+        }
+        _ => None,
+    }
 }
 
 /// No weights for each vertex of `cloth`.

@@ -37,6 +37,7 @@ pub fn on_own_body<T>(figure: &Figure, garment: &Garment, see: impl FnOnce(&Job)
         target_rig: &figure.rig,
         shared_garment: &worn,
         shared_avatar: &shared,
+        dispensable: &[],
         layers: &[],
         pairs: &[],
         skeletons: figure.skeleton().map(|skeleton| [skeleton, skeleton]),
