@@ -15,6 +15,9 @@ pub const INFLUENCES: usize = 4;
 /// Passes of smoothing over the edges, after those of the closet's own skin.
 const PASSES: usize = 6;
 
+/// Flesh stands off the trunk beyond this distance from the spine, in lengths of the chest: not, and clearly.
+const OFF_TRUNK: [f64; 2] = [0.2, 0.3];
+
 /// Joints one after the other, with the distance along the chain at which each begins and half the length over which it
 /// takes over from the one before.
 struct Chain {
@@ -91,9 +94,11 @@ pub fn weights(body: &Sample, places: &BTreeMap<Role, DVec3>) -> Vec<BTreeMap<Ro
         places[&Role::HeadEnd],
     );
     let limbs = SIDES.map(|side| (side, arm(places, side), leg(places, side), Fingers::new(places, side)));
-    let vertex = |(&p, share): (&DVec3, &[f64; 5])| {
+    let chest = body.skeleton.joints[WAIST].distance(body.skeleton.joints[NECK]);
+    let vertex = |(v, (&p, share)): (usize, (&DVec3, &[f64; 5]))| {
         let mut weights = BTreeMap::new();
         trunk.share(p, share[0], &mut weights);
+        to_head(trunk.nearest(p).1 / chest, body.skin[NECK][v], &mut weights);
         for (k, (side, arm, leg, fingers)) in limbs.iter().enumerate() {
             to_clavicle(p, *side, places, &mut weights);
             arm.share(p, share[1 + k], &mut weights);
@@ -103,7 +108,7 @@ pub fn weights(body: &Sample, places: &BTreeMap<Role, DVec3>) -> Vec<BTreeMap<Ro
         weights.retain(|_, weight| *weight > 0.0);
         weights
     };
-    body.mesh.positions.iter().zip(&shares).map(vertex).collect()
+    body.mesh.positions.iter().zip(&shares).enumerate().map(vertex).collect()
 }
 
 fn arm(places: &BTreeMap<Role, DVec3>, side: Side) -> Chain {
@@ -127,6 +132,18 @@ fn leg(places: &BTreeMap<Role, DVec3>, side: Side) -> Chain {
         (Role::Toe(side), 0.5),
     ];
     Chain::new(places, &roles, places[&Role::ToeEnd(side)])
+}
+
+/// What belongs to the head, with this weight, goes over to it from neck and chest where it is `far` off the spine, in lengths of
+/// the chest: a chin in front of the neck, at whatever height.
+fn to_head(far: f64, weight: f64, weights: &mut BTreeMap<Role, f64>) {
+    let part = weight * step(OFF_TRUNK[0], OFF_TRUNK[1], far);
+    let mut moved = 0.0;
+    for (_, weight) in weights.iter_mut().filter(|(role, _)| matches!(role, Role::Spine(_) | Role::Neck)) {
+        moved += part * *weight;
+        *weight -= part * *weight;
+    }
+    *weights.entry(Role::Head).or_default() += moved;
 }
 
 /// The flesh between the neck and a shoulder goes over from the spine to the clavicle.
