@@ -90,6 +90,11 @@ impl BodyPart {
         matches!(self, Self::Spine | Self::Neck)
     }
 
+    /// Whether it is what comes out of a collar or a cuff: the head, and not the neck, or a hand.
+    pub fn is_beyond_clothes(self) -> bool {
+        matches!(self, Self::Head | Self::HeadTop | Self::Jaw | Self::Eye(_) | Self::Hand(_) | Self::Finger { .. })
+    }
+
     /// Which side it is on; none for what lies in the middle.
     pub fn side(self) -> Option<Side> {
         match self {

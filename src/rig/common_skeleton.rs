@@ -5,7 +5,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::body_part::Side;
+use super::body_part::{BodyPart, Side};
 use super::hands::worn_fingers;
 use super::joint_map::{JointMap, Reason};
 use super::landmark::Landmark;
@@ -41,6 +41,9 @@ pub struct CommonSkeleton {
     pub target: Skeleton,
     /// The joint of the common skeleton that each joint of the target rig belongs to.
     pub owner: Vec<Option<u32>>,
+    /// The joints of the common skeleton at which limbs end, for each joint of source and target rig that moves what comes
+    /// out of clothes there: a head, and not the neck, or a hand.
+    ends: [Vec<Option<u32>>; 2],
     /// The landmarks in source and target, in the order of [`Landmark::ALL`].
     pub landmarks: [[Option<DVec3>; Landmark::COUNT]; 2],
     /// The garment has tubes for fingers that the rigs do not both know.
@@ -139,8 +142,17 @@ impl CommonSkeleton {
             owners
         };
         let (from, owner) = (owners(0, source.rig, &order[0]), owners(1, target.rig, &order[1]));
+        let ends = |side: usize, rig: &Rig, order: &[u32], owner: &[Option<u32>]| {
+            let mut is_end = vec![false; rig.joints.len()];
+            for &joint in order {
+                let above = rig.joints[joint as usize].parent.is_some_and(|parent| is_end[parent as usize]);
+                is_end[joint as usize] = readings[side].part(joint).map_or(above, BodyPart::is_beyond_clothes);
+            }
+            owner.iter().zip(is_end).map(|(owner, is_end)| owner.filter(|_| person && is_end)).collect()
+        };
+        let ends = [ends(0, source.rig, &order[0], &from), ends(1, target.rig, &order[1], &owner)];
         let (source, target, joints) = build.finish(&of_landmark, &from)?;
-        Ok(Self { joints, source, target, owner, landmarks: [on_source, on_target], lacks_fingers })
+        Ok(Self { joints, source, target, owner, ends, landmarks: [on_source, on_target], lacks_fingers })
     }
 
     /// What its joints are in messages: "left knee", or the names that pairs have in the source rig.
@@ -182,6 +194,14 @@ impl CommonSkeleton {
     /// a root on the floor, is left out: the nearest bone decides there.
     pub fn skin(&self, skin: &SkinWeights) -> SkinWeights {
         skin.contracted(&self.owner, self.joints.len())
+    }
+
+    /// Weights on the joints of the source rig, side 0, or the target rig, as weights on the ends of limbs: of its joints that at
+    /// which the limb ends, and one more after them for all that is no end.
+    pub fn ends(&self, side: usize, skin: &SkinWeights) -> SkinWeights {
+        let rest = self.joints.len();
+        let owner: Vec<Option<u32>> = self.ends[side].iter().map(|end| end.or(Some(rest as u32))).collect();
+        skin.contracted(&owner, rest + 1)
     }
 }
 

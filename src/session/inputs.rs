@@ -71,6 +71,7 @@ pub(super) struct Design {
     skeleton: Skeleton,
     source_avatar: Option<TriangleMesh>,
     skin: Option<Arc<SkinWeights>>,
+    ends: [Option<Arc<SkinWeights>>; 2],
     feet: Option<[DVec3; 2]>,
 }
 
@@ -371,7 +372,7 @@ impl Inputs {
         }
         let Some(avatar) = &self.avatar else { return missing("the target avatar", "set_target_avatar") };
         let clock = Instant::now();
-        let Skeletons { source, target, skin, feet, way } = self.skeletons(diagnostics)?;
+        let Skeletons { source, target, skin, ends, feet, way } = self.skeletons(diagnostics)?;
         let mut rig_seconds = clock.elapsed().as_secs_f64();
         self.check_wishes()?;
         self.check_garment_morphs(garment.positions.len())?;
@@ -385,6 +386,7 @@ impl Inputs {
             skeleton: skeleton_to_internal(&self.source_coordinate_system, &source),
             source_avatar: self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m)),
             skin,
+            ends,
             feet,
         };
         let mut stand = Stand { avatar: avatar.clone(), layers: self.layers.clone(), target, turn: None };
@@ -434,7 +436,7 @@ impl Inputs {
         cancel: &Cancel,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Setting> {
-        let Design { garment, weld, skeleton, source_avatar, skin, feet } = design;
+        let Design { garment, weld, skeleton, source_avatar, skin, ends, feet } = design;
         let (avatar, target) = (&stand.avatar, &*stand.target);
         let precision = self.garment.as_ref().map_or(Precision::F32, |garment| garment.1);
         let told = self.target_coordinate_system;
@@ -485,6 +487,7 @@ impl Inputs {
                 avatar: &posed_body,
                 target_skeleton: &target,
                 skin: skin.as_deref(),
+                ends: ends.each_ref().map(Option::as_deref),
                 source_avatar: source_avatar.as_ref(),
                 fit_weights: self.fit_weights.as_ref().map(|weights| weld.gather(weights)).as_deref(),
                 pins: &pins,

@@ -37,6 +37,8 @@ pub(super) struct Skeletons {
     pub(super) target: Arc<Skeleton>,
     /// The skin weights of the target avatar.
     pub(super) skin: Option<Arc<SkinWeights>>,
+    /// What of the target and of the source avatar is the end of a limb.
+    pub(super) ends: [Option<Arc<SkinWeights>>; 2],
     /// From the ankles to the toes in source and target, in the internal coordinate system.
     pub(super) feet: Option<[DVec3; 2]>,
     /// The way from the source's pose, where the target stands in another one, however little that differs.

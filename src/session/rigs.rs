@@ -145,7 +145,14 @@ impl Inputs {
             if let (Some(skin), Some(avatar)) = (&self.skin, &self.avatar) {
                 check_skin(skin, target.joints.len(), avatar.positions.len(), "skin weights", "target skeleton")?;
             }
-            return Ok(Skeletons { source: source.clone(), target, skin: self.skin.clone(), feet: None, way: None });
+            return Ok(Skeletons {
+                source: source.clone(),
+                target,
+                skin: self.skin.clone(),
+                ends: [None, None],
+                feet: None,
+                way: None,
+            });
         }
         let rigs = self.posed_rigs()?;
         let map = self.joint_map_of(&rigs)?;
@@ -153,6 +160,10 @@ impl Inputs {
         let common = self.common_skeleton(&source, &target, &map)?;
         diagnostics.extend(common.unsure(&map));
         let skin = target.skin.as_deref().map(|skin| Arc::new(common.skin(skin)));
+        let ends = |side: usize, skin: &Option<Arc<SkinWeights>>| {
+            skin.as_deref().map(|skin| Arc::new(common.ends(side, skin)))
+        };
+        let ends = [ends(1, &target.skin), ends(0, &source.skin)];
         let from_internal = |system: &CoordinateSystem, skeleton: &Skeleton| {
             let joints: Vec<DVec3> = skeleton.joints.iter().map(|&p| system.position_from_internal(p)).collect();
             Arc::new(Skeleton { joints, bones: skeleton.bones.clone() })
@@ -161,6 +172,7 @@ impl Inputs {
             source: from_internal(&self.source_coordinate_system, &common.source),
             target: from_internal(&self.target_coordinate_system, &common.target),
             skin,
+            ends,
             feet: common.feet(),
             way: self.way(&target, &map.readings[1], &Arc::new(common))?,
         })

@@ -122,6 +122,7 @@ pub fn problem(garment: &TriangleMesh) -> Problem {
         avatar: &avatar.into(),
         target_skeleton: &skeleton,
         skin: None,
+        ends: [None, None],
         source_avatar: None,
         fit_weights: None,
         pins: &[],

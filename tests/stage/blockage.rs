@@ -89,6 +89,7 @@ impl Case {
             avatar: &body,
             target_skeleton: &bones,
             skin: Some(&skin),
+            ends: [None, None],
             source_avatar: None,
             fit_weights: None,
             pins: &[],

@@ -1,5 +1,6 @@
 //! The steps of the method: normalised space, projection, inflation, fit.
 
+mod beyond_openings;
 mod blockage;
 mod bodies;
 mod bone_map;

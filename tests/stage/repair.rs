@@ -87,6 +87,7 @@ impl Case {
             avatar: &self.avatar.clone().into(),
             target_skeleton: &self.target,
             skin: None,
+            ends: [None, None],
             source_avatar: None,
             fit_weights: None,
             pins: &[],

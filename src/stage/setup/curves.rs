@@ -9,6 +9,7 @@ use crate::energy::position::{MovingAxis, Position};
 use crate::geometry::mesh::{BoundaryLoop, Topology};
 use crate::input::curve::{Curve, WeldedCurve};
 use crate::input::skeleton::Skeleton;
+use crate::stage::start::beyond_openings::MovedEnd;
 
 /// All curves of a garment that are held.
 #[derive(Clone, Debug, Default)]
@@ -49,14 +50,15 @@ impl HeldCurves {
 
     /// The position term. A closed curve follows its [loop axis](super::loop_axis). Where it has none, and where it is open, each of
     /// its vertices follows the bone that is nearest to it; for a hole that nobody has named there is nothing. `is_held` says
-    /// which vertices have their place from something else: curves there have no place of their own.
+    /// which vertices have their place from something else: curves there have no place of their own. Ends of limbs that `moved`
+    /// beyond an opening say where along the limb it is on the target.
     pub fn position(
         &self,
         rest: &[DVec3],
         topology: &Topology,
         is_held: &[bool],
-        source: &Skeleton,
-        target: &Skeleton,
+        [source, target]: [&Skeleton; 2],
+        moved: &[MovedEnd],
     ) -> Position {
         let loops: Vec<BoundaryLoop> = self.curves.iter().map(as_loop).collect();
         let chosen = choose_loop_axes(rest, &loops, source, target);
@@ -69,7 +71,10 @@ impl HeldCurves {
             if factor == 0.0 || is_held[curve.vertices[0] as usize] {
                 continue;
             }
-            if let Some(LoopAxis { axis, .. }) = axis.filter(|_| curve.closed) {
+            if let Some(LoopAxis { bones, mut axis }) = axis.filter(|_| curve.closed) {
+                if let Some(end) = moved.iter().find(|end| bones == [end.opening.bone]) {
+                    axis.end = axis.start.map(|p| end.place(p, source, target));
+                }
                 constraints.extend(curve.vertices.iter().map(|&v| (v, axes.len() as u32, factor)));
                 axes.push(axis);
             } else if *named {

@@ -10,7 +10,7 @@ use super::carried_pieces::CarriedPiece;
 use super::carried_places::CarriedPlaces;
 use super::contact_distances::ContactDistances;
 use super::known_garment::{KnownGarment, Pieces};
-use super::layer_skin::skin_on_skeleton;
+use super::layer_skin::{skin_on_skeleton, skin_with_layers};
 use super::normalization::Normalization;
 use super::pin_targets::PinRequest;
 use super::shape::{Asked, HeldPieces, Outline, Shape, rigid};
@@ -31,6 +31,7 @@ use crate::memo::MeshBits;
 use crate::memory::bytes;
 use crate::options::Options;
 use crate::sdf::Field;
+use crate::stage::start::beyond_openings::{self, Ends};
 use crate::stage::start::caps::Caps;
 use crate::stage::start::owners::Owners;
 use crate::stage::start::projection::{ProjectedAvatar, project_with};
@@ -58,6 +59,9 @@ pub struct Inputs<'a> {
     pub target_skeleton: &'a Skeleton,
     /// The skin of the avatar without its layers.
     pub skin: Option<&'a SkinWeights>,
+    /// What of the avatar without its layers and of the source avatar is the end of a limb, as weights on the joints at which limbs end
+    /// and one more for the rest.
+    pub ends: [Option<&'a SkinWeights>; 2],
     /// The body that the garment was designed on, in the garment's coordinate system.
     pub source_avatar: Option<&'a TriangleMesh>,
     /// How much each welded vertex should fit, 1 where not given.
@@ -176,6 +180,20 @@ impl Problem {
         let mut projected =
             open_ends::begin_beyond(straight, garment, &avatar.mesh, skeletons, &owners, options.strict, diagnostics)?;
         cancel.check()?;
+        let source_body = inputs.source_avatar.map(|mesh| TriangleMesh {
+            positions: source_normalization.normalise_all(&mesh.positions),
+            triangles: mesh.triangles.clone(),
+        });
+        let mut moved = Vec::new();
+        if let Some(ends) = inputs.ends[0] {
+            let of_body =
+                ends_of(&skin_with_layers(ends, avatar), |v| skin.and_then(|skin| skin.dominant_joint(v)).is_some());
+            let of_source = inputs.ends[1].map(|ends| ends_of(ends, |_| true));
+            let own = Ends { body: &avatar.mesh, joints: &of_body };
+            let on_source = source_body.as_ref().zip(of_source.as_ref()).map(|(body, joints)| Ends { body, joints });
+            (projected, moved) = beyond_openings::begin_beyond(projected, garment, skeletons, own, on_source);
+            cancel.check()?;
+        }
         let distances =
             ContactDistances::of(options).widened(inputs.coordinate_error * target_normalization.scale, garment)?;
         if distances != ContactDistances::of(options) {
@@ -191,10 +209,6 @@ impl Problem {
         let segments = repair::resolve(garment, avatar, &mut projected, source, callers, cancel, diagnostics)
             .map_err(|error| with_reason(error, &caps))?;
         cancel.check()?;
-        let source_body = inputs.source_avatar.map(|mesh| TriangleMesh {
-            positions: source_normalization.normalise_all(&mesh.positions),
-            triangles: mesh.triangles.clone(),
-        });
         let designed_on = source_body.map(|body| SourceBody::new(body, source, target, &avatar.avatar()));
         let source_surface = designed_on.as_ref().map(|body| &body.surface);
         let pieces = known.pieces(&bits, &segments, source, designed_on.as_ref(), cancel)?;
@@ -225,7 +239,7 @@ impl Problem {
         let asked = Asked { pins: &pins, rigid_groups: inputs.rigid_groups, curves: inputs.curves };
         let outline = Outline::new(garment, &junctions, &held);
         let curves = known.curves(&bits, &outline, source, cancel)?;
-        let shape = Shape::new(garment, (&outline, &curves), [source, target], &asked, &held, options);
+        let shape = Shape::new(garment, (&outline, &curves), [source, target], &moved, &asked, &held, options);
         diagnostics.extend(loose.diagnostics(|t| weld.triangle_of[t as usize]));
         let (vertices, triangles) = (&weld.vertex_of, &weld.triangle_of);
         diagnostics.extend(curves.near.diagnostics(|v| vertices[v as usize], |t| triangles[t as usize]));
@@ -398,6 +412,13 @@ impl Normalised {
         garment.triangles = triangles;
         (Arc::new(weld.without(&removed)), motions)
     }
+}
+
+/// The joint of the limb's end that each vertex belongs to by weights on these and on one more for the rest, where they are `believed`.
+fn ends_of(weights: &SkinWeights, believed: impl Fn(usize) -> bool) -> Vec<Option<u32>> {
+    let rest = weights.joint_count() as u32 - 1;
+    let end = |v: usize| weights.dominant_joint(v).filter(|&joint| joint < rest && believed(v));
+    (0..weights.vertex_count()).map(end).collect()
 }
 
 /// Refuses curves that leave the edges of the garment, which has no caps any more.

@@ -22,6 +22,7 @@ use crate::geometry::t_junctions::TJunction;
 use crate::input::curve::WeldedCurve;
 use crate::input::skeleton::Skeleton;
 use crate::options::Options;
+use crate::stage::start::beyond_openings::MovedEnd;
 
 /// The shape terms, which inflation and fit share.
 #[derive(Clone)]
@@ -121,12 +122,13 @@ impl Curves {
 }
 
 impl Shape {
-    /// The terms of `garment` as designed, with its `outline` and `found` curves, between source and target skeleton. `held` are
-    /// its pieces that something else holds.
+    /// The terms of `garment` as designed, with its `outline` and `found` curves, between source and target skeleton, of which these ends of
+    /// limbs `moved`. `held` are its pieces that something else holds.
     pub fn new(
         garment: &TriangleMesh,
         (outline, found): (&Outline, &Curves),
         [source, target]: [&Skeleton; 2],
+        moved: &[MovedEnd],
         asked: &Asked<'_>,
         held: &HeldPieces<'_>,
         options: &Options,
@@ -153,7 +155,7 @@ impl Shape {
             carry: held.carried.term(),
             curvature: Curvature::new(rest, curves.polylines(), options.curve_chord),
             torsion: Torsion::new(rest, curves.polylines(), options.curve_chord),
-            position: curves.position(rest, topology, is_held, source, target),
+            position: curves.position(rest, topology, is_held, [source, target], moved),
             pins: Pins::new(pin_targets::resolve(rest, triangles, asked.pins, source, target)),
             rigid: rigid(rest, asked.rigid_groups, held.carried),
         }

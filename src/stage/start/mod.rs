@@ -2,6 +2,7 @@
 //! skeleton itself leaves the garment, it is bent around it or retracted.
 
 pub mod bent_skeleton;
+pub mod beyond_openings;
 pub mod caps;
 pub mod contour;
 pub mod enclosure;

@@ -50,6 +50,7 @@ impl Moment {
             avatar: &mesh(&body).into(),
             target_skeleton: &skeleton(&body),
             skin: None,
+            ends: [None, None],
             source_avatar: None,
             fit_weights: Some(&fit_weights),
             pins: &[],

@@ -189,6 +189,7 @@ impl Scene {
                     &self.target_skeleton.aligned_to(&self.source_skeleton)?,
                 ),
                 skin: self.skin.as_ref(),
+                ends: [None, None],
                 source_avatar: self
                     .source_avatar
                     .as_ref()
