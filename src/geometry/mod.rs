@@ -15,6 +15,7 @@ pub mod covered;
 pub mod crumpled;
 pub mod median;
 pub mod mesh;
+pub mod missing_faces;
 pub mod outfit;
 pub mod piece;
 pub mod quantile;

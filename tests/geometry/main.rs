@@ -8,6 +8,7 @@ mod covered;
 mod maths;
 mod median;
 mod mesh;
+mod missing_faces;
 mod outfit;
 mod piece;
 mod quantile;

@@ -10,6 +10,7 @@ use bespoke::input::diagnostic::{Diagnostic, DiagnosticKind};
 use bespoke::input::skeleton::Skeleton;
 use bespoke::session::{Precision, Session};
 use glam::DVec3;
+use testing::Random;
 
 /// Lengths and thicknesses of a body as multiples of the designer's.
 #[derive(Clone, Copy)]
@@ -313,6 +314,25 @@ fn a_cape_hangs_behind_the_back() {
             assert!(has > 0.6 * designed && has < 1.7 * designed);
         }
     }
+}
+
+#[test]
+fn what_lacks_faces_is_carried_as_well() {
+    let coarse_cape = grid(4, 6, |s, t| DVec3::new(0.5 * (s - 0.5), 0.45 - 0.8 * t, -0.23 - 0.03 * t));
+    let mut refused = Vec::new();
+    for (name, whole) in [("cape", coarse_cape), ("backpack", backpack())] {
+        for (seed, share) in (0..6).flat_map(|seed| [(seed, 0.06), (seed, 0.12)]) {
+            let mut random = Random::new(seed);
+            let mut garment = whole.clone();
+            garment.triangles.retain(|_| random.unit() >= share);
+            let mut session = session(&garment, &STOUT, true);
+            match session.run() {
+                Ok(_) => assert!(!carried(&session).is_empty() && session.verify(Precision::F32).unwrap().is_clean()),
+                Err(error) => refused.push(format!("{name} without {share}, {seed}: {error}")),
+            }
+        }
+    }
+    assert!(refused.is_empty(), "{}", refused.join("\n"));
 }
 
 #[test]

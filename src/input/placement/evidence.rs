@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::geometry::closest_point::ray_triangle;
 use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::missing_faces::are_missing_faces;
 use crate::geometry::solid_angle::winding;
 use crate::input::skeleton::Skeleton;
 
@@ -16,6 +17,8 @@ const MOST_PAIRS: usize = 8_000_000;
 pub(super) const MOST_BONES: usize = 200;
 /// A bone reaches beyond a leaf joint by this share of its length.
 pub(super) const LEAF_REACH: f64 = 0.5;
+/// The area of an opening that a limb fits through is more than this share of its squared length: a circle has 0.08, a slit none.
+const ROUND: f64 = 0.01;
 
 /// The share of the bones' length that is inside of a body.
 pub fn inside_share(body: &TriangleMesh, skeleton: &Skeleton) -> f64 {
@@ -63,20 +66,25 @@ struct Opening {
     fan: Vec<[DVec3; 3]>,
     middle: DVec3,
     length: f64,
+    is_cut: bool,
 }
 
 impl<'a> Threaded<'a> {
     /// The openings of `garment`.
     pub fn new(garment: &'a TriangleMesh) -> Self {
         let topology = Topology::new(garment.positions.len(), &garment.triangles);
-        let opening = |vertices: &[u32]| {
+        let missing = are_missing_faces(garment, &topology);
+        let opening = |vertices: &[u32], is_missing: bool| {
             let points: Vec<DVec3> = vertices.iter().map(|&v| garment.positions[v as usize]).collect();
             let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
             let edges = || points.iter().zip(points.iter().cycle().skip(1));
-            let fan = edges().map(|(&p, &q)| [middle, p, q]).collect();
-            Opening { fan, middle, length: edges().map(|(p, q)| p.distance(*q)).sum() }
+            let fan: Vec<[DVec3; 3]> = edges().map(|(&p, &q)| [middle, p, q]).collect();
+            let length: f64 = edges().map(|(p, q)| p.distance(*q)).sum();
+            let area: DVec3 = fan.iter().map(|[m, p, q]| 0.5 * (*p - *m).cross(*q - *m)).sum();
+            Opening { fan, middle, length, is_cut: !is_missing && area.length() > ROUND * length * length }
         };
-        Self { garment, openings: topology.loops.iter().map(|boundary| opening(&boundary.vertices)).collect() }
+        let openings = topology.loops.iter().zip(missing).map(|(l, is_missing)| opening(&l.vertices, is_missing));
+        Self { garment, openings: openings.collect() }
     }
 
     /// How many openings there are.
@@ -87,6 +95,11 @@ impl<'a> Threaded<'a> {
     /// Middle and length of an opening.
     pub fn opening(&self, k: usize) -> (DVec3, f64) {
         (self.openings[k].middle, self.openings[k].length)
+    }
+
+    /// Whether a garment was cut with this opening: it is no slit along a seam, nor are there a few faces missing.
+    pub fn is_cut(&self, k: usize) -> bool {
+        self.openings[k].is_cut
     }
 
     /// Whether a segment passes through cloth.

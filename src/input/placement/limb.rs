@@ -23,6 +23,8 @@ const TRIED: usize = 8;
 const SLEEVE: [f64; 3] = [0.6, 0.75, 0.9];
 const AROUND: (usize, usize) = (14, 16);
 const NARROW: f64 = 0.3;
+/// A garment with more empty openings than a body has limbs is a net, or damaged: there an opening proves something where it ends a sleeve.
+const MANY: usize = 8;
 /// Points along a bone.
 const ALONG: usize = 32;
 
@@ -45,7 +47,9 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton, least: f64) -> Vec<Tu
         return Vec::new();
     }
     let bones = skeleton.lengthened(0.0);
-    let empty = garment.empty_openings(skeleton);
+    let mut empty = garment.empty_openings(skeleton);
+    let is_net = empty.len() > MANY;
+    empty.retain(|&k| garment.is_cut(k));
     if empty.is_empty() {
         return Vec::new();
     }
@@ -101,7 +105,8 @@ pub fn turned(garment: &Threaded<'_>, skeleton: &Skeleton, least: f64) -> Vec<Tu
             let reach = middle.distance(root);
             if through
                 && passing == 0
-                && (is_pierced || degrees <= MOST && is_in_sleeve(garment, way(), root, reach, along.length()))
+                && (is_pierced && !is_net
+                    || degrees <= MOST && is_in_sleeve(garment, way(), root, reach, along.length()))
             {
                 found.push((limb.len(), TurnedLimb { bone, joint, opening: middle, degrees }));
             }

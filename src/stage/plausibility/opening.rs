@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::{LEAF_REACH, Misplacement, Outcome};
 use crate::geometry::closest_point::closest_on_segment;
 use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::missing_faces::are_missing_faces;
 use crate::input::placement::evidence::Threaded;
 use crate::input::placement::limb::{self, TurnedLimb};
 use crate::stage::start::winding::{Winding, windings_of_loops};
@@ -113,9 +114,10 @@ impl Opening {
     }
 }
 
-/// All openings of the design.
+/// All openings of the design. Where a few faces are missing there is none: what went through there by chance needs not do so again.
 pub(super) fn openings(outcome: &Outcome<'_>, topology: &Topology) -> Vec<Opening> {
-    let loops: Vec<&[u32]> = topology.loops.iter().map(|boundary| boundary.vertices.as_slice()).collect();
+    let all = topology.loops.iter().zip(are_missing_faces(outcome.design, topology));
+    let loops: Vec<&[u32]> = all.filter(|(_, is_missing)| !is_missing).map(|(l, _)| l.vertices.as_slice()).collect();
     let segments = outcome.source.lengthened(LEAF_REACH);
     let opening = |(vertices, winding): (&[u32], Winding)| {
         let middle = Disc::new(&points(outcome.design, vertices)).middle;

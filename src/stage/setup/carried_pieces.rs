@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use super::loose_pieces::LoosePieces;
 use crate::geometry::closest_point::ClosestPoint;
 use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::missing_faces::are_missing_faces;
 use crate::geometry::piece::Piece;
 use crate::geometry::section::Gap;
 use crate::input::skeleton::Skeleton;
@@ -286,7 +287,8 @@ impl Shell {
             }
             area.length() > ROUND * length * length && length > WIDE * low.distance(high)
         };
-        self.topology.loops.iter().filter(|l| is_opening(&l.vertices)).count() > 1
+        let all = self.topology.loops.iter().zip(are_missing_faces(&self.mesh, &self.topology));
+        all.filter(|(l, is_missing)| !is_missing && is_opening(&l.vertices)).count() > 1
     }
 
     /// Whether it is closed, but for a little, and has more volume than this share of its area to the power of 1.5.
