@@ -350,9 +350,9 @@ enum BespokeDiagnosticKind
   /// The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to bones far from
   /// each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be caught there.
   BESPOKE_DIAGNOSTIC_KIND_BONES_UNCLEAR = 38,
-  /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
-  /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
-  /// The distance is the longest side of its bounding box.
+  /// A connected piece of the avatar's mesh, or of the source avatar's, seems to be no part of the body, such as a floor or a dome; it
+  /// is left out, unless the option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles
+  /// are named. The distance is the longest side of its bounding box.
   BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART = 20,
   /// A piece of the garment that is around no bone, such as a cape or a badge, or closed around one without any opening, as a
   /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to
@@ -983,7 +983,8 @@ BespokeStatus bespoke_session_set_target_skeleton(struct BespokeSession *session
 /// Optional: the body on which the garment was designed, in the coordinate system of the garment. With it, the fit aims
 /// at the clearance of the design. Where the garment is refused (NOT_ENCLOSED, INFLATION_STALLED) and this body passes through
 /// it, as a head through its hat, it is tried once more with the garment as a part of this body, unless the option strict is
-/// set: see BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED.
+/// set: see BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED. A floor, a dome or another figure in its mesh is left out, with a diagnostic
+/// (BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART), unless the option strict is set.
 ///
 /// `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
 /// INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.

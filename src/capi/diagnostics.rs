@@ -96,9 +96,9 @@ pub enum BespokeDiagnosticKind {
     /// The avatar has no skin weights, and vertices beside each other on its surface, which are named, belong to bones far from
     /// each other on the skeleton, as where a hand and a thigh are one mesh: the garment may be caught there.
     BonesUnclear = 38,
-    /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless the
-    /// option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles are named.
-    /// The distance is the longest side of its bounding box.
+    /// A connected piece of the avatar's mesh, or of the source avatar's, seems to be no part of the body, such as a floor or a dome; it
+    /// is left out, unless the option strict is set or bespoke_session_set_avatar_parts gives it a role. Its first and last triangles
+    /// are named. The distance is the longest side of its bounding box.
     ForeignPart = 20,
     /// A piece of the garment that is around no bone, such as a cape or a badge, or closed around one without any opening, as a
     /// hat with a filling is, and is carried along with the body beside it. A triangle of it is named and the bone nearest to

@@ -118,7 +118,8 @@ pub unsafe extern "C" fn bespoke_session_set_target_skeleton(
 /// Optional: the body on which the garment was designed, in the coordinate system of the garment. With it, the fit aims
 /// at the clearance of the design. Where the garment is refused (NOT_ENCLOSED, INFLATION_STALLED) and this body passes through
 /// it, as a head through its hat, it is tried once more with the garment as a part of this body, unless the option strict is
-/// set: see BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED.
+/// set: see BESPOKE_DIAGNOSTIC_KIND_SOURCE_DRESSED. A floor, a dome or another figure in its mesh is left out, with a diagnostic
+/// (BESPOKE_DIAGNOSTIC_KIND_FOREIGN_PART), unless the option strict is set.
 ///
 /// `positions`, `triangles`: as for the target avatar. Ownership: copied during the call. State: SETUP. Errors:
 /// INVALID_ARGUMENT, INVALID_MESH, INVALID_STATE, BUSY, INTERNAL. Threads: any, one at a time.

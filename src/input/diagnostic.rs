@@ -528,8 +528,10 @@ pub enum Diagnostic {
         /// The nearest bone decides for them; else the option `strict` takes the weights as they are.
         mended: bool,
     },
-    /// A connected piece of the avatar's mesh is no part of the body.
+    /// A connected piece of an avatar's mesh is no part of the body.
     ForeignPart {
+        /// The avatar to dress, or that which the garment was designed on.
+        whose: Subject,
         /// How many triangles it has.
         count: usize,
         /// The first and the last of them.

@@ -167,9 +167,9 @@ impl Diagnostic {
                 first.iter().map(|&v| Element::vertex(Subject::TargetAvatar, v)).collect()
             }
             Self::BonesUnclear { vertices, .. } => vertices.map(|v| Element::vertex(Subject::TargetAvatar, v)).into(),
-            Self::ForeignPart { triangles: [first, last], .. } => {
+            Self::ForeignPart { whose, triangles: [first, last], .. } => {
                 let triangles = if first == last { vec![first] } else { vec![first, last] };
-                triangles.into_iter().map(|t| Element::triangle(Subject::TargetAvatar, t)).collect()
+                triangles.into_iter().map(|t| Element::triangle(whose, t)).collect()
             }
             Self::LimbMisplaced { bone, place } => {
                 let element = match place {

@@ -8,6 +8,7 @@ use super::diagnostic_words::{
     NO_OPENING, at_bone, avatar_triangle, axes, bone_name, input, listed, part, part_name, point, quoted, ranges,
     short, turned, units,
 };
+use super::element::Subject;
 
 /// Axes that are exchanged are turned by 90 degrees, or by 120; what stands the other way round by 180.
 const HALF_WAY: f64 = 150.0;
@@ -352,22 +353,29 @@ impl Display for Diagnostic {
                      that the rows are in the order of the skeleton's joints, and the export of the weights"
                 )
             }
-            Self::ForeignPart { count, triangles: [first, last], reason, size, left_out } => {
+            Self::ForeignPart { whose, count, triangles: [first, last], reason, size, left_out } => {
                 let why = match reason {
                     Foreignness::Surrounds => "it surrounds the body and its skeleton",
                     Foreignness::Ground => "it is flat, and the body stands on it",
                     Foreignness::Huge => "it is far larger than the skeleton and around none of its bones",
                     Foreignness::Detached => "it is away from all bones and from the body",
                 };
+                let (consequence, remedy) = match whose {
+                    Subject::SourceAvatar => (": no clearance is measured to it", "take it out of the avatar"),
+                    _ => (
+                        ": the result may pass through it",
+                        "give it a role with set_avatar_parts, or take it out of the avatar",
+                    ),
+                };
                 let fate = match left_out {
-                    true => "it is left out: the result may pass through it",
-                    false => "the option strict keeps it",
+                    true => format!("it is left out{consequence}"),
+                    false => "the option strict keeps it".into(),
                 };
                 write!(
                     f,
-                    "target avatar: the piece of {count} triangles, from {first} to {last}, seems to be no part of the body: \
-                     {why} (its longest side is {size:.2}, the skeleton's is 2); {fate}; give it a role with set_avatar_parts, or \
-                     take it out of the avatar"
+                    "{}: the piece of {count} triangles, from {first} to {last}, seems to be no part of the body: {why} (its \
+                     longest side is {size:.2}, the skeleton's is 2); {fate}; {remedy}",
+                    input(*whose)
                 )
             }
             Self::SettingsAdjusted { stalled_at, attempts, inflation_dhat, inflation_barrier_weight } => write!(

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+use super::body_parts::BodyParts;
 use super::pin::Pin;
 use super::rig_inputs::{Rigs, Skeletons};
 use super::shared::Shared;
@@ -28,7 +29,6 @@ use crate::input::weld::Weld;
 use crate::memory::{Sizes, bytes};
 use crate::options::Options;
 use crate::stage::setup::problem::{Inputs as ProblemInputs, Problem};
-use crate::stage::start::foreign_parts;
 use crate::stage::start::joints::{self, Misplaced};
 
 /// Everything that can be set, in the caller's own coordinate systems.
@@ -384,7 +384,7 @@ impl Inputs {
             garment: mesh_to_internal(&self.source_coordinate_system, &weld.mesh),
             weld,
             skeleton: skeleton_to_internal(&self.source_coordinate_system, &source),
-            source_avatar: self.source_avatar.as_ref().map(|m| mesh_to_internal(&self.source_coordinate_system, m)),
+            source_avatar: self.worn_by(&source, diagnostics)?,
             skin,
             ends,
             feet,
@@ -440,6 +440,7 @@ impl Inputs {
         let (avatar, target) = (&stand.avatar, &*stand.target);
         let precision = self.garment.as_ref().map_or(Precision::F32, |garment| garment.1);
         let told = self.target_coordinate_system;
+        let parts = BodyParts::find(Subject::TargetAvatar, avatar, target, self.roles.as_deref())?;
         let turn = match stand.turn {
             Some(turn) => turn,
             None => placement::check(
@@ -447,7 +448,7 @@ impl Inputs {
                     garment,
                     source_skeleton: skeleton,
                     source_avatar: source_avatar.as_ref(),
-                    avatar: &mesh_to_internal(&told, avatar),
+                    avatar: &mesh_to_internal(&told, &parts.compared()),
                     target_skeleton: &skeleton_to_internal(&told, target),
                     feet: *feet,
                     skin: skin.as_deref(),
@@ -463,7 +464,7 @@ impl Inputs {
         let pins = self.welded_pins(weld, &target_system)?;
         let rigid_groups = self.welded_groups(weld)?;
         let curves = self.welded_curves(weld)?;
-        let roles = self.resolve_roles(avatar, target, diagnostics)?;
+        let roles = parts.resolved_roles(self.options.strict, diagnostics);
         let body = Body::with_roles(avatar, &stand.layers, &roles)?;
         let posed_body = body.with_mesh(mesh_to_internal(&target_system, &body.mesh));
         let mut target = skeleton_to_internal(&target_system, target);
@@ -506,6 +507,14 @@ impl Inputs {
         Ok(Setting { problem, body, system: target_system, turn })
     }
 
+    /// The body that the garment was designed on, in the internal coordinate system, without what is no part of it.
+    fn worn_by(&self, skeleton: &Skeleton, diagnostics: &mut Vec<Diagnostic>) -> Result<Option<TriangleMesh>> {
+        let Some(mesh) = &self.source_avatar else { return Ok(None) };
+        let parts = BodyParts::find(Subject::SourceAvatar, mesh, skeleton, None)?;
+        let body = parts.sure_body_or_all(self.options.strict, diagnostics);
+        Ok(Some(mesh_to_internal(&self.source_coordinate_system, &body)))
+    }
+
     /// The joints of the target and of the source skeleton that do not lie where the bodies want them.
     fn misplaced_joints(
         &self,
@@ -517,36 +526,6 @@ impl Inputs {
         let target = self.shared.figure(Subject::TargetSkeleton, target, avatar, cancel)?;
         let source = self.shared.figure(Subject::SourceSkeleton, source, worn_by, cancel)?;
         Ok(target.zip(source).map_or_else(Vec::new, |(target, source)| joints::find(target, source, garment)))
-    }
-
-    /// The role of each triangle of `avatar`: pieces that are no part of the body are ignored, unless their caller says what
-    /// they are or wants it `strict`. Adds to `diagnostics`.
-    fn resolve_roles(
-        &self,
-        avatar: &TriangleMesh,
-        target: &Skeleton,
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> Result<Vec<PartRole>> {
-        let count = avatar.triangles.len();
-        let mut roles = self.roles.as_ref().map_or_else(|| vec![PartRole::Automatic; count], |roles| roles.to_vec());
-        if roles.len() != count {
-            return Err(Error::new(
-                ErrorKind::InvalidArgument,
-                format!("avatar parts: there are {} roles, the avatar has {count} triangles", roles.len()),
-            ));
-        }
-        let own: Vec<u32> = (0..count as u32).filter(|&t| roles[t as usize] != PartRole::Ignored).collect();
-        let part = TriangleMesh {
-            positions: avatar.positions.clone(),
-            triangles: own.iter().map(|&t| avatar.triangles[t as usize]).collect(),
-        };
-        let mut found = foreign_parts::find(&part, target, |t| roles[own[t as usize] as usize] != PartRole::Automatic);
-        found.iter_mut().flat_map(|part| &mut part.triangles).for_each(|t| *t = own[*t as usize]);
-        Diagnostic::list(diagnostics, &found, |part| part.diagnostic(!self.options.strict));
-        if !self.options.strict {
-            found.iter().flat_map(|part| &part.triangles).for_each(|&t| roles[t as usize] = PartRole::Ignored);
-        }
-        Ok(roles)
     }
 }
 

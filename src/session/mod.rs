@@ -4,6 +4,7 @@
 //! snapshot that can be read is kept apart from them: it is replaced after each iteration, and stays when a job is abandoned.
 
 mod aside;
+mod body_parts;
 mod context;
 mod covered;
 mod curves;

@@ -358,6 +358,7 @@ fn every_sentence_is_made_of_its_data() {
         ),
         (
             Diagnostic::ForeignPart {
+                whose: Subject::TargetAvatar,
                 count: 2,
                 triangles: [40, 41],
                 reason: Foreignness::Ground,

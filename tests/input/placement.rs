@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use bespoke::error::Result;
 use bespoke::geometry::closest_point::closest_on_segment;
-use bespoke::geometry::mesh::TriangleMesh;
+use bespoke::geometry::mesh::{Topology, TriangleMesh};
 use bespoke::input::coordinate_system::{Axis, AxisTurn, CoordinateSystem};
 use bespoke::input::diagnostic::{Diagnostic, Severity, Subject};
 use bespoke::input::placement;
@@ -397,6 +397,55 @@ fn limbs_beside_their_sleeves_are_named() {
     assert!(missed.is_empty(), "{} of {count}:\n{}", missed.len(), missed.join("\n"));
     println!("{count} skeletons, the slowest {slowest:.3} s");
     assert!(slowest < 1.0, "{slowest} s");
+}
+
+/// Game models close what nobody sees, so that bones pass through the caps; and where faces are missing there are openings.
+#[test]
+fn missing_faces_of_a_closed_garment_are_no_sleeves_for_its_limbs() {
+    let mut missed = Vec::new();
+    for kind in [Garment::Sweater, Garment::Coat, Garment::Jumpsuit, Garment::Trousers] {
+        let (pair, mut closed) = dressed(&[kind], &[Avatar::Slim]).remove(0);
+        close(&mut closed.garment);
+        for (seed, share) in (0..12).flat_map(|seed| [(seed, 0.03), (seed, 0.06), (seed, 0.12)]) {
+            let mut random = Random::new(seed);
+            let mut inputs = closed.clone();
+            inputs.garment.triangles.retain(|_| random.unit() >= share);
+            let (turn, found) = inputs.check(false);
+            if turn.is_err() || !found.is_empty() {
+                missed.push(format!("{pair} without {share}, {seed}: {found:?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}:\n{}", missed.len(), missed.join("\n"));
+}
+
+/// Closes all openings by fans.
+fn close(garment: &mut TriangleMesh) {
+    let topology = Topology::new(garment.positions.len(), &garment.triangles);
+    for boundary in topology.loops {
+        let middle: DVec3 = boundary.vertices.iter().map(|&v| garment.positions[v as usize]).sum();
+        let tip = garment.positions.len() as u32;
+        garment.positions.push(middle / boundary.vertices.len() as f64);
+        let next = boundary.vertices.iter().cycle().skip(1);
+        garment.triangles.extend(boundary.vertices.iter().zip(next).map(|(&v, &w)| [w, v, tip]));
+    }
+}
+
+/// Hats and the body in them are right, and the skeleton is in another unit: a hat alone suits many.
+#[test]
+fn a_skeleton_in_another_unit_is_named_for_every_garment() {
+    let mut missed = Vec::new();
+    for (pair, good) in dressed(&Garment::ALL, &[Avatar::Slim]) {
+        for factor in [100.0, 0.01, 39.370_1, 0.1] {
+            let mut inputs = good.clone();
+            scaled(&mut inputs.source.joints, factor);
+            let (turn, found) = inputs.check(false);
+            if turn.is_ok() || !Named::Unit(Subject::SourceSkeleton, factor).is_in(&found) || found.len() > 1 {
+                missed.push(format!("{pair} {factor}: {found:?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}:\n{}", missed.len(), missed.join("\n"));
 }
 
 /// A unit that is a little off moves thick bodies and the cloth around them not much farther from the bones, but beside them.

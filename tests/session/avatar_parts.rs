@@ -4,10 +4,15 @@ use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::{DiagnosticKind, Element, Subject};
+use bespoke::input::skeleton::Skeleton;
 use bespoke::input::skin::SkinWeights;
 use bespoke::options::Options;
 use bespoke::session::{PartRole, Precision, Session};
 use bespoke::verify::intersections;
+use closet::avatars::{Avatar, avatar};
+use closet::garments::{Garment, garment};
+use closet::skeleton::BONES;
+use closet::{Kind, Sample, sample};
 use glam::DVec3;
 
 use crate::small::{session, sleeve, thick_arm, tube};
@@ -74,6 +79,55 @@ fn a_floor_is_left_out_and_the_result_is_the_one_without_it() {
     body.prepare().unwrap();
     assert!(kinds(&body).contains(&DiagnosticKind::ForeignPart));
     assert_eq!(body.report().avatar_size[1], own + 2);
+}
+
+/// What stands around a character in a file: a dome with more triangles than it has, and a floor.
+fn stage(body: &TriangleMesh) -> [TriangleMesh; 2] {
+    let (low, high) = body.positions.iter().fold((DVec3::MAX, DVec3::MIN), |(l, h), &p| (l.min(p), h.max(p)));
+    let (size, middle) = ((high - low).max_element(), 0.5 * (low + high));
+    let sphere = tube(-1.0, 1.0, |z, _| (1.0 - z * z).max(1e-4).sqrt(), 80, 80, true);
+    let out = |p: DVec3| middle + 3.0 * size * (p - DVec3::new(0.2 * p.z.max(0.0), 0.0, 0.0));
+    let dome = TriangleMesh { positions: sphere.positions.into_iter().map(out).collect(), triangles: sphere.triangles };
+    let corner = |x: f64, y: f64| DVec3::new(middle.x + x * size, middle.y + y * size, low.z - 0.01 * size);
+    let floor = vec![corner(-4.0, -4.0), corner(4.0, -4.0), corner(4.0, 4.0), corner(-4.0, 4.0)];
+    [dome, TriangleMesh { positions: floor, triangles: vec![[0, 1, 2], [0, 2, 3]] }]
+}
+
+#[test]
+fn what_stands_around_either_body_speaks_for_no_unit_and_changes_nothing() {
+    let (cloth, mannequin, body) = (garment(Garment::Sweater), sample(Kind::Mannequin), avatar(Avatar::Slim));
+    let mesh = |s: &Sample| TriangleMesh { positions: s.mesh.positions.clone(), triangles: s.mesh.triangles.clone() };
+    let skeleton = |s: &Sample| Skeleton { joints: s.skeleton.joints.to_vec(), bones: BONES.to_vec() };
+    let dressed = |target: TriangleMesh, source: TriangleMesh| {
+        let mut session = Session::new();
+        session.set_garment(mesh(&cloth), Precision::F32).unwrap();
+        session.set_source_skeleton(skeleton(&cloth)).unwrap();
+        session.set_target_avatar(target).unwrap();
+        session.set_target_skeleton(skeleton(&body)).unwrap();
+        session.set_source_avatar(source).unwrap();
+        run(session)
+    };
+    let (alone, _) = dressed(mesh(&body), mesh(&mannequin));
+    let joined = |mut mesh: TriangleMesh, more: &TriangleMesh| {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(&more.positions);
+        mesh.triangles.extend(more.triangles.iter().map(|t| t.map(|v| first + v)));
+        mesh
+    };
+    let foreign = |session: &Session| -> Vec<Subject> {
+        let all = session.diagnostics().iter().filter(|d| d.kind() == DiagnosticKind::ForeignPart);
+        all.map(|d| d.elements()[0].subject).collect()
+    };
+    for more in stage(&mesh(&body)) {
+        let (found, session) = dressed(joined(mesh(&body), &more), mesh(&mannequin));
+        assert!(found == alone);
+        assert_eq!(foreign(&session), [Subject::TargetAvatar]);
+    }
+    for more in stage(&mesh(&mannequin)) {
+        let (found, session) = dressed(mesh(&body), joined(mesh(&mannequin), &more));
+        assert!(found == alone);
+        assert_eq!(foreign(&session), [Subject::SourceAvatar]);
+    }
 }
 
 #[test]

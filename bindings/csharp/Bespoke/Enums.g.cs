@@ -323,9 +323,9 @@ namespace Bespoke
         BonesUnclear = 38,
 
         /// <summary>
-        /// A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out,
-        /// unless the option strict is set or <c>Session.SetAvatarParts</c> gives it a role. Its first and last
-        /// triangles are named. The distance is the longest side of its bounding box.
+        /// A connected piece of the avatar's mesh, or of the source avatar's, seems to be no part of the body, such as
+        /// a floor or a dome; it is left out, unless the option strict is set or <c>Session.SetAvatarParts</c> gives it
+        /// a role. Its first and last triangles are named. The distance is the longest side of its bounding box.
         /// </summary>
         ForeignPart = 20,
 

@@ -97,8 +97,8 @@ fn units(scene: &Scene<'_>) -> Vec<Diagnostic> {
     };
     match of_source {
         _ if from.trusted => {}
-        // Both against the skeleton: it is the skeleton that is in another unit.
-        Some(mend) if mend.is_gross().is_some() && mend.is_like(&of_garment) => {
+        // Both against the skeleton: it is the skeleton that is in another unit. A hat alone suits many.
+        Some(mend) if mend.is_gross().is_some() && (mend.is_like(&of_garment) || around_garment.suits(&mend)) => {
             add(Wrong::Read(mend.inverse()), Subject::SourceSkeleton, Subject::Garment, from, GARMENT_TURNED);
         }
         _ => {

@@ -91,6 +91,12 @@ impl Mend {
     }
 }
 
+/// Whether a body lies around its bones as it is, so that it is neither in another unit nor in other axes.
+pub fn lies_around(body: &TriangleMesh, skeleton: &Skeleton) -> bool {
+    let around = Surroundings::of_body(body, skeleton, None);
+    around.is_around_bones() && around.mend().is_gross().is_none()
+}
+
 /// What is expected of a mesh beside lying around the bones.
 #[derive(Clone, Copy)]
 enum Expected {
@@ -200,6 +206,11 @@ impl Surroundings {
             }
         };
         maths::ln(distance / (factor * self.radius)) + unlikely
+    }
+
+    /// Whether it lies much nearer to the bones as another mesh has to be read.
+    pub fn suits(&self, other: &Mend) -> bool {
+        self.cost(1.0, AxisTurn::IDENTITY) - self.cost(other.factor, other.turn) >= maths::ln(TOLD)
     }
 
     /// The reading that suits the bones best: as it is where no other is better.

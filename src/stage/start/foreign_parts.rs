@@ -10,7 +10,7 @@ use crate::geometry::closest_point::{ClosestPoint, closest_on_segment};
 use crate::geometry::mesh::{TriangleMesh, has_area};
 use crate::geometry::piece::Piece;
 use crate::geometry::section::Section;
-use crate::input::diagnostic::{Diagnostic, Foreignness};
+use crate::input::diagnostic::{Diagnostic, Foreignness, Subject};
 use crate::input::skeleton::Skeleton;
 use crate::input::weld::weld_vertices;
 
@@ -50,10 +50,10 @@ pub struct ForeignPart {
 
 impl ForeignPart {
     /// The diagnostic about it.
-    pub fn diagnostic(&self, left_out: bool) -> Diagnostic {
+    pub fn diagnostic(&self, whose: Subject, left_out: bool) -> Diagnostic {
         let triangles = [self.triangles[0], self.triangles[self.triangles.len() - 1]];
         let size = SIDE * self.size;
-        Diagnostic::ForeignPart { count: self.triangles.len(), triangles, reason: self.reason, size, left_out }
+        Diagnostic::ForeignPart { whose, count: self.triangles.len(), triangles, reason: self.reason, size, left_out }
     }
 }
 

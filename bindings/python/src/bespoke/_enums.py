@@ -290,9 +290,9 @@ class DiagnosticKind(_Number):
     """
 
     FOREIGN_PART = 20
-    """A connected piece of the avatar's mesh seems to be no part of the body, such as a floor; it is left out, unless
-    the option strict is set or `Session.set_avatar_parts` gives it a role. Its first and last triangles are named. The
-    distance is the longest side of its bounding box.
+    """A connected piece of the avatar's mesh, or of the source avatar's, seems to be no part of the body, such as a
+    floor or a dome; it is left out, unless the option strict is set or `Session.set_avatar_parts` gives it a role. Its
+    first and last triangles are named. The distance is the longest side of its bounding box.
     """
 
     CARRIED_PIECE = 22
