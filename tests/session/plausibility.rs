@@ -4,8 +4,13 @@ use bespoke::control::Stage;
 use bespoke::error::ErrorKind;
 use bespoke::geometry::mesh::TriangleMesh;
 use bespoke::input::diagnostic::{DiagnosticKind, Element, Severity, Subject};
+use bespoke::input::skeleton::Skeleton;
 use bespoke::options::Options;
-use bespoke::session::{Pin, Precision, Session};
+use bespoke::session::{PartRole, Pin, Precision, Session};
+use closet::avatars::{Avatar, avatar};
+use closet::garments::{Garment, garment};
+use closet::skeleton::BONES;
+use closet::{Kind, Sample, sample};
 use glam::DVec3;
 
 use crate::small::{session, sleeve};
@@ -69,6 +74,61 @@ fn a_piece_that_is_somewhat_small_is_a_finding_only() {
     assert_eq!(session.run().unwrap(), Stage::Done);
     let resized = session.diagnostics().iter().find(|d| d.kind() == DiagnosticKind::PieceResized);
     assert_eq!(resized.map(|d| d.severity()), Some(Severity::Warning));
+}
+
+/// Strands of hair as strips that hang from the back of the head to the shoulder blades, close to the body.
+fn strands(body: &TriangleMesh) -> TriangleMesh {
+    const RINGS: u32 = 26;
+    let top = body.positions.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+    let mut hair = TriangleMesh::default();
+    for strand in 0..7 {
+        let x = 0.03 * f64::from(strand) - 0.09;
+        let first = hair.positions.len() as u32;
+        let mut back = 0.0;
+        for k in 0..=RINGS {
+            let z = top - 0.06 - 0.56 * f64::from(k) / f64::from(RINGS);
+            let near = body.positions.iter().filter(|p| (p.x - x).abs() < 0.05 && (p.z - z).abs() < 0.03);
+            back = near.map(|p| p.y).max_by(f64::total_cmp).unwrap_or(back);
+            hair.positions.extend([-0.013, 0.013].map(|side| DVec3::new(x + side, back + 0.015, z)));
+        }
+        for a in (0..RINGS).map(|k| first + 2 * k) {
+            hair.triangles.extend([[a, a + 1, a + 3], [a, a + 3, a + 2]]);
+        }
+    }
+    hair
+}
+
+#[test]
+fn hair_that_ends_under_the_clothes_is_told_and_can_be_left_out() {
+    let (cloth, mannequin, heavy) = (garment(Garment::Sweater), sample(Kind::Mannequin), avatar(Avatar::Heavy));
+    let mesh = |s: &Sample| TriangleMesh { positions: s.mesh.positions.clone(), triangles: s.mesh.triangles.clone() };
+    let skeleton = |s: &Sample| Skeleton { joints: s.skeleton.joints.to_vec(), bones: BONES.to_vec() };
+    let bare = mesh(&heavy);
+    let (own, hair) = (bare.triangles.len(), strands(&bare));
+    let mut body = bare.clone();
+    body.positions.extend(&hair.positions);
+    body.triangles.extend(hair.triangles.iter().map(|t| t.map(|v| v + bare.positions.len() as u32)));
+    let dressed = |role: PartRole| {
+        let mut session = Session::new();
+        session.set_garment(mesh(&cloth), Precision::F32).unwrap();
+        session.set_source_skeleton(skeleton(&cloth)).unwrap();
+        session.set_source_avatar(mesh(&mannequin)).unwrap();
+        session.set_target_avatar(body.clone()).unwrap();
+        session.set_target_skeleton(skeleton(&heavy)).unwrap();
+        let mut roles = vec![PartRole::Automatic; own];
+        roles.resize(body.triangles.len(), role);
+        session.set_avatar_parts(roles).unwrap();
+        assert_eq!(session.run().unwrap(), Stage::Done);
+        assert!(session.verify(Precision::F32).unwrap().is_clean());
+        session
+    };
+    let told = |session: &Session| -> Vec<(Severity, u32)> {
+        let limbs = session.diagnostics().iter().filter(|d| d.kind() == DiagnosticKind::LimbMisplaced);
+        limbs.map(|d| (d.severity(), d.elements().iter().map(|e| e.index).max().unwrap())).collect()
+    };
+    let found = told(&dressed(PartRole::Automatic));
+    assert!(matches!(found[..], [(Severity::Warning, triangle)] if triangle as usize >= own), "{found:?}");
+    assert!(told(&dressed(PartRole::Ignored)).is_empty());
 }
 
 #[test]
