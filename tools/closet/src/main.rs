@@ -28,9 +28,13 @@ enum Item {
 
 fn main() -> ExitCode {
     let (all, folders): (Vec<OsString>, Vec<OsString>) = std::env::args_os().skip(1).partition(|word| word == "--all");
-    let [folder] = folders.as_slice() else {
-        eprintln!("usage: closet OUTDIR [--all]");
-        return ExitCode::from(2);
+    let folder = match folders.as_slice() {
+        // `--help` is no folder.
+        [folder] if !folder.as_encoded_bytes().starts_with(b"-") => folder,
+        _ => {
+            eprintln!("usage: closet OUTDIR [--all]");
+            return ExitCode::from(2);
+        }
     };
     match write_closet(Path::new(folder), !all.is_empty()) {
         Ok(()) => ExitCode::SUCCESS,
