@@ -126,7 +126,7 @@ impl<'a> Scene<'a> {
         let [(low, high), (mesh_low, mesh_high)] = [garment, mesh].map(bounds);
         let tree = ClosestPoint::new(garment);
         let directions: Vec<DVec3> = (0..DIRECTIONS).map(|k| direction(k, DIRECTIONS)).collect();
-        let volume = TriangleMesh { positions: mesh.positions.clone(), triangles: asked.to_vec() }.signed_volume();
+        let volume = mesh.with_triangles(asked.iter().copied()).signed_volume();
         let side = if volume < 0.0 { -1.0 } else { 1.0 };
         // Outside of the box a plane separates it from the garment, and it sees that in less than half of the directions.
         let is_used = mesh.used_vertices();
@@ -159,8 +159,8 @@ impl<'a> Scene<'a> {
         let seen = places.map(look).collect::<Result<Vec<Vec<u128>>, Cancelled>>()?.concat();
         let is_around = |t: &[u32; 3]| t.iter().all(|&v| seen[v as usize].count_ones() >= AROUND);
         let is_inside: Vec<bool> = mesh.triangles.iter().map(is_around).collect();
-        let inner = mesh.triangles.iter().zip(&is_inside).filter(|(_, inside)| **inside).map(|(&t, _)| t).collect();
-        let inner = TriangleMesh { positions: mesh.positions.clone(), triangles: inner };
+        let inner = mesh.triangles.iter().zip(&is_inside).filter(|(_, inside)| **inside).map(|(&t, _)| t);
+        let inner = mesh.with_triangles(inner);
         Ok(Self {
             inside: ClosestPoint::new(&inner),
             wearer,

@@ -19,6 +19,11 @@ impl TriangleMesh {
         Self { positions, triangles }
     }
 
+    /// Its vertices with other triangles on them.
+    pub fn with_triangles(&self, triangles: impl IntoIterator<Item = [u32; 3]>) -> Self {
+        Self { positions: self.positions.clone(), triangles: triangles.into_iter().collect() }
+    }
+
     /// The corners of a triangle.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
@@ -54,6 +59,13 @@ impl TriangleMesh {
     pub fn vertex_areas(&self) -> Vec<f64> {
         vertex_areas(&self.positions, &self.triangles)
     }
+}
+
+/// The area vector of the closed curve through `points`: half the sum of the cross products along it. It is the largest area under which
+/// the curve is seen, along the line of sight.
+pub fn area_vector(points: &[DVec3]) -> DVec3 {
+    let next = points.iter().cycle().skip(1);
+    points.iter().zip(next).map(|(&p, &q)| 0.5 * (p - points[0]).cross(q - points[0])).sum()
 }
 
 /// For each of so many vertices, those to which an edge leads from it.

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::mesh::{BoundaryLoop, Topology, TriangleMesh};
+use super::mesh::{BoundaryLoop, Topology, TriangleMesh, area_vector};
 
 /// More edges than this are no hole of a few faces, and so many are the hole of one to three.
 const MOST_EDGES: usize = 12;
@@ -36,9 +36,7 @@ pub fn are_missing_faces(mesh: &TriangleMesh, topology: &Topology) -> Vec<bool> 
     let beside = |edge: [u32; 2]| wanted.binary_search(&edge).map_or(DVec3::ZERO, |k| normal_beside[k]);
     let is_missing = |l: &BoundaryLoop| {
         let points: Vec<DVec3> = l.vertices.iter().map(|&v| mesh.positions[v as usize]).collect();
-        let turned = points.iter().zip(points.iter().cycle().skip(1));
-        let area: DVec3 = turned.map(|(&p, &q)| (p - points[0]).cross(q - points[0])).sum();
-        let facing = area.normalize_or_zero();
+        let facing = area_vector(&points).normalize_or_zero();
         let alike: f64 = edges(l).map(|edge| beside(edge).dot(facing).abs()).sum();
         let least = if points.len() <= FEW_EDGES { ALIKE_FEW } else { ALIKE };
         alike >= least * points.len() as f64

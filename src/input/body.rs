@@ -100,8 +100,7 @@ impl Body {
                 "target avatar: the roles of its parts leave no triangle to fit the garment to; give the body the role body",
             ));
         }
-        let triangles = kept.iter().map(|&t| avatar.triangles[t as usize]).collect();
-        let part = TriangleMesh { positions: avatar.positions.clone(), triangles };
+        let part = avatar.with_triangles(kept.iter().map(|&t| avatar.triangles[t as usize]));
         Ok(Self {
             kept: Some(kept.into()),
             collision_only: collision_only.into(),
@@ -120,8 +119,8 @@ impl Body {
             return None;
         }
         let is_fitted = |(t, _): &(u32, &[u32; 3])| self.collision_only.binary_search(t).is_err();
-        let triangles = (0u32..).zip(&self.mesh.triangles).filter(is_fitted).map(|(_, &triangle)| triangle).collect();
-        Some(TriangleMesh { positions: self.mesh.positions.clone(), triangles })
+        let fitted = (0u32..).zip(&self.mesh.triangles).filter(is_fitted);
+        Some(self.mesh.with_triangles(fitted.map(|(_, &triangle)| triangle)))
     }
 
     /// The avatar without its layers.

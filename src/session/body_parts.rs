@@ -39,7 +39,7 @@ impl<'a> BodyParts<'a> {
             ));
         }
         let own: Vec<u32> = (0..count as u32).filter(|&t| roles[t as usize] != PartRole::Ignored).collect();
-        let part = with_triangles(mesh, own.iter().map(|&t| mesh.triangles[t as usize]));
+        let part = mesh.with_triangles(own.iter().map(|&t| mesh.triangles[t as usize]));
         let is_kept = |t: u32| roles[own[t as usize] as usize] != PartRole::Automatic;
         let mut foreign = foreign_parts::find(&part, skeleton, is_kept);
         foreign.iter_mut().flat_map(|part| &mut part.triangles).for_each(|t| *t = own[*t as usize]);
@@ -56,7 +56,7 @@ impl<'a> BodyParts<'a> {
     /// What takes part by `roles`, with all vertices.
     fn taking_part(&self, roles: &[PartRole]) -> TriangleMesh {
         let own = self.mesh.triangles.iter().zip(roles).filter(|(_, role)| **role != PartRole::Ignored);
-        with_triangles(self.mesh, own.map(|(&t, _)| t))
+        self.mesh.with_triangles(own.map(|(&t, _)| t))
     }
 
     /// The body alone, where it is sure that the pieces are no part of it: what is left lies around its bones. Where all of a file is
@@ -90,9 +90,4 @@ impl<'a> BodyParts<'a> {
     fn tell(&self, strict: bool, diagnostics: &mut Vec<Diagnostic>) {
         Diagnostic::list(diagnostics, &self.foreign, |part| part.diagnostic(self.whose, !strict));
     }
-}
-
-/// The vertices of `mesh` with other triangles.
-fn with_triangles(mesh: &TriangleMesh, triangles: impl Iterator<Item = [u32; 3]>) -> TriangleMesh {
-    TriangleMesh { positions: mesh.positions.clone(), triangles: triangles.collect() }
 }

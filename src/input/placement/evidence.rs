@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geometry::closest_point::ray_triangle;
-use crate::geometry::mesh::{Topology, TriangleMesh};
+use crate::geometry::mesh::{Topology, TriangleMesh, area_vector};
 use crate::geometry::missing_faces::are_missing_faces;
 use crate::geometry::solid_angle::winding;
 use crate::input::skeleton::Skeleton;
@@ -78,10 +78,10 @@ impl<'a> Threaded<'a> {
             let points: Vec<DVec3> = vertices.iter().map(|&v| garment.positions[v as usize]).collect();
             let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
             let edges = || points.iter().zip(points.iter().cycle().skip(1));
-            let fan: Vec<[DVec3; 3]> = edges().map(|(&p, &q)| [middle, p, q]).collect();
+            let fan = edges().map(|(&p, &q)| [middle, p, q]).collect();
             let length: f64 = edges().map(|(p, q)| p.distance(*q)).sum();
-            let area: DVec3 = fan.iter().map(|[m, p, q]| 0.5 * (*p - *m).cross(*q - *m)).sum();
-            Opening { fan, middle, length, is_cut: !is_missing && area.length() > ROUND * length * length }
+            let is_cut = !is_missing && area_vector(&points).length() > ROUND * length * length;
+            Opening { fan, middle, length, is_cut }
         };
         let openings = topology.loops.iter().zip(missing).map(|(l, is_missing)| opening(&l.vertices, is_missing));
         Self { garment, openings: openings.collect() }

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::loose_pieces::LoosePieces;
 use crate::geometry::closest_point::ClosestPoint;
-use crate::geometry::mesh::{Topology, TriangleMesh, label_pieces, triangle_area};
+use crate::geometry::mesh::{Topology, TriangleMesh, area_vector, label_pieces, triangle_area};
 use crate::geometry::missing_faces::are_missing_faces;
 use crate::geometry::piece::Piece;
 use crate::geometry::section::Gap;
@@ -109,10 +109,7 @@ fn samples(garment: &TriangleMesh, part: &Piece) -> Vec<DVec3> {
 
 /// `garment` with some of its triangles.
 fn mesh_of(garment: &TriangleMesh, triangles: impl Iterator<Item = u32>) -> TriangleMesh {
-    TriangleMesh {
-        positions: garment.positions.clone(),
-        triangles: triangles.map(|t| garment.triangles[t as usize]).collect(),
-    }
+    garment.with_triangles(triangles.map(|t| garment.triangles[t as usize]))
 }
 
 /// The carried pieces of `garment`. `loose` are its pieces that are held to others,
@@ -261,7 +258,7 @@ fn shells(garment: &TriangleMesh, part: &Piece) -> Vec<Shell> {
     let shell = |triangles: Vec<[u32; 3]>| {
         let topology = Topology::new(garment.positions.len(), &triangles);
         let area = triangles.iter().map(|t| triangle_area(t.map(|v| garment.positions[v as usize]))).sum();
-        Shell { mesh: TriangleMesh { positions: garment.positions.clone(), triangles }, topology, area }
+        Shell { mesh: garment.with_triangles(triangles), topology, area }
     };
     let mut shells: Vec<Shell> = triangles.into_iter().map(shell).collect();
     shells.sort_by(|a, b| b.area.total_cmp(&a.area));
@@ -279,13 +276,8 @@ impl Shell {
         let high = self.corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let is_opening = |vertices: &Vec<u32>| {
             let points: Vec<DVec3> = vertices.iter().map(|&v| self.mesh.positions[v as usize]).collect();
-            let (mut area, mut length) = (DVec3::ZERO, 0.0);
-            for (k, &p) in points.iter().enumerate() {
-                let next = points[(k + 1) % points.len()];
-                area += 0.5 * (p - points[0]).cross(next - points[0]);
-                length += p.distance(next);
-            }
-            area.length() > ROUND * length * length && length > WIDE * low.distance(high)
+            let length: f64 = points.iter().zip(points.iter().cycle().skip(1)).map(|(p, &next)| p.distance(next)).sum();
+            area_vector(&points).length() > ROUND * length * length && length > WIDE * low.distance(high)
         };
         let all = self.topology.loops.iter().zip(are_missing_faces(&self.mesh, &self.topology));
         all.filter(|(l, is_missing)| !is_missing && is_opening(&l.vertices)).count() > 1

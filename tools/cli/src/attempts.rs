@@ -85,7 +85,7 @@ impl Head {
     /// The head alone.
     fn of(&self, body: &TriangleMesh) -> TriangleMesh {
         let head = body.triangles.iter().zip(&self.is_head).filter(|(_, head)| **head);
-        TriangleMesh { positions: body.positions.clone(), triangles: head.map(|(t, _)| *t).collect() }
+        body.with_triangles(head.map(|(t, _)| *t))
     }
 }
 
